@@ -1,0 +1,266 @@
+//! The clear-sky atmosphere of Wilkie et al. 2021, section 4.2, from the tables in `fitter/data`.
+//!
+//! Gas: AFGL US standard profile, Rayleigh scattering after Bodhaine et al. 1999 for dry air (all of it; the paper counts N2 and O2
+//! only, 1 % less), ozone absorption at 223 K. Aerosol: OPAC water-soluble (50 % humidity), insoluble and soot particles with
+//! Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km separates smoothly.
+
+use super::table::{Curve, Table};
+use super::{Atmosphere, Constituent, Phase, Scatterer};
+use anyhow::{Result, ensure};
+
+/// Radius of the planet, m (the value of the published model).
+pub const PLANET_RADIUS: f64 = 6_378_000.0;
+/// Altitude above which there is nothing, m.
+pub const TOP: f64 = 100_000.0;
+
+/// The visibilities of the paper's Table 2, m.
+pub const VISIBILITIES: [f64; 6] = [20_000.0, 27_600.0, 40_000.0, 59_400.0, 90_000.0, 131_800.0];
+
+const SPECIES: [&str; 3] = ["waso", "inso", "soot"];
+
+macro_rules! table {
+    ($name:literal) => {
+        Table::parse($name, include_str!(concat!("../../data/", $name)))
+    };
+}
+
+/// The real atmosphere with the given visibility (m, 20..131.8 km) at the given wavelengths (nm, 300..1000).
+pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
+    ensure!(
+        (VISIBILITIES[0]..=VISIBILITIES[5]).contains(&visibility),
+        "visibility {visibility} m is outside 20..131.8 km"
+    );
+    ensure!(
+        wavelengths.iter().all(|w| (300.0..=1000.0).contains(w)) && !wavelengths.is_empty(),
+        "wavelengths must lie in 300..1000 nm"
+    );
+    let altitudes = altitude_nodes();
+    let mut constituents = gases(&altitudes, wavelengths)?;
+    constituents.extend(aerosols(visibility, &altitudes, wavelengths)?);
+    Ok(Atmosphere {
+        planet_radius: PLANET_RADIUS,
+        altitudes,
+        wavelengths: wavelengths.to_vec(),
+        constituents,
+    })
+}
+
+/// Nodes dense where the profiles bend: the inversion layer (2 km) and the tropopause end of the aerosol (12 km).
+fn altitude_nodes() -> Vec<f64> {
+    let parts: [(f64, f64, f64); 8] = [
+        (0.0, 1400.0, 100.0),
+        (1400.0, 2800.0, 50.0),
+        (2800.0, 5000.0, 200.0),
+        (5000.0, 10_000.0, 500.0),
+        (10_000.0, 14_000.0, 200.0),
+        (14_000.0, 26_000.0, 500.0),
+        (26_000.0, 50_000.0, 1000.0),
+        (50_000.0, TOP, 2500.0),
+    ];
+    let inner = parts.iter().flat_map(|&(from, to, step)| {
+        let n = ((to - from) / step).round() as usize;
+        (0..n).map(move |i| from + step * i as f64)
+    });
+    inner.chain([TOP]).collect()
+}
+
+fn gases(altitudes: &[f64], wavelengths: &[f64]) -> Result<Vec<Constituent>> {
+    let profile = table!("atm_afgl_us_standard.csv")?;
+    let rayleigh = table!("rayleigh_bodhaine1999.csv")?;
+    let ozone = table!("o3_xsec_1nm.csv")?;
+    let cross_section = rayleigh.curve("wavelength_nm", "sigma_cm2")?;
+    let depolarisation = rayleigh.curve("wavelength_nm", "depol")?;
+    let absorption = ozone.curve("wavelength_nm", "sigma_223K")?;
+    let (air, air_scale) = density(&profile.curve("z_km", "n_air")?, altitudes);
+    let (o3, o3_scale) = density(&profile.curve("z_km", "n_o3")?, altitudes);
+    let scattering: Vec<f64> = wavelengths
+        .iter()
+        .map(|&w| cross_section.log_at(w) * air_scale)
+        .collect();
+    let rho = wavelengths.iter().map(|&w| depolarisation.at(w)).collect();
+    Ok(vec![
+        Constituent {
+            name: "air".into(),
+            profile: air,
+            extinction: scattering.clone(),
+            scatterers: vec![Scatterer {
+                name: "rayleigh".into(),
+                phase: Phase::Rayleigh {
+                    depolarisation: rho,
+                },
+                scattering,
+            }],
+        },
+        Constituent {
+            name: "ozone".into(),
+            profile: o3,
+            extinction: wavelengths
+                .iter()
+                .map(|&w| absorption.at(w) * o3_scale)
+                .collect(),
+            scatterers: vec![],
+        },
+    ])
+}
+
+/// Profile normalised to its largest value, and the factor from cm² to m⁻¹ there.
+fn density(per_cm3: &Curve, altitudes: &[f64]) -> (Vec<f64>, f64) {
+    let n: Vec<f64> = altitudes
+        .iter()
+        .map(|z| per_cm3.log_at(z / 1000.0))
+        .collect();
+    let max = n.iter().cloned().fold(0.0, f64::max);
+    (n.iter().map(|v| v / max).collect(), max * 100.0)
+}
+
+fn aerosols(visibility: f64, altitudes: &[f64], wavelengths: &[f64]) -> Result<Vec<Constituent>> {
+    let (boundary, free) = concentrations(visibility)?;
+    let shape = |below: bool| {
+        altitudes
+            .iter()
+            .map(|z| profile_shape(z / 1000.0, below))
+            .collect::<Vec<f64>>()
+    };
+    Ok(vec![
+        aerosol("boundary layer aerosol", shape(true), boundary, wavelengths)?,
+        aerosol("free troposphere aerosol", shape(false), free, wavelengths)?,
+    ])
+}
+
+/// `exp(-z/8)` cut off at 12 km, below or above the inversion at 2 km (z in km).
+fn profile_shape(z: f64, below: bool) -> f64 {
+    let above = 1.0 / (1.0 + (-(z - 2.0) / 0.15).exp());
+    let gone = 1.0 / (1.0 + (-(z - 12.0) / 0.5).exp());
+    (-z / 8.0).exp() * (1.0 - gone) * if below { 1.0 - above } else { above }
+}
+
+/// Number densities (cm⁻³) of the species in the boundary layer and above, extrapolated to z = 0.
+///
+/// Between the tabulated visibilities the mixtures are mixed linearly in concentration, so that the extinction matches.
+fn concentrations(visibility: f64) -> Result<([f64; 3], [f64; 3])> {
+    let table = table!("aerosol_profiles.csv")?;
+    let rows = table.column("visibility_km")?;
+    let v = visibility / 1000.0;
+    let i = rows
+        .partition_point(|&row| row <= v)
+        .clamp(1, rows.len() - 1);
+    let t = ((1.0 / v - 1.0 / rows[i - 1]) / (1.0 / rows[i] - 1.0 / rows[i - 1])).clamp(0.0, 1.0);
+    let mix = |prefix: &str| -> Result<[f64; 3]> {
+        let mut out = [0.0; 3];
+        for (value, species) in out.iter_mut().zip(SPECIES) {
+            let column = table.column(&format!("{prefix}_{species}"))?;
+            *value = column[i - 1] + t * (column[i] - column[i - 1]);
+        }
+        Ok(out)
+    };
+    Ok((mix("A")?, mix("F")?))
+}
+
+fn aerosol(
+    name: &str,
+    profile: Vec<f64>,
+    per_cm3: [f64; 3],
+    wavelengths: &[f64],
+) -> Result<Constituent> {
+    let optics = table!("opac_channels.csv")?;
+    let mut extinction = vec![0.0; wavelengths.len()];
+    let mut scatterers = vec![];
+    for (species, n) in SPECIES.into_iter().zip(per_cm3) {
+        let curve = |column: &str| optics.curve("wavelength_nm", &format!("{species}_{column}"));
+        let (cross_section, albedo, g) = (curve("ext_m2")?, curve("ssa")?, curve("g_use")?);
+        let ext: Vec<f64> = wavelengths
+            .iter()
+            .map(|&w| n * 1e6 * cross_section.log_at(w))
+            .collect();
+        for (sum, e) in extinction.iter_mut().zip(&ext) {
+            *sum += e;
+        }
+        scatterers.push(Scatterer {
+            name: species.into(),
+            phase: Phase::HenyeyGreenstein {
+                g: wavelengths.iter().map(|&w| g.at(w)).collect(),
+            },
+            scattering: ext
+                .iter()
+                .zip(wavelengths)
+                .map(|(e, &w)| e * albedo.at(w))
+                .collect(),
+        });
+    }
+    Ok(Constituent {
+        name: name.into(),
+        profile,
+        extinction,
+        scatterers,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bodhaine et al. 1999, Table 3 (cm²), and the column of the US standard atmosphere at 1013.25 hPa (their Table 4).
+    #[test]
+    fn rayleigh_matches_the_published_values() {
+        let table = table!("rayleigh_published_checks.csv").unwrap();
+        let computed = table!("rayleigh_bodhaine1999.csv")
+            .unwrap()
+            .curve("wavelength_nm", "sigma_cm2")
+            .unwrap();
+        for (um, sigma) in table
+            .column("wavelength_um")
+            .unwrap()
+            .iter()
+            .zip(table.column("sigma_published_cm2").unwrap())
+        {
+            if *um >= 0.3 {
+                assert!(
+                    (computed.log_at(um * 1000.0) / sigma - 1.0).abs() < 1e-4,
+                    "{um} um"
+                );
+            }
+        }
+        // Their equation 30: optical depth = σ · P · A / (m_a · g), from the surface pressure alone.
+        let molecules_per_cm2 = 1_013_250.0 * 6.022_136_7e23 / (28.9595 * 980.616);
+        let air = real(59_400.0, &[400.0, 550.0, 700.0]).unwrap();
+        for (w, nm) in [400.0, 550.0, 700.0].into_iter().enumerate() {
+            let published = computed.log_at(nm) * molecules_per_cm2;
+            assert!(
+                (air.vertical_optical_depth(0, w) / published - 1.0).abs() < 0.01,
+                "{nm} nm"
+            );
+        }
+    }
+
+    #[test]
+    fn ozone_column_is_the_us_standard_one() {
+        let air = real(59_400.0, &[600.0]).unwrap();
+        let sigma = table!("o3_xsec_1nm.csv")
+            .unwrap()
+            .curve("wavelength_nm", "sigma_223K")
+            .unwrap()
+            .at(600.0);
+        let dobson = air.vertical_optical_depth(1, 0) / sigma / 2.6867e16;
+        assert!((dobson - 345.0).abs() < 10.0, "{dobson} DU");
+    }
+
+    #[test]
+    fn extinction_at_the_ground_gives_the_stated_visibility() {
+        for v in [20_000.0, 25_000.0, 40_000.0, 59_400.0, 75_000.0, 131_800.0] {
+            let air = real(v, &[550.0]).unwrap();
+            let stated = 3.912 / (air.extinction(0.0, 0) - ozone_extinction(&air));
+            assert!((stated / v - 1.0).abs() < 2e-3, "{v}: {stated}");
+        }
+    }
+
+    fn ozone_extinction(air: &Atmosphere) -> f64 {
+        air.profile(1, 0.0) * air.constituents[1].extinction[0]
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        assert!(real(10_000.0, &[550.0]).is_err());
+        assert!(real(f64::NAN, &[550.0]).is_err());
+        assert!(real(40_000.0, &[200.0]).is_err());
+    }
+}

@@ -1,0 +1,2 @@
+//! `welkin-fit`: traces atmospheres and fits welkin model files.
+fn main() {}

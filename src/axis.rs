@@ -1,0 +1,251 @@
+//! Interpolation along the model's axes: cubic B-splines inside a chunk, local Hermite weights between chunks.
+//!
+//! Format specification, section 7.1.
+
+/// A cubic B-spline basis at one coordinate: the first coefficient's index and four weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taps {
+    /// Index of each of the four coefficients.
+    pub index: [usize; 4],
+    /// Weight of each coefficient; the weights sum to 1.
+    pub weight: [f32; 4],
+}
+
+/// What happens beyond the ends of a spline axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// `n + 3` coefficients, no symmetry.
+    Free,
+    /// `n + 1` coefficients, even at both ends (the azimuth axis).
+    Mirrored,
+}
+
+/// Number of coefficients of a spline axis with `intervals` intervals.
+pub const fn coefficients(intervals: usize, ends: Ends) -> usize {
+    match ends {
+        Ends::Free => intervals + 3,
+        Ends::Mirrored => intervals + 1,
+    }
+}
+
+/// Uniform cubic B-spline weights at `u` in `0..=intervals` (clamped; NaN counts as 0).
+pub fn spline(u: f64, intervals: usize, ends: Ends) -> Taps {
+    let top = intervals as f64;
+    let u = if u > 0.0 { u.min(top) } else { 0.0 };
+    let i = (u as usize).min(intervals - 1);
+    let t = u - i as f64;
+    let s = 1.0 - t;
+    let weight = [
+        s * s * s / 6.0,
+        (t * t * (3.0 * t - 6.0) + 4.0) / 6.0,
+        (s * s * (3.0 * s - 6.0) + 4.0) / 6.0,
+        t * t * t / 6.0,
+    ]
+    .map(|w| w as f32);
+    let index = core::array::from_fn(|k| match ends {
+        Ends::Free => i + k,
+        Ends::Mirrored => reflect(i as isize + k as isize - 1, intervals as isize),
+    });
+    Taps { index, weight }
+}
+
+fn reflect(m: isize, n: isize) -> usize {
+    let m = m.abs();
+    (if m > n { 2 * n - m } else { m }) as usize
+}
+
+/// Interpolation between nodes that stand in chunks of their own: up to four nodes and their weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stencil {
+    /// Index of the first node.
+    pub first: usize,
+    /// How many of `weight` count (1..=4).
+    pub len: usize,
+    /// Weight of nodes `first..first + len`; they sum to 1.
+    pub weight: [f64; 4],
+}
+
+impl Stencil {
+    /// The nodes with a weight other than zero.
+    pub fn taps(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (0..self.len)
+            .map(|k| (self.first + k, self.weight[k]))
+            .filter(|&(_, w)| w != 0.0)
+    }
+}
+
+/// Cubic Hermite weights with parabolic tangents at `x` among the strictly monotone `nodes`.
+///
+/// `x` is clamped to the range of the nodes. `nodes` must not be empty.
+pub fn hermite(nodes: &[f64], x: f64) -> Stencil {
+    let Some((i, t)) = locate(nodes, x) else {
+        return Stencil {
+            first: 0,
+            len: 1,
+            weight: [1.0, 0.0, 0.0, 0.0],
+        };
+    };
+    if t == 0.0 || t == 1.0 {
+        return Stencil {
+            first: i + t as usize,
+            len: 1,
+            weight: [1.0, 0.0, 0.0, 0.0],
+        };
+    }
+    if nodes.len() == 2 {
+        return Stencil {
+            first: 0,
+            len: 2,
+            weight: [1.0 - t, t, 0.0, 0.0],
+        };
+    }
+    let first = i.saturating_sub(1);
+    let last = (i + 2).min(nodes.len() - 1);
+    let step = nodes[i + 1] - nodes[i];
+    let (t2, t3) = (t * t, t * t * t);
+    let mut weight = [0.0; 4];
+    weight[i - first] += 2.0 * t3 - 3.0 * t2 + 1.0;
+    weight[i + 1 - first] += 3.0 * t2 - 2.0 * t3;
+    add_tangent(nodes, i, first, step * (t3 - 2.0 * t2 + t), &mut weight);
+    add_tangent(nodes, i + 1, first, step * (t3 - t2), &mut weight);
+    Stencil {
+        first,
+        len: last - first + 1,
+        weight,
+    }
+}
+
+/// Piecewise linear weights at `x` among the strictly monotone `nodes`, clamped like [`hermite`].
+pub fn linear(nodes: &[f64], x: f64) -> Stencil {
+    match locate(nodes, x) {
+        None => Stencil {
+            first: 0,
+            len: 1,
+            weight: [1.0, 0.0, 0.0, 0.0],
+        },
+        Some((i, t)) => Stencil {
+            first: i,
+            len: 2,
+            weight: [1.0 - t, t, 0.0, 0.0],
+        },
+    }
+}
+
+/// The interval that holds `x` and the position in it, 0..=1; `None` for a single node.
+fn locate(nodes: &[f64], x: f64) -> Option<(usize, f64)> {
+    if nodes.len() < 2 {
+        return None;
+    }
+    let rising = nodes[1] > nodes[0];
+    let below = |node: &f64| if rising { *node <= x } else { *node >= x };
+    let i = nodes.partition_point(below).clamp(1, nodes.len() - 1) - 1;
+    let t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+    Some((i, if t > 0.0 { t.min(1.0) } else { 0.0 }))
+}
+
+/// Adds `factor` times the derivative at node `k` (of the parabola through three nodes) to `weight`.
+fn add_tangent(nodes: &[f64], k: usize, first: usize, factor: f64, weight: &mut [f64; 4]) {
+    let a = k.saturating_sub(1).min(nodes.len() - 3);
+    let (x0, x1, x2) = (nodes[a], nodes[a + 1], nodes[a + 2]);
+    let x = nodes[k];
+    let derivative = [
+        (2.0 * x - x1 - x2) / ((x0 - x1) * (x0 - x2)),
+        (2.0 * x - x0 - x2) / ((x1 - x0) * (x1 - x2)),
+        (2.0 * x - x0 - x1) / ((x2 - x0) * (x2 - x1)),
+    ];
+    for (j, d) in derivative.into_iter().enumerate() {
+        weight[a + j - first] += factor * d;
+    }
+}
+
+/// Maps an angle from the geometric horizon to a spline coordinate (the up and down axes).
+pub fn alpha_coordinate(angle: f64, range: f64, intervals: usize, exponent: f64) -> f64 {
+    intervals as f64 * (angle / range).clamp(0.0, 1.0).powf(1.0 / exponent)
+}
+
+/// The inverse of [`alpha_coordinate`].
+pub fn alpha_angle(u: f64, range: f64, intervals: usize, exponent: f64) -> f64 {
+    range * (u / intervals as f64).powf(exponent)
+}
+
+/// The solar elevation axis: dense around `centre`, sparser with distance from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElevationAxis {
+    /// Lowest elevation, rad.
+    pub min: f64,
+    /// Highest elevation, rad.
+    pub max: f64,
+    /// Where the axis is densest, rad.
+    pub centre: f64,
+    /// Half-width of the dense part, rad.
+    pub width: f64,
+    /// Number of spline intervals.
+    pub intervals: usize,
+}
+
+impl ElevationAxis {
+    fn g(&self, elevation: f64) -> f64 {
+        ((elevation - self.centre) / self.width).asinh()
+    }
+
+    /// Spline coordinate of an elevation (rad).
+    pub fn coordinate(&self, elevation: f64) -> f64 {
+        let low = self.g(self.min);
+        self.intervals as f64 * (self.g(elevation) - low) / (self.g(self.max) - low)
+    }
+
+    /// Elevation (rad) of a spline coordinate.
+    pub fn elevation(&self, u: f64) -> f64 {
+        let low = self.g(self.min);
+        let g = low + u / self.intervals as f64 * (self.g(self.max) - low);
+        (self.centre + self.width * g.sinh()).clamp(self.min, self.max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hermite_reproduces_parabolas_and_is_exact_at_nodes() {
+        let nodes = [0.0, 1.0, 2.5, 2.9, 6.0];
+        let f = |x: f64| 3.0 - x + 0.5 * x * x;
+        for k in 0..=600 {
+            let x = k as f64 / 100.0;
+            let value: f64 = hermite(&nodes, x)
+                .taps()
+                .map(|(i, w)| w * f(nodes[i]))
+                .sum();
+            assert!((value - f(x)).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(hermite(&nodes, 2.5).len, 1);
+    }
+
+    #[test]
+    fn splines_sum_to_one_and_mirror() {
+        for k in 0..=64 {
+            let u = k as f64 / 8.0;
+            let free = spline(u, 8, Ends::Free);
+            assert!((free.weight.iter().sum::<f32>() - 1.0).abs() < 1e-6);
+            assert!(free.index.iter().all(|&i| i < 11));
+            assert!(spline(u, 8, Ends::Mirrored).index.iter().all(|&i| i < 9));
+        }
+        assert_eq!(spline(0.0, 8, Ends::Mirrored).index, [1, 0, 1, 2]);
+        assert_eq!(spline(8.0, 8, Ends::Mirrored).index, [6, 7, 8, 7]);
+        assert_eq!(spline(0.5, 1, Ends::Mirrored).index, [1, 0, 1, 0]);
+    }
+
+    #[test]
+    fn elevation_axis_inverts() {
+        let axis = ElevationAxis {
+            min: -0.0733,
+            max: 1.5707,
+            centre: -0.01,
+            width: 0.06,
+            intervals: 40,
+        };
+        for k in 0..=40 {
+            assert!((axis.coordinate(axis.elevation(k as f64)) - k as f64).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The observer above a spherical planet: horizon, ray lengths. Format specification, sections 7.1 and 7.2.
+
+use core::f64::consts::FRAC_PI_2;
+
+/// A sphere of radius `radius` with an atmosphere up to `top` above it (m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Planet {
+    /// Radius, m.
+    pub radius: f64,
+    /// Altitude of the top of the atmosphere, m.
+    pub top: f64,
+}
+
+/// Which side of the geometric horizon a ray leaves to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The ray ends in space.
+    Up,
+    /// The ray ends on the ground.
+    Down,
+}
+
+/// A view ray in terms of the geometric horizon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where the ray ends.
+    pub side: Side,
+    /// Angle from the geometric horizon, rad, ≥ 0 on both sides.
+    pub angle: f64,
+    /// Largest `angle` on this side, rad.
+    pub range: f64,
+    /// Length to the ground or to the top of the atmosphere, m.
+    pub length: f64,
+}
+
+impl Planet {
+    /// Angle of the geometric horizon below the local horizontal, rad.
+    pub fn dip(&self, altitude: f64) -> f64 {
+        // acos(R/r) without its cancellation near the ground.
+        let r = self.radius + altitude;
+        ((altitude * (self.radius + r)).max(0.0).sqrt() / self.radius).atan()
+    }
+
+    /// Describes the ray that leaves `altitude` at `elevation` (rad) above the local horizontal.
+    pub fn ray(&self, altitude: f64, elevation: f64) -> Ray {
+        let dip = self.dip(altitude);
+        let delta = elevation + dip;
+        let side = if delta >= 0.0 { Side::Up } else { Side::Down };
+        let range = match side {
+            Side::Up => FRAC_PI_2 + dip,
+            Side::Down => FRAC_PI_2 - dip,
+        };
+        let length = self.length(altitude, elevation.sin(), side);
+        Ray {
+            side,
+            angle: delta.abs().min(range),
+            range,
+            length,
+        }
+    }
+
+    fn length(&self, altitude: f64, mu: f64, side: Side) -> f64 {
+        let r = self.radius + altitude;
+        let b = r * mu;
+        match side {
+            Side::Up => {
+                let c = (self.top - altitude) * (2.0 * self.radius + self.top + altitude);
+                let root = (b * b + c).max(0.0).sqrt();
+                if b > 0.0 { c / (root + b) } else { root - b }
+            }
+            Side::Down => {
+                let c = altitude * (2.0 * self.radius + altitude);
+                let root = (b * b - c).max(0.0).sqrt();
+                c / (root - b)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EARTH: Planet = Planet {
+        radius: 6_378_000.0,
+        top: 100_000.0,
+    };
+
+    #[test]
+    fn lengths_at_zenith_nadir_and_horizon() {
+        assert!((EARTH.ray(2000.0, FRAC_PI_2).length - 98_000.0).abs() < 1e-6);
+        assert!((EARTH.ray(2000.0, -FRAC_PI_2).length - 2000.0).abs() < 1e-6);
+        let dip = EARTH.dip(2000.0);
+        let tangent = (2000.0f64 * (2.0 * EARTH.radius + 2000.0)).sqrt();
+        let below = EARTH.ray(2000.0, -dip - 1e-9);
+        assert_eq!(below.side, Side::Down);
+        assert!((below.length / tangent - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn on_the_ground_rays_down_have_no_length() {
+        assert_eq!(EARTH.dip(0.0), 0.0);
+        assert_eq!(EARTH.ray(0.0, -0.3).length, 0.0);
+        assert_eq!(EARTH.ray(0.0, 0.0).side, Side::Up);
+    }
+}
