@@ -1,0 +1,360 @@
+//! Orders of scattering, one after the other, until what is left is a geometric tail.
+
+use super::medium::{Medium, NW, Spectrum};
+use super::moments::{
+    ALTITUDES, COUNT, HARMONICS, Moments, SUNS, TENSOR, azimuth_harmonics, order_start,
+    polar_harmonics, sun_coordinate, sun_node,
+};
+use super::path::{Path, trace};
+use super::single;
+use super::source::{DARK, SourceTable, Stokes, Sun};
+use crate::column::planet;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use welkin::geometry::{Planet, Side};
+
+/// Resolution of the solver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Zenith angles above the geometric horizon.
+    pub up: usize,
+    /// Zenith angles below it.
+    pub down: usize,
+    /// Azimuths over half a turn.
+    pub azimuths: usize,
+    /// Orders of scattering that are followed.
+    pub orders: usize,
+    /// Length of ray segments relative to the production value.
+    pub fineness: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            up: 10,
+            down: 7,
+            azimuths: 8,
+            orders: 8,
+            fineness: 3.0,
+        }
+    }
+}
+
+/// All multiply scattered light of an atmosphere.
+pub struct LightField {
+    /// Light that never touched the ground: moments of orders 1.. (the source of orders 2..).
+    pub sky: Moments,
+    /// Light that left a perfectly white ground once, under that sky.
+    pub ground: Moments,
+    /// Irradiance of the ground by the sky over a black ground, per sun node (direct sunlight excluded).
+    pub diffuse: Vec<Spectrum>,
+    /// Share of the light leaving the ground that comes back to it, per wavelength.
+    pub spherical_albedo: Spectrum,
+}
+
+/// Where ground emission comes from in one application of the transport operator.
+enum Source<'a> {
+    Sun,
+    Moments(&'a Moments),
+    Ground(&'a [Spectrum]),
+}
+
+struct Direction {
+    mu: f64,
+    weight: f64,
+    path: Path,
+}
+
+struct Solver<'a> {
+    medium: &'a Medium,
+    settings: Settings,
+    azimuths: Vec<(f64, f64)>,
+    directions: Vec<Vec<Direction>>,
+}
+
+/// Solves for the light field; `progress` is told the share that is done.
+pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync)) -> LightField {
+    let solver = Solver::new(medium, settings);
+    let applications = (2 * settings.orders) as f64;
+    let done = AtomicUsize::new(0);
+    let tick = || progress(done.fetch_add(1, Ordering::Relaxed) as f64 / applications);
+    let first = solver.apply(&Source::Sun);
+    let sky = solver.all_orders(first, &tick);
+    let diffuse = solver.ground_irradiance(&sky, &Source::Sun);
+    let emitted: Vec<Spectrum> = (0..SUNS)
+        .map(|j| {
+            let direct = medium.sunlight(0.0, sun_node(j)).unwrap_or([0.0; NW]);
+            let cosine = sun_node(j).max(0.0) as f32;
+            std::array::from_fn(|w| (diffuse[j][w] + cosine * direct[w]) / PI as f32)
+        })
+        .collect();
+    let lit = solver.apply(&Source::Ground(&emitted));
+    let ground = solver.all_orders(lit, &tick);
+    let returned = solver.ground_irradiance(&ground, &Source::Ground(&emitted));
+    let noon = sun_coordinate(0.5) as usize;
+    let spherical_albedo =
+        std::array::from_fn(|w| returned[noon][w] / (PI as f32 * emitted[noon][w]));
+    LightField { sky, ground, diffuse, spherical_albedo }
+}
+
+impl<'a> Solver<'a> {
+    fn new(medium: &'a Medium, settings: Settings) -> Self {
+        let planet = planet(&medium.atmosphere);
+        let azimuths = (0..settings.azimuths)
+            .map(|k| ((k as f64 + 0.5) / settings.azimuths as f64 * PI).sin_cos())
+            .map(|(s, c)| (c, s))
+            .collect();
+        let directions = ALTITUDES
+            .par_iter()
+            .map(|&h| directions(medium, planet, h, settings))
+            .collect();
+        Self { medium, settings, azimuths, directions }
+    }
+
+    /// Sums `first` and all orders that follow from it.
+    fn all_orders(&self, first: Moments, tick: &dyn Fn()) -> Moments {
+        let mut total = first.clone();
+        let mut previous = first;
+        for order in 1..self.settings.orders {
+            tick();
+            let mut next = self.apply(&Source::Moments(&previous));
+            if order + 1 == self.settings.orders {
+                add_tail(&mut next, &previous);
+            }
+            for (sum, node) in total.nodes_mut().iter_mut().zip(next.nodes()) {
+                add_node(sum, node);
+            }
+            previous = next;
+        }
+        tick();
+        total
+    }
+
+    /// Moments of the light that reaches every grid node from `source` without being scattered again.
+    fn apply(&self, source: &Source) -> Moments {
+        let t = std::time::Instant::now();
+        let rows = (0..ALTITUDES.len())
+            .into_par_iter()
+            .map(|i| {
+                let mut row = vec![[[0.0; NW]; COUNT]; SUNS];
+                for direction in &self.directions[i] {
+                    let light = self.radiance(direction, source);
+                    self.project(direction, &light, &mut row);
+                }
+                row
+            })
+            .collect();
+        eprintln!("apply {:?} nodes {}", t.elapsed(), self.directions.iter().flatten().map(|d| d.path.nodes.len()).sum::<usize>());
+        Moments::from_rows(rows)
+    }
+
+    /// Radiance in `direction` for every sun node and azimuth.
+    fn radiance(&self, direction: &Direction, source: &Source) -> Vec<Stokes> {
+        let suns = self.suns();
+        let mut light = vec![DARK; suns.len()];
+        match source {
+            Source::Sun => self.single(direction, &suns, &mut light),
+            Source::Moments(moments) => {
+                for node in &direction.path.nodes {
+                    let table = SourceTable::new(self.medium, moments, node);
+                    for (sun, out) in suns.iter().zip(&mut light) {
+                        table.add(self.medium, &sun.at(node), &node.weight, out);
+                    }
+                }
+            }
+            Source::Ground(emitted) => {
+                if let Some(arc) = direction.path.ground {
+                    for (sun, out) in suns.iter().zip(&mut light) {
+                        let ((ce, se), (ca, _)) = (sun.elevation, sun.azimuth);
+                        let seen = at_sun(emitted, arc.1 * ce * ca + arc.0 * se);
+                        for w in 0..NW {
+                            out[0][w] += seen[w] * direction.path.transmittance[w];
+                        }
+                    }
+                }
+            }
+        }
+        light
+    }
+
+    fn single(&self, direction: &Direction, suns: &[Sun], light: &mut [Stokes]) {
+        let parts = self.medium.parts.len();
+        let mut sums = vec![[0.0; NW]; parts * suns.len()];
+        for node in &direction.path.nodes {
+            let profiles = self.medium.profiles(node.altitude);
+            for (sun, sum) in suns.iter().zip(sums.chunks_exact_mut(parts)) {
+                if let Some(t) = self.medium.sunlight(node.altitude, sun.at(node).mu) {
+                    single::add(&profiles, &t, &node.weight, sum);
+                }
+            }
+        }
+        for ((sun, sum), out) in suns.iter().zip(sums.chunks_exact(parts)).zip(light) {
+            *out = single::stokes(self.medium, sum, direction.mu, sun);
+        }
+    }
+
+    /// Every sun node at every azimuth, sun-major.
+    fn suns(&self) -> Vec<Sun> {
+        (0..SUNS)
+            .flat_map(|j| {
+                let se = sun_node(j);
+                let elevation = (((1.0 - se) * (1.0 + se)).max(0.0).sqrt(), se);
+                self.azimuths.iter().map(move |&azimuth| Sun { elevation, azimuth })
+            })
+            .collect()
+    }
+
+    fn project(&self, direction: &Direction, light: &[Stokes], row: &mut [[Spectrum; COUNT]]) {
+        let polar = polar_harmonics(direction.mu);
+        let sine = ((1.0 - direction.mu) * (1.0 + direction.mu)).max(0.0).sqrt() as f32;
+        let weight = (direction.weight * 2.0 * PI / self.azimuths.len() as f64) as f32;
+        for (j, moments) in row.iter_mut().enumerate() {
+            for (k, &(cp, sp)) in self.azimuths.iter().enumerate() {
+                let stokes = &light[j * self.azimuths.len() + k];
+                let tensor = tensor_kernel(direction.mu as f32, sine, cp as f32, sp as f32);
+                for (out, kernel) in moments.iter_mut().zip(&tensor) {
+                    for w in 0..NW {
+                        out[w] += weight
+                            * (kernel[0] * stokes[0][w] + kernel[1] * stokes[1][w] + kernel[2] * stokes[2][w]);
+                    }
+                }
+                let cosines = azimuth_harmonics(cp as f32);
+                for (m, c) in cosines.into_iter().enumerate() {
+                    for i in order_start(m)..order_start(m + 1).min(HARMONICS) {
+                        let y = weight * polar[i] * c;
+                        for w in 0..NW {
+                            moments[TENSOR + i][w] += y * stokes[0][w];
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Irradiance of the ground per sun node, by `first` and by what `moments` scatter.
+    fn ground_irradiance(&self, moments: &Moments, first: &Source) -> Vec<Spectrum> {
+        let sources = [Source::Moments(moments), first_from_above(first)];
+        let mut out = vec![[0.0; NW]; SUNS];
+        for direction in self.directions[0].iter().filter(|d| d.path.ground.is_none() && d.mu > 0.0) {
+            for source in &sources {
+                let light = self.radiance(direction, source);
+                let weight = (direction.weight * direction.mu * 2.0 * PI / self.azimuths.len() as f64) as f32;
+                for (j, sum) in out.iter_mut().enumerate() {
+                    for stokes in &light[j * self.azimuths.len()..(j + 1) * self.azimuths.len()] {
+                        for w in 0..NW {
+                            sum[w] += weight * stokes[0][w];
+                        }
+                    }
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The same source as far as it lights the ground: the ground does not light itself directly.
+fn first_from_above<'s>(source: &Source<'s>) -> Source<'s> {
+    match source {
+        Source::Sun => Source::Sun,
+        Source::Moments(m) => Source::Moments(m),
+        Source::Ground(_) => Source::Ground(&[]),
+    }
+}
+
+fn at_sun(values: &[Spectrum], mu: f64) -> Spectrum {
+    let (index, weight) = super::moments::sun_taps(mu);
+    let mut out = [0.0; NW];
+    if values.is_empty() {
+        return out;
+    }
+    for (j, share) in index.into_iter().zip(weight) {
+        for w in 0..NW {
+            out[w] += share * values[j][w];
+        }
+    }
+    out.map(|v| v.max(0.0))
+}
+
+/// Rows of the coherency tensor (xx, yy, zz, xz) as linear forms of I, Q, U.
+fn tensor_kernel(ct: f32, st: f32, cp: f32, sp: f32) -> [[f32; 3]; TENSOR] {
+    let form = |a: f32, b: f32, u: f32| [0.5 * (a + b), 0.5 * (a - b), 0.5 * u];
+    [
+        form(ct * ct * cp * cp, sp * sp, -2.0 * ct * cp * sp),
+        form(ct * ct * sp * sp, cp * cp, 2.0 * ct * sp * cp),
+        form(st * st, 0.0, 0.0),
+        form(-ct * st * cp, 0.0, sp * st),
+    ]
+}
+
+/// Gauss-Legendre zenith angles on both sides of the geometric horizon, crowded towards it.
+fn directions(medium: &Medium, planet: Planet, altitude: f64, settings: Settings) -> Vec<Direction> {
+    let horizon = -planet.dip(altitude).sin();
+    let mut out = vec![];
+    for (count, end) in [(settings.up, 1.0), (settings.down, -1.0)] {
+        for (x, weight) in gauss_legendre(count) {
+            let t = 0.5 * (1.0 + x);
+            let mu = horizon + (end - horizon) * t * t;
+            let weight = weight * t * (end - horizon).abs();
+            let ray = planet.ray(altitude, mu.asin());
+            let ground = ray.side == Side::Down;
+            let path = trace(medium, altitude, mu, ray.length, ground, settings.fineness);
+            out.push(Direction { mu, weight, path });
+        }
+    }
+    out
+}
+
+/// Nodes and weights on −1..1.
+fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
+    (0..n)
+        .map(|i| {
+            let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
+            let mut slope = 1.0;
+            for _ in 0..100 {
+                let (mut p0, mut p1) = (1.0, x);
+                for k in 1..n {
+                    (p0, p1) = (p1, ((2 * k + 1) as f64 * x * p1 - k as f64 * p0) / (k + 1) as f64);
+                }
+                slope = n as f64 * (x * p1 - p0) / (x * x - 1.0);
+                x -= p1 / slope;
+            }
+            (x, 2.0 / ((1.0 - x * x) * slope * slope))
+        })
+        .collect()
+}
+
+/// Replaces the last order by itself and all that would follow at the present ratio.
+fn add_tail(last: &mut Moments, before: &Moments) {
+    for (node, previous) in last.nodes_mut().iter_mut().zip(before.nodes()) {
+        let ratio: Spectrum = std::array::from_fn(|w| {
+            let energy = |n: &[Spectrum; COUNT]| n[0][w] + n[1][w] + n[2][w];
+            let (a, b) = (energy(node), energy(previous));
+            if b > 0.0 { (a / b).clamp(0.0, 0.95) } else { 0.0 }
+        });
+        for moment in node.iter_mut() {
+            for w in 0..NW {
+                moment[w] /= 1.0 - ratio[w];
+            }
+        }
+    }
+}
+
+fn add_node(sum: &mut [Spectrum; COUNT], term: &[Spectrum; COUNT]) {
+    for (s, t) in sum.iter_mut().zip(term) {
+        for w in 0..NW {
+            s[w] += t[w];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quadrature_integrates_polynomials() {
+        let integral: f64 = gauss_legendre(8).iter().map(|(x, w)| w * x.powi(14)).sum();
+        assert!((integral - 2.0 / 15.0).abs() < 1e-12);
+    }
+}
