@@ -3,6 +3,7 @@
 use super::layout::{KIND_COLUMN, KIND_RADIANCE, Shape};
 use crate::axis::{ElevationAxis, Ends, coefficients};
 use crate::geometry::Planet;
+use crate::spectrum::sample;
 
 /// Spline axis over the angle from the geometric horizon, on one side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,12 +106,8 @@ impl Head {
 
     /// Solar spectral irradiance at a wavelength (nm), W m⁻² nm⁻¹, linear between samples and constant beyond them.
     pub fn solar_irradiance_at(&self, wavelength: f64) -> f64 {
-        let samples = &self.solar_irradiance;
-        let last = samples.len() - 1;
-        let x = ((wavelength - self.solar_start) / self.solar_step).clamp(0.0, last as f64);
-        let i = (x as usize).min(last - 1);
-        let t = x - i as f64;
-        (1.0 - t) * f64::from(samples[i]) + t * f64::from(samples[i + 1])
+        let axis = [self.solar_start, self.solar_step];
+        sample(&self.solar_irradiance, axis, wavelength)
     }
 }
 

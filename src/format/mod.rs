@@ -7,6 +7,9 @@ mod parse;
 mod validate;
 mod write;
 
+pub(crate) use chunk::widen;
+pub(crate) use head::{altitude_node, visibility_node};
+
 pub use chunk::{ColumnView, Payload16, RadianceView};
 pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 pub use layout::{

@@ -1,6 +1,8 @@
 //! A small model with smooth analytic factors, for tests that need a file but not real air.
 #![allow(dead_code)]
 
+pub mod oracle;
+
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction, RadianceFactors, encode,
