@@ -239,7 +239,7 @@ mod tests {
     fn elevation_axis_inverts() {
         let axis = ElevationAxis {
             min: -0.0733,
-            max: 1.5707,
+            max: 1.55,
             centre: -0.01,
             width: 0.06,
             intervals: 40,

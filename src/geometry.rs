@@ -43,19 +43,22 @@ impl Planet {
 
     /// Describes the ray that leaves `altitude` at `elevation` (rad) above the local horizontal.
     pub fn ray(&self, altitude: f64, elevation: f64) -> Ray {
-        let dip = self.dip(altitude);
+        self.ray_with_dip(altitude, self.dip(altitude), elevation, elevation.sin())
+    }
+
+    /// [`Planet::ray`] for callers who know the dip of the horizon and the sine of the elevation.
+    pub fn ray_with_dip(&self, altitude: f64, dip: f64, elevation: f64, sine: f64) -> Ray {
         let delta = elevation + dip;
-        let side = if delta >= 0.0 { Side::Up } else { Side::Down };
-        let range = match side {
-            Side::Up => FRAC_PI_2 + dip,
-            Side::Down => FRAC_PI_2 - dip,
+        let (side, range) = if delta >= 0.0 {
+            (Side::Up, FRAC_PI_2 + dip)
+        } else {
+            (Side::Down, FRAC_PI_2 - dip)
         };
-        let length = self.length(altitude, elevation.sin(), side);
         Ray {
             side,
             angle: delta.abs().min(range),
             range,
-            length,
+            length: self.length(altitude, sine, side),
         }
     }
 

@@ -1,0 +1,181 @@
+//! What can go wrong, in terms that say what to do about it.
+
+use core::fmt;
+use std::path::PathBuf;
+
+/// Result with this crate's [`Error`].
+pub type Result<T> = core::result::Result<T, Error>;
+
+/// Why a file, a parameter or a query was refused.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system refused to read or write a file.
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The bytes do not start like a welkin file.
+    NotWelkin,
+    /// The file has a major version that this reader does not know.
+    Version {
+        /// Version this reader knows.
+        expected: u16,
+        /// Version of the file.
+        got: u16,
+    },
+    /// The file needs features that this reader does not have.
+    Feature {
+        /// The unknown bits of `required_features`.
+        bits: u32,
+    },
+    /// A chunk is stored in an encoding that this reader cannot decode.
+    Encoding {
+        /// Index of the chunk in the directory.
+        chunk: usize,
+        /// The encoding's number.
+        got: u32,
+    },
+    /// Something has the wrong length (bytes or elements).
+    Length {
+        /// What.
+        what: &'static str,
+        /// The length it must have.
+        expected: u64,
+        /// The length it has.
+        got: u64,
+    },
+    /// Stored and computed CRC-32 differ: the file is damaged.
+    Checksum {
+        /// The damaged chunk's index in the directory; `None`: the head of the file.
+        chunk: Option<usize>,
+        /// The stored checksum.
+        expected: u32,
+        /// The checksum of the bytes.
+        got: u32,
+    },
+    /// A value in a model file, or handed to the writer, breaks the format specification.
+    Invalid {
+        /// The name of the value in the format specification.
+        what: &'static str,
+        /// What it must be and what it is.
+        detail: String,
+    },
+    /// The file lacks a chunk that the conditions need.
+    MissingChunk {
+        /// "radiance" or "column".
+        kind: &'static str,
+        /// Altitude of the chunk, m.
+        altitude: f64,
+        /// Visibility of the chunk, m, if it has one.
+        visibility: Option<f64>,
+    },
+    /// A parameter is not finite or outside the range of the model.
+    OutOfRange {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+        /// Unit of the three values.
+        unit: &'static str,
+    },
+    /// A direction has length zero or a component that is not finite.
+    Direction {
+        /// The refused vector.
+        got: [f32; 3],
+    },
+}
+
+impl Error {
+    pub(crate) fn invalid(what: &'static str, detail: impl Into<String>) -> Self {
+        Error::Invalid {
+            what,
+            detail: detail.into(),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Io { path, source } => write!(f, "{}: {source}", path.display()),
+            Error::NotWelkin => write!(
+                f,
+                "not a welkin file: the magic bytes are missing (is it another format, or was it sent in text mode?)"
+            ),
+            Error::Version { expected, got } => write!(
+                f,
+                "file has format version {got}, this reader knows version {expected}: use a newer welkin or a file of version {expected}"
+            ),
+            Error::Feature { bits } => write!(
+                f,
+                "file requires features {bits:#x} that this reader does not know: use a newer welkin"
+            ),
+            Error::Encoding { chunk, got } => write!(
+                f,
+                "chunk {chunk} has encoding {got}, this reader decodes only 0 (raw): use a newer welkin or a raw file"
+            ),
+            Error::Length {
+                what,
+                expected,
+                got,
+            } => write!(f, "{what}: expected length {expected}, got {got}"),
+            Error::Checksum {
+                chunk,
+                expected,
+                got,
+            } => {
+                match chunk {
+                    Some(index) => write!(f, "chunk {index}")?,
+                    None => write!(f, "head")?,
+                }
+                write!(
+                    f,
+                    " is damaged: expected CRC-32 {expected:08x}, got {got:08x}: fetch the file again"
+                )
+            }
+            Error::Invalid { what, detail } => write!(f, "invalid {what}: {detail}"),
+            Error::MissingChunk {
+                kind,
+                altitude,
+                visibility,
+            } => {
+                write!(f, "the file has no {kind} chunk for altitude {altitude} m")?;
+                if let Some(visibility) = visibility {
+                    write!(f, " and visibility {visibility} m")?;
+                }
+                write!(f, ", which these conditions need")
+            }
+            Error::OutOfRange {
+                parameter,
+                value,
+                min,
+                max,
+                unit,
+            } => write!(
+                f,
+                "{parameter} must be in {min}..={max}{}{unit}, got {value}",
+                if unit.is_empty() { "" } else { " " }
+            ),
+            Error::Direction { got: [x, y, z] } => write!(
+                f,
+                "direction must be finite and not zero, got ({x}, {y}, {z})"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Error {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Error::Io { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Views over the bytes of a chunk. Format specification, section 6.
+//!
+//! The element types have no alignment, so that any byte slice will do.
+
+use zerocopy::FromBytes;
+use zerocopy::little_endian::{F32, U16};
+
+use super::layout::{Shape, ceil16};
+use crate::error::{Error, Result};
+
+/// Bits of half-precision numbers, little-endian in the file.
+pub type Payload16 = [U16];
+
+/// Factors of the radiance at one altitude and visibility.
+///
+/// Matrices are row-major and `stride` wide, of which the first `rank` columns count, except `channel`.
+#[derive(Clone, Copy, Debug)]
+pub struct RadianceView<'a> {
+    /// Number of components.
+    pub rank: usize,
+    /// `rank` rounded up to a multiple of 16.
+    pub stride: usize,
+    /// `channels` rounded up to a multiple of 16: the width of `channel`.
+    pub channel_stride: usize,
+    /// Weight of each component, `[stride]`.
+    pub scale: &'a [F32],
+    /// `[up][stride]`.
+    pub alpha_up: &'a Payload16,
+    /// `[down][stride]`.
+    pub alpha_down: &'a Payload16,
+    /// `[phi][stride]`.
+    pub phi: &'a Payload16,
+    /// `[elevation][stride]`.
+    pub elevation: &'a Payload16,
+    /// `[stride][channel_stride]`.
+    pub channel: &'a Payload16,
+}
+
+impl<'a> RadianceView<'a> {
+    /// Divides the bytes of a raw radiance chunk into its tables.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if the bytes are not as many as shape and rank say.
+    pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+        check_length("radiance chunk", bytes, shape.radiance_bytes(rank))?;
+        let (stride, channel_stride) = (ceil16(rank), ceil16(shape.channels));
+        let mut rest = bytes;
+        Ok(Self {
+            rank,
+            stride,
+            channel_stride,
+            scale: take(&mut rest, stride)?,
+            alpha_up: take(&mut rest, shape.up * stride)?,
+            alpha_down: take(&mut rest, shape.down * stride)?,
+            phi: take(&mut rest, shape.phi * stride)?,
+            elevation: take(&mut rest, shape.elevation * stride)?,
+            channel: take(&mut rest, stride * channel_stride)?,
+        })
+    }
+
+    /// Whether the payload holds neither NaN nor infinity.
+    pub fn is_finite(&self) -> bool {
+        let tables = [
+            self.alpha_up,
+            self.alpha_down,
+            self.phi,
+            self.elevation,
+            self.channel,
+        ];
+        self.scale.iter().all(|s| s.get().is_finite()) && tables.iter().all(|t| half_is_finite(t))
+    }
+}
+
+/// Logarithms of mean densities along rays from one altitude.
+#[derive(Clone, Copy, Debug)]
+pub struct ColumnView<'a> {
+    /// `[up + down][constituents]`.
+    pub values: &'a [F32],
+}
+
+impl<'a> ColumnView<'a> {
+    /// Views the bytes of a raw column chunk.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if the bytes are not as many as the shape says.
+    pub fn new(bytes: &'a [u8], shape: &Shape) -> Result<Self> {
+        check_length("column chunk", bytes, shape.column_bytes())?;
+        let mut rest = bytes;
+        let values = take(&mut rest, bytes.len() / size_of::<F32>())?;
+        Ok(Self { values })
+    }
+
+    /// Whether the payload holds neither NaN nor infinity.
+    pub fn is_finite(&self) -> bool {
+        self.values.iter().all(|v| v.get().is_finite())
+    }
+}
+
+fn check_length(what: &'static str, bytes: &[u8], expected: usize) -> Result<()> {
+    if bytes.len() == expected {
+        return Ok(());
+    }
+    Err(Error::Length {
+        what,
+        expected: expected as u64,
+        got: bytes.len() as u64,
+    })
+}
+
+fn take<'a, T>(rest: &mut &'a [u8], n: usize) -> Result<&'a [T]>
+where
+    T: FromBytes + zerocopy::Immutable + zerocopy::KnownLayout + zerocopy::Unaligned,
+{
+    let got = rest.len() as u64;
+    let (taken, tail) = <[T]>::ref_from_prefix_with_elems(rest, n).map_err(|_| Error::Length {
+        what: "chunk",
+        expected: (n * size_of::<T>()) as u64,
+        got,
+    })?;
+    *rest = tail;
+    Ok(taken)
+}
+
+fn half_is_finite(table: &Payload16) -> bool {
+    table.iter().all(|h| h.get() & 0x7c00 != 0x7c00)
+}
+
+/// Widens a finite half-precision number. Without branches, so that loops over it vectorise, and
+/// without subnormal arithmetic, which hosts often switch off.
+pub(crate) fn widen(half: U16) -> f32 {
+    let half = u32::from(half.get());
+    let magnitude = (half & 0x7fff) << 13;
+    let normal = f32::from_bits(magnitude + (112 << 23));
+    let subnormal = f32::from_bits(magnitude + (113 << 23)) - f32::from_bits(113 << 23);
+    let value = if magnitude < 1 << 23 {
+        subnormal
+    } else {
+        normal
+    };
+    f32::from_bits(value.to_bits() | (half & 0x8000) << 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widening_agrees_with_the_half_crate_for_every_finite_number() {
+        for bits in 0..=u16::MAX {
+            let expected = half::f16::from_bits(bits);
+            if expected.is_finite() {
+                let got = widen(U16::new(bits));
+                assert_eq!(got.to_bits(), expected.to_f32().to_bits(), "{bits:#x}");
+            }
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! The head of a file in owned form: everything except the chunks.
+
+use super::layout::{KIND_COLUMN, KIND_RADIANCE, Shape};
+use crate::axis::{ElevationAxis, Ends, coefficients};
+use crate::geometry::Planet;
+use crate::spectrum::sample;
+
+/// Spline axis over the angle from the geometric horizon, on one side of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlphaAxis {
+    /// Number of spline intervals.
+    pub intervals: usize,
+    /// How much denser the axis is at the horizon: the angle grows with this power of the coordinate, 1..=8.
+    pub exponent: f64,
+}
+
+/// Shape of a phase function; its parameter per wavelength is in [`Field::parameter`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PhaseFunction {
+    /// Constant 1; the parameter is not used.
+    None,
+    /// Rayleigh; the parameter is the depolarisation ρ, 0..=1.
+    Rayleigh,
+    /// Henyey-Greenstein; the parameter is the asymmetry g, −1 < g < 1.
+    HenyeyGreenstein,
+}
+
+/// A part of the radiance with a phase function of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Factor that depends on the angle to the sun.
+    pub phase: PhaseFunction,
+    /// Whether the ground reflected this light (scaled by the albedo).
+    pub ground: bool,
+    /// Parameter of the phase function, `[wavelengths]`.
+    pub parameter: Vec<f64>,
+}
+
+/// Axes, tables and provenance of a model. Angles in radians, lengths in metres, wavelengths in nanometres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Head {
+    /// Planet radius and top of the atmosphere, m.
+    pub planet: Planet,
+    /// Spline axis above the geometric horizon.
+    pub up: AlphaAxis,
+    /// Spline axis below the geometric horizon.
+    pub down: AlphaAxis,
+    /// Number of spline intervals over the azimuth 0..=π relative to the sun.
+    pub phi_intervals: usize,
+    /// Solar elevation axis.
+    pub elevation: ElevationAxis,
+    /// Wavelengths, nm, strictly increasing.
+    pub wavelengths: Vec<f64>,
+    /// Observer altitudes, m, strictly increasing.
+    pub altitudes: Vec<f64>,
+    /// Visibilities, m, strictly increasing.
+    pub visibilities: Vec<f64>,
+    /// Number of constituents of the air.
+    pub constituents: usize,
+    /// Extinction coefficients where a constituent's profile is 1, m⁻¹, `[visibilities][constituents][wavelengths]`.
+    pub extinction: Vec<f64>,
+    /// Spherical albedo of the atmosphere seen from the ground, `[visibilities][wavelengths]`.
+    pub spherical_albedo: Vec<f64>,
+    /// CIE 1931 XYZ (cd m⁻² scale) per unit of relative radiance, `[wavelengths]`.
+    pub xyz: Vec<[f64; 3]>,
+    /// First wavelength of the solar spectrum, nm.
+    pub solar_start: f64,
+    /// Step of the solar spectrum, nm.
+    pub solar_step: f64,
+    /// Spline coefficients over the elevation axis of ln S, `[elevation coefficients][wavelengths]`.
+    pub elevation_scale: Vec<f32>,
+    /// Solar spectral irradiance, W m⁻² nm⁻¹.
+    pub solar_irradiance: Vec<f32>,
+    /// The fields of which the radiance is the sum.
+    pub fields: Vec<Field>,
+    /// JSON object with provenance and fit errors.
+    pub metadata: String,
+}
+
+impl Head {
+    /// Lengths of the tables in the chunks.
+    pub fn shape(&self) -> Shape {
+        Shape {
+            up: coefficients(self.up.intervals, Ends::Free),
+            down: coefficients(self.down.intervals, Ends::Free),
+            phi: coefficients(self.phi_intervals, Ends::Mirrored),
+            elevation: coefficients(self.elevation.intervals, Ends::Free),
+            channels: self.fields.len() * self.wavelengths.len(),
+            constituents: self.constituents,
+        }
+    }
+
+    /// Altitude nodes in the coordinate of interpolation between chunks, `h^(1/3)`.
+    pub fn altitude_nodes(&self) -> Vec<f64> {
+        self.altitudes.iter().map(|&h| altitude_node(h)).collect()
+    }
+
+    /// Visibility nodes in the coordinate of interpolation between chunks, `1/V`: strictly decreasing.
+    pub fn visibility_nodes(&self) -> Vec<f64> {
+        self.visibilities
+            .iter()
+            .map(|&v| visibility_node(v))
+            .collect()
+    }
+
+    /// Solar spectral irradiance at a wavelength (nm), W m⁻² nm⁻¹, linear between samples and constant beyond them.
+    pub fn solar_irradiance_at(&self, wavelength: f64) -> f64 {
+        let axis = [self.solar_start, self.solar_step];
+        sample(&self.solar_irradiance, axis, wavelength)
+    }
+}
+
+pub(crate) fn altitude_node(altitude: f64) -> f64 {
+    altitude.cbrt()
+}
+
+pub(crate) fn visibility_node(visibility: f64) -> f64 {
+    1.0 / visibility
+}
+
+/// What a chunk holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Kind {
+    /// Factors of the radiance at one altitude and visibility.
+    Radiance,
+    /// Mean densities along rays from one altitude.
+    Column,
+    /// A kind that this reader skips.
+    Unknown(u32),
+}
+
+impl Kind {
+    pub(crate) fn from_code(code: u32) -> Self {
+        match code {
+            KIND_RADIANCE => Kind::Radiance,
+            KIND_COLUMN => Kind::Column,
+            other => Kind::Unknown(other),
+        }
+    }
+
+    /// Name for messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Radiance => "radiance",
+            Kind::Column => "column",
+            Kind::Unknown(_) => "unknown",
+        }
+    }
+}
+
+/// A chunk in the directory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// What it holds.
+    pub kind: Kind,
+    /// Index into the altitudes.
+    pub altitude: Option<usize>,
+    /// Index into the visibilities.
+    pub visibility: Option<usize>,
+    /// First byte in the file.
+    pub offset: usize,
+    /// Bytes in the file.
+    pub length: usize,
+    /// 0 = raw.
+    pub encoding: u32,
+    /// CRC-32 of the bytes in the file.
+    pub crc32: u32,
+    /// Rank of a radiance chunk, otherwise 0.
+    pub rank: usize,
+    /// Median relative error against the traced data, 0 if not measured.
+    pub error_median: f32,
+    /// 99th percentile of the relative error, 0 if not measured.
+    pub error_p99: f32,
+}

@@ -1,0 +1,120 @@
+//! The byte layout of the fixed parts. Format specification, sections 3 and 5.
+
+use zerocopy::little_endian::{F32, F64, U16, U32, U64};
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+/// First eight bytes of every file.
+pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
+/// The major version that this crate reads and writes.
+pub const VERSION_MAJOR: u16 = 0;
+/// The minor version that this crate writes.
+pub const VERSION_MINOR: u16 = 0;
+/// Alignment of chunks in the file.
+pub const CHUNK_ALIGNMENT: u64 = 64;
+/// `kind` of a radiance chunk.
+pub const KIND_RADIANCE: u32 = 1;
+/// `kind` of a column chunk.
+pub const KIND_COLUMN: u32 = 2;
+/// Directory index that means "none".
+pub const NO_INDEX: u16 = u16::MAX;
+/// Largest rank of a radiance chunk.
+pub const MAX_RANK: usize = 4096;
+/// Bit of a field code: light reflected by the ground.
+pub const FIELD_GROUND: u32 = 1 << 16;
+
+pub(crate) const CRC_RANGE: core::ops::Range<usize> = 32..36;
+
+/// Header, the first 128 bytes.
+#[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub(crate) struct Header {
+    pub magic: [u8; 8],
+    pub version_major: U16,
+    pub version_minor: U16,
+    pub required_features: U32,
+    pub file_length: U64,
+    pub head_length: U64,
+    pub head_crc32: U32,
+    pub chunk_count: U32,
+    pub wavelengths: U16,
+    pub altitudes: U16,
+    pub visibilities: U16,
+    pub fields: U16,
+    pub constituents: U16,
+    pub alpha_up_intervals: U16,
+    pub alpha_down_intervals: U16,
+    pub phi_intervals: U16,
+    pub elevation_intervals: U16,
+    pub solar_samples: U16,
+    pub metadata_length: U32,
+    pub planet_radius: F64,
+    pub top_altitude: F64,
+    pub alpha_up_exponent: F64,
+    pub alpha_down_exponent: F64,
+    pub elevation_min: F64,
+    pub elevation_max: F64,
+    pub elevation_centre: F64,
+    pub elevation_width: F64,
+}
+
+/// One chunk in the directory, 64 bytes.
+#[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub(crate) struct RawEntry {
+    pub kind: U32,
+    pub altitude: U16,
+    pub visibility: U16,
+    pub offset: U64,
+    pub stored_length: U64,
+    pub raw_length: U64,
+    pub encoding: U32,
+    pub crc32: U32,
+    pub rank: U32,
+    pub tier: U32,
+    pub error_median: F32,
+    pub error_p99: F32,
+    pub reserved: U64,
+}
+
+pub(crate) const HEADER_LENGTH: usize = size_of::<Header>();
+pub(crate) const ENTRY_LENGTH: usize = size_of::<RawEntry>();
+
+const _: () = assert!(HEADER_LENGTH == 128);
+const _: () = assert!(ENTRY_LENGTH == 64);
+const _: () = assert!(core::mem::offset_of!(Header, head_crc32) == CRC_RANGE.start);
+const _: () = assert!(core::mem::offset_of!(Header, planet_radius) == 64);
+
+/// Rounds up to a multiple of 16.
+pub const fn ceil16(n: usize) -> usize {
+    n.next_multiple_of(16)
+}
+
+/// Lengths along the axes of a chunk's tables, in coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Coefficients of the up axis.
+    pub up: usize,
+    /// Coefficients of the down axis.
+    pub down: usize,
+    /// Coefficients of the azimuth axis.
+    pub phi: usize,
+    /// Coefficients of the solar elevation axis.
+    pub elevation: usize,
+    /// Fields × wavelengths.
+    pub channels: usize,
+    /// Constituents of the air.
+    pub constituents: usize,
+}
+
+impl Shape {
+    /// Raw bytes of a radiance chunk of the given rank.
+    pub fn radiance_bytes(&self, rank: usize) -> usize {
+        let rows = self.up + self.down + self.phi + self.elevation;
+        ceil16(rank) * (4 + 2 * rows + 2 * ceil16(self.channels))
+    }
+
+    /// Raw bytes of a column chunk.
+    pub fn column_bytes(&self) -> usize {
+        4 * (self.up + self.down) * self.constituents
+    }
+}

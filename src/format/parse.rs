@@ -1,0 +1,363 @@
+//! Reads and checks the head and the directory of untrusted bytes. Format specification, sections 3, 4, 5 and 8.
+
+use std::collections::HashSet;
+
+use zerocopy::FromBytes;
+use zerocopy::little_endian::{F32, F64, U32};
+
+use super::head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
+use super::layout::*;
+use crate::axis::ElevationAxis;
+use crate::error::{Error, Result};
+use crate::geometry::Planet;
+
+/// What the first `head_length` bytes of a file say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contents {
+    /// Axes, tables and provenance.
+    pub head: Head,
+    /// The chunks in the order of the file.
+    pub directory: Vec<Entry>,
+    /// Length of header, head arrays and directory, bytes.
+    pub head_length: usize,
+}
+
+/// Parses the head of a complete file; chunk payloads are not touched.
+///
+/// Allocates no more than a small multiple of `bytes.len()`.
+///
+/// # Errors
+/// A typed error for everything that section 8 of the specification tells a reader to reject at open.
+pub fn parse(bytes: &[u8]) -> Result<Contents> {
+    let header = header(bytes)?;
+    let head_length = check_lengths(&header, bytes.len())?;
+    check_crc(&header, &bytes[..head_length])?;
+    let mut cursor = Cursor(&bytes[HEADER_LENGTH..head_length]);
+    let head = head(&header, &mut cursor)?;
+    head.validate()?;
+    let padding = (head_length - HEADER_LENGTH - cursor.0.len()).next_multiple_of(8);
+    let used = head_length - HEADER_LENGTH - cursor.0.len();
+    if cursor.take(padding - used)?.iter().any(|&b| b != 0) {
+        return Err(Error::invalid("padding", "expected zeros after metadata"));
+    }
+    let entries = cursor.take(header.chunk_count.get() as usize * ENTRY_LENGTH)?;
+    let directory = directory(&head, entries, head_length, bytes.len())?;
+    Ok(Contents {
+        head,
+        directory,
+        head_length,
+    })
+}
+
+fn header(bytes: &[u8]) -> Result<Header> {
+    let known = bytes.len().min(MAGIC.len());
+    if bytes.is_empty() || bytes[..known] != MAGIC[..known] {
+        return Err(Error::NotWelkin);
+    }
+    let (header, _) = Header::read_from_prefix(bytes).map_err(|_| Error::Length {
+        what: "file (is it truncated?)",
+        expected: HEADER_LENGTH as u64,
+        got: bytes.len() as u64,
+    })?;
+    let got = header.version_major.get();
+    if got != VERSION_MAJOR {
+        let expected = VERSION_MAJOR;
+        return Err(Error::Version { expected, got });
+    }
+    match header.required_features.get() {
+        0 => Ok(header),
+        bits => Err(Error::Feature { bits }),
+    }
+}
+
+/// Length of the head, after comparing it with the counts and with the length of the file.
+fn check_lengths(header: &Header, file: usize) -> Result<usize> {
+    let file_length = header.file_length.get();
+    if file_length != file as u64 {
+        return Err(Error::Length {
+            what: "file (is it truncated?)",
+            expected: file_length,
+            got: file as u64,
+        });
+    }
+    let expected = head_length(header);
+    let got = header.head_length.get();
+    if got != expected {
+        return Err(Error::Length {
+            what: "head_length",
+            expected,
+            got,
+        });
+    }
+    usize::try_from(got)
+        .ok()
+        .filter(|&length| length <= file)
+        .ok_or(Error::Length {
+            what: "file",
+            expected: got,
+            got: file as u64,
+        })
+}
+
+/// Length that follows from the counts; at most about 2^39, so it cannot overflow.
+fn head_length(header: &Header) -> u64 {
+    let n = |count: zerocopy::little_endian::U16| u64::from(count.get());
+    let (nw, nv, nf) = (
+        n(header.wavelengths),
+        n(header.visibilities),
+        n(header.fields),
+    );
+    let f64s = nw
+        + n(header.altitudes)
+        + nv
+        + nv * n(header.constituents) * nw
+        + nv * nw
+        + nf * nw
+        + 3 * nw
+        + 2;
+    let u32s = (n(header.elevation_intervals) + 3) * nw + n(header.solar_samples) + nf;
+    let arrays = 8 * f64s + 4 * u32s + u64::from(header.metadata_length.get());
+    HEADER_LENGTH as u64
+        + arrays.next_multiple_of(8)
+        + u64::from(header.chunk_count.get()) * ENTRY_LENGTH as u64
+}
+
+fn check_crc(header: &Header, head: &[u8]) -> Result<()> {
+    let got = head_crc(head);
+    let expected = header.head_crc32.get();
+    if got == expected {
+        return Ok(());
+    }
+    Err(Error::Checksum {
+        chunk: None,
+        expected,
+        got,
+    })
+}
+
+/// CRC-32 of a head with its own field taken as zero. `head` is at least a header long.
+pub(super) fn head_crc(head: &[u8]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(&head[..CRC_RANGE.start]);
+    hasher.update(&[0; 4]);
+    hasher.update(&head[CRC_RANGE.end..]);
+    hasher.finalize()
+}
+
+/// Takes arrays off the front of a byte slice.
+struct Cursor<'a>(&'a [u8]);
+
+impl<'a> Cursor<'a> {
+    fn take(&mut self, length: usize) -> Result<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(length).ok_or(Error::Length {
+            what: "head",
+            expected: length as u64,
+            got: self.0.len() as u64,
+        })?;
+        self.0 = rest;
+        Ok(taken)
+    }
+
+    fn array<T: FromBytes + Copy, U>(&mut self, n: usize, get: impl Fn(T) -> U) -> Result<Vec<U>> {
+        let size = size_of::<T>();
+        let bytes = self.take(n * size)?;
+        let read = |b| T::read_from_bytes(b).ok().map(&get);
+        Ok(bytes.chunks_exact(size).filter_map(read).collect())
+    }
+
+    fn f64s(&mut self, n: usize) -> Result<Vec<f64>> {
+        self.array(n, F64::get)
+    }
+
+    fn f32s(&mut self, n: usize) -> Result<Vec<f32>> {
+        self.array(n, F32::get)
+    }
+}
+
+fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
+    let nw = usize::from(header.wavelengths.get());
+    let nv = usize::from(header.visibilities.get());
+    let nf = usize::from(header.fields.get());
+    let nk = usize::from(header.constituents.get());
+    let ne = usize::from(header.elevation_intervals.get());
+    let wavelengths = cursor.f64s(nw)?;
+    let altitudes = cursor.f64s(header.altitudes.get().into())?;
+    let visibilities = cursor.f64s(nv)?;
+    let extinction = cursor.f64s(nv * nk * nw)?;
+    let spherical_albedo = cursor.f64s(nv * nw)?;
+    let parameters = cursor.f64s(nf * nw)?;
+    let xyz = cursor.f64s(3 * nw)?;
+    let solar = cursor.f64s(2)?;
+    let elevation_scale = cursor.f32s((ne + 3) * nw)?;
+    let solar_irradiance = cursor.f32s(header.solar_samples.get().into())?;
+    let codes = cursor.array(nf, U32::get)?;
+    let metadata = cursor.take(header.metadata_length.get() as usize)?;
+    let metadata = core::str::from_utf8(metadata)
+        .map_err(|error| Error::invalid("metadata", format!("expected UTF-8: {error}")))?;
+    Ok(Head {
+        planet: Planet {
+            radius: header.planet_radius.get(),
+            top: header.top_altitude.get(),
+        },
+        up: AlphaAxis {
+            intervals: header.alpha_up_intervals.get().into(),
+            exponent: header.alpha_up_exponent.get(),
+        },
+        down: AlphaAxis {
+            intervals: header.alpha_down_intervals.get().into(),
+            exponent: header.alpha_down_exponent.get(),
+        },
+        phi_intervals: header.phi_intervals.get().into(),
+        elevation: ElevationAxis {
+            min: header.elevation_min.get(),
+            max: header.elevation_max.get(),
+            centre: header.elevation_centre.get(),
+            width: header.elevation_width.get(),
+            intervals: ne,
+        },
+        wavelengths,
+        altitudes,
+        visibilities,
+        constituents: nk,
+        extinction,
+        spherical_albedo,
+        xyz: xyz.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
+        solar_start: solar[0],
+        solar_step: solar[1],
+        elevation_scale,
+        solar_irradiance,
+        fields: fields(&codes, &parameters, nw)?,
+        metadata: metadata.to_owned(),
+    })
+}
+
+fn fields(codes: &[u32], parameters: &[f64], nw: usize) -> Result<Vec<Field>> {
+    let field = |(f, &code): (usize, &u32)| {
+        let phase = match code & !FIELD_GROUND {
+            0 => PhaseFunction::None,
+            1 => PhaseFunction::Rayleigh,
+            2 => PhaseFunction::HenyeyGreenstein,
+            _ => {
+                let detail = format!("field {f} has unknown code {code:#x}: use a newer welkin");
+                return Err(Error::invalid("field", detail));
+            }
+        };
+        Ok(Field {
+            phase,
+            ground: code & FIELD_GROUND != 0,
+            parameter: parameters[f * nw..(f + 1) * nw].to_vec(),
+        })
+    };
+    codes.iter().enumerate().map(field).collect()
+}
+
+fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Result<Vec<Entry>> {
+    let mut entries = Vec::with_capacity(bytes.len() / ENTRY_LENGTH);
+    let mut seen = HashSet::new();
+    let mut end = head_length as u64;
+    for (index, chunk) in bytes.chunks_exact(ENTRY_LENGTH).enumerate() {
+        let broken =
+            |detail: String| Error::invalid("directory", format!("chunk {index}: {detail}"));
+        let raw = RawEntry::read_from_bytes(chunk).map_err(|e| broken(e.to_string()))?;
+        end = check_place(&raw, end, file as u64).map_err(broken)?;
+        let entry = entry(&raw);
+        check_entry(head, &raw, &entry).map_err(broken)?;
+        let key = (entry.kind, entry.altitude, entry.visibility);
+        if !matches!(entry.kind, Kind::Unknown(_)) && !seen.insert(key) {
+            return Err(broken("appears twice".to_owned()));
+        }
+        entries.push(entry);
+    }
+    if end == file as u64 {
+        return Ok(entries);
+    }
+    Err(Error::Length {
+        what: "file (bytes after the last chunk)",
+        expected: end,
+        got: file as u64,
+    })
+}
+
+/// Checks that the chunk follows its predecessor without hole or overlap; returns its end.
+fn check_place(raw: &RawEntry, previous_end: u64, file: u64) -> core::result::Result<u64, String> {
+    let (offset, length) = (raw.offset.get(), raw.stored_length.get());
+    let expected = previous_end.next_multiple_of(CHUNK_ALIGNMENT);
+    if offset != expected {
+        return Err(format!("expected offset {expected}, got {offset}"));
+    }
+    match offset.checked_add(length).filter(|&end| end <= file) {
+        Some(end) => Ok(end),
+        None => Err(format!(
+            "{length} bytes at {offset} reach beyond the end of the file, {file}"
+        )),
+    }
+}
+
+/// `offset` and `stored_length` were checked against the length of the file, so they fit.
+fn entry(raw: &RawEntry) -> Entry {
+    let index = |i: u16| (i != NO_INDEX).then_some(usize::from(i));
+    Entry {
+        kind: Kind::from_code(raw.kind.get()),
+        altitude: index(raw.altitude.get()),
+        visibility: index(raw.visibility.get()),
+        offset: raw.offset.get() as usize,
+        length: raw.stored_length.get() as usize,
+        encoding: raw.encoding.get(),
+        crc32: raw.crc32.get(),
+        rank: raw.rank.get() as usize,
+        error_median: raw.error_median.get(),
+        error_p99: raw.error_p99.get(),
+    }
+}
+
+fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Result<(), String> {
+    let indices = match entry.kind {
+        Kind::Unknown(_) => return Ok(()),
+        Kind::Radiance => entry.altitude.is_some() && entry.visibility.is_some(),
+        Kind::Column => entry.altitude.is_some() && entry.visibility.is_none(),
+    };
+    let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
+        && entry.visibility.is_none_or(|i| i < head.visibilities.len());
+    if !indices || !known {
+        return Err(format!(
+            "indices of altitude {} and visibility {} do not fit its kind or the axes",
+            raw.altitude, raw.visibility
+        ));
+    }
+    let ranks = match entry.kind {
+        Kind::Radiance => 1..=MAX_RANK,
+        _ => 0..=0,
+    };
+    if !ranks.contains(&entry.rank) {
+        return Err(format!("expected rank {ranks:?}, got {}", entry.rank));
+    }
+    if raw.tier.get() != 0 {
+        return Err(format!("expected tier 0, got {}", raw.tier));
+    }
+    let error = |e: f32| e.is_finite() && e >= 0.0;
+    if !error(entry.error_median) || !error(entry.error_p99) {
+        return Err("expected errors that are finite and not negative".to_owned());
+    }
+    check_chunk_length(head, raw, entry)
+}
+
+fn check_chunk_length(
+    head: &Head,
+    raw: &RawEntry,
+    entry: &Entry,
+) -> core::result::Result<(), String> {
+    if entry.encoding != 0 {
+        return Ok(());
+    }
+    let expected = match entry.kind {
+        Kind::Radiance => head.shape().radiance_bytes(entry.rank),
+        _ => head.shape().column_bytes(),
+    } as u64;
+    let (stored, decoded) = (raw.stored_length.get(), raw.raw_length.get());
+    if stored == expected && decoded == expected {
+        return Ok(());
+    }
+    Err(format!(
+        "expected {expected} bytes, got stored_length {stored} and raw_length {decoded}"
+    ))
+}

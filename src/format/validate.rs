@@ -1,0 +1,157 @@
+//! The rules that the values of a head obey, for reader and writer alike. Format specification, sections 3, 4 and 8.
+
+use core::f64::consts::FRAC_PI_2;
+
+use super::head::{Field, Head, PhaseFunction};
+use crate::error::{Error, Result};
+
+impl Head {
+    /// Checks every value and length against the format specification.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] or [`Error::Length`] for the first rule that is broken.
+    pub fn validate(&self) -> Result<()> {
+        self.check_counts()?;
+        self.check_lengths()?;
+        self.check_scalars()?;
+        self.check_axes()?;
+        self.check_tables()?;
+        self.fields.iter().try_for_each(check_field)
+    }
+
+    fn check_counts(&self) -> Result<()> {
+        count("wavelengths", self.wavelengths.len(), 2, 256)?;
+        count("altitudes", self.altitudes.len(), 1, 1024)?;
+        count("visibilities", self.visibilities.len(), 1, 1024)?;
+        count("fields", self.fields.len(), 1, 16)?;
+        count("constituents", self.constituents, 1, 16)?;
+        count("alpha_up_intervals", self.up.intervals, 1, 1024)?;
+        count("alpha_down_intervals", self.down.intervals, 1, 1024)?;
+        count("phi_intervals", self.phi_intervals, 1, 1024)?;
+        count("elevation_intervals", self.elevation.intervals, 1, 1024)?;
+        count("solar_samples", self.solar_irradiance.len(), 2, 16384)?;
+        count("metadata_length", self.metadata.len(), 0, u32::MAX as usize)
+    }
+
+    fn check_lengths(&self) -> Result<()> {
+        let (nw, nv) = (self.wavelengths.len(), self.visibilities.len());
+        length(
+            "extinction",
+            self.extinction.len(),
+            nv * self.constituents * nw,
+        )?;
+        length("spherical_albedo", self.spherical_albedo.len(), nv * nw)?;
+        length("xyz", self.xyz.len(), nw)?;
+        let scale = self.shape().elevation * nw;
+        length("elevation_scale", self.elevation_scale.len(), scale)?;
+        self.fields
+            .iter()
+            .try_for_each(|f| length("phase_parameter", f.parameter.len(), nw))
+    }
+
+    fn check_scalars(&self) -> Result<()> {
+        let last = self.altitudes[self.altitudes.len() - 1];
+        scalar("planet_radius", self.planet.radius, 1e3, 1e9)?;
+        scalar("top_altitude", self.planet.top, last.next_up(), 1e9)?;
+        scalar("alpha_up_exponent", self.up.exponent, 1.0, 8.0)?;
+        scalar("alpha_down_exponent", self.down.exponent, 1.0, 8.0)?;
+        let e = &self.elevation;
+        scalar("elevation_min", e.min, -FRAC_PI_2, FRAC_PI_2)?;
+        scalar("elevation_max", e.max, e.min.next_up(), FRAC_PI_2)?;
+        scalar("elevation_centre", e.centre, -FRAC_PI_2, FRAC_PI_2)?;
+        scalar("elevation_width", e.width, 1e-6, 1e6)?;
+        scalar("solar_step", self.solar_step, 1e-3, 1e6)?;
+        let first = self.wavelengths[0];
+        scalar("solar_start", self.solar_start, 0.0, first)?;
+        let steps = (self.solar_irradiance.len() - 1) as f64;
+        let end = self.solar_start + steps * self.solar_step;
+        let last = self.wavelengths[self.wavelengths.len() - 1];
+        scalar("end of the solar spectrum", end, last, f64::MAX)
+    }
+
+    fn check_axes(&self) -> Result<()> {
+        increasing("wavelength", &self.wavelengths, 1.0, 1e6)?;
+        increasing("altitude", &self.altitudes, 0.0, 1e9)?;
+        increasing("visibility", &self.visibilities, 1.0, 1e9)?;
+        increasing("cube root of altitude", &self.altitude_nodes(), 0.0, 1e3)?;
+        let mut inverse = self.visibility_nodes();
+        inverse.reverse();
+        increasing("inverse of visibility", &inverse, 0.0, 1.0)
+    }
+
+    fn check_tables(&self) -> Result<()> {
+        let f64s = |what, values: &[f64], min, max| {
+            values.iter().try_for_each(|&v| scalar(what, v, min, max))
+        };
+        let f32s = |what, values: &[f32], min: f64| {
+            let max = f64::from(f32::MAX);
+            values
+                .iter()
+                .try_for_each(|&v| scalar(what, f64::from(v), min, max))
+        };
+        f64s("extinction", &self.extinction, 0.0, 1e6)?;
+        let below_one = 1f64.next_down();
+        f64s("spherical_albedo", &self.spherical_albedo, 0.0, below_one)?;
+        f64s("xyz", self.xyz.as_flattened(), -1e30, 1e30)?;
+        f32s(
+            "elevation_scale",
+            &self.elevation_scale,
+            -f64::from(f32::MAX),
+        )?;
+        f32s("solar_irradiance", &self.solar_irradiance, 0.0)
+    }
+}
+
+fn check_field(field: &Field) -> Result<()> {
+    let (min, max) = match field.phase {
+        PhaseFunction::None => (f64::MIN, f64::MAX),
+        PhaseFunction::Rayleigh => (0.0, 1.0),
+        PhaseFunction::HenyeyGreenstein => ((-1f64).next_up(), 1f64.next_down()),
+    };
+    field
+        .parameter
+        .iter()
+        .try_for_each(|&p| scalar("phase_parameter", p, min, max))
+}
+
+fn count(what: &'static str, got: usize, min: usize, max: usize) -> Result<()> {
+    if (min..=max).contains(&got) {
+        return Ok(());
+    }
+    Err(Error::invalid(
+        what,
+        format!("expected {min}..={max}, got {got}"),
+    ))
+}
+
+fn length(what: &'static str, got: usize, expected: usize) -> Result<()> {
+    if got == expected {
+        return Ok(());
+    }
+    Err(Error::Length {
+        what,
+        expected: expected as u64,
+        got: got as u64,
+    })
+}
+
+fn scalar(what: &'static str, got: f64, min: f64, max: f64) -> Result<()> {
+    if got.is_finite() && got >= min && got <= max {
+        return Ok(());
+    }
+    Err(Error::invalid(
+        what,
+        format!("expected {min}..={max}, got {got}"),
+    ))
+}
+
+fn increasing(what: &'static str, nodes: &[f64], min: f64, max: f64) -> Result<()> {
+    nodes.iter().try_for_each(|&v| scalar(what, v, min, max))?;
+    match nodes.windows(2).find(|w| w[0] >= w[1]) {
+        None => Ok(()),
+        Some(w) => Err(Error::invalid(
+            what,
+            format!("must increase strictly, got {} before {}", w[0], w[1]),
+        )),
+    }
+}

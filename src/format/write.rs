@@ -1,0 +1,323 @@
+//! Writes model files. Format specification, sections 3 to 6.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use half::f16;
+use zerocopy::IntoBytes;
+use zerocopy::little_endian::{F32, F64, U16, U32, U64};
+
+use super::head::{Head, PhaseFunction};
+use super::layout::*;
+use super::parse::head_crc;
+use crate::error::{Error, Result};
+
+/// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
+///
+/// Matrices are row-major. Lengths as in [`Head::shape`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RadianceFactors {
+    /// Number of components.
+    pub rank: usize,
+    /// Weight of each component, `[rank]`; kept in single precision.
+    pub scale: Vec<f32>,
+    /// `[up][rank]`.
+    pub alpha_up: Vec<f32>,
+    /// `[down][rank]`.
+    pub alpha_down: Vec<f32>,
+    /// `[phi][rank]`.
+    pub phi: Vec<f32>,
+    /// `[elevation][rank]`.
+    pub elevation: Vec<f32>,
+    /// `[rank][channels]`, channel = field · wavelengths + wavelength.
+    pub channel: Vec<f32>,
+}
+
+/// Logarithms of mean densities, `[up + down][constituents]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColumnTable {
+    /// Spline coefficients of ln n̄.
+    pub values: Vec<f32>,
+}
+
+/// What a chunk to be written holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Payload {
+    /// Factors of the radiance at one altitude and visibility.
+    Radiance(RadianceFactors),
+    /// Mean densities along rays from one altitude.
+    Column(ColumnTable),
+}
+
+/// A chunk to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chunk {
+    /// Index into the altitudes of the head.
+    pub altitude: usize,
+    /// Index into the visibilities of the head; `None` for columns.
+    pub visibility: Option<usize>,
+    /// Median relative error against the traced data, 0 if not measured.
+    pub error_median: f32,
+    /// 99th percentile of the relative error, 0 if not measured.
+    pub error_p99: f32,
+    /// The tables.
+    pub payload: Payload,
+}
+
+/// Encodes a model and writes it to `path`, replacing a file there only when all bytes are on disk.
+///
+/// # Errors
+/// As [`encode`]; [`Error::Io`] if the file cannot be written.
+pub fn write(path: impl AsRef<Path>, head: &Head, chunks: &[Chunk]) -> Result<()> {
+    replace_file(path, &encode(head, chunks)?)
+}
+
+/// Encodes a model as the bytes of a file.
+///
+/// # Errors
+/// [`Error::Invalid`] or [`Error::Length`] if head or chunks break the specification, or if a factor
+/// is not finite or too large for half precision.
+pub fn encode(head: &Head, chunks: &[Chunk]) -> Result<Vec<u8>> {
+    head.validate()?;
+    let mut file = vec![0; HEADER_LENGTH];
+    push_arrays(&mut file, head);
+    let directory = file.len();
+    let head_length = directory + chunks.len() * ENTRY_LENGTH;
+    file.resize(head_length, 0);
+    let mut entries = Vec::with_capacity(chunks.len());
+    for chunk in chunks {
+        let payload = encode_payload(&head.shape(), &chunk.payload)?;
+        file.resize(file.len().next_multiple_of(CHUNK_ALIGNMENT as usize), 0);
+        entries.push(entry(chunk, file.len(), &payload)?);
+        file.extend_from_slice(&payload);
+    }
+    file[directory..head_length].copy_from_slice(entries.as_bytes());
+    let header = header(head, chunks.len(), file.len(), head_length)?;
+    file[..HEADER_LENGTH].copy_from_slice(header.as_bytes());
+    let crc = head_crc(&file[..head_length]);
+    file[CRC_RANGE].copy_from_slice(&crc.to_le_bytes());
+    // The reader's checks of the directory are the writer's too.
+    super::parse::parse(&file)?;
+    Ok(file)
+}
+
+fn push_arrays(file: &mut Vec<u8>, head: &Head) {
+    for values in [
+        &head.wavelengths,
+        &head.altitudes,
+        &head.visibilities,
+        &head.extinction,
+        &head.spherical_albedo,
+    ] {
+        push_f64(file, values);
+    }
+    head.fields
+        .iter()
+        .for_each(|f| push_f64(file, &f.parameter));
+    push_f64(file, head.xyz.as_flattened());
+    push_f64(file, &[head.solar_start, head.solar_step]);
+    push_f32(file, &head.elevation_scale);
+    push_f32(file, &head.solar_irradiance);
+    for field in &head.fields {
+        let phase = match field.phase {
+            PhaseFunction::None => 0,
+            PhaseFunction::Rayleigh => 1,
+            PhaseFunction::HenyeyGreenstein => 2,
+        };
+        let ground = if field.ground { FIELD_GROUND } else { 0 };
+        file.extend_from_slice(U32::new(phase | ground).as_bytes());
+    }
+    file.extend_from_slice(head.metadata.as_bytes());
+    file.resize(file.len().next_multiple_of(8), 0);
+}
+
+fn push_f64(file: &mut Vec<u8>, values: &[f64]) {
+    for &v in values {
+        file.extend_from_slice(F64::new(v).as_bytes());
+    }
+}
+
+fn push_f32(file: &mut Vec<u8>, values: &[f32]) {
+    for &v in values {
+        file.extend_from_slice(F32::new(v).as_bytes());
+    }
+}
+
+/// The counts were validated, so they fit their fields.
+fn header(head: &Head, chunks: usize, file_length: usize, head_length: usize) -> Result<Header> {
+    let n = |count: usize| U16::new(count as u16);
+    let chunk_count = u32::try_from(chunks)
+        .map_err(|_| Error::invalid("chunk_count", format!("expected 32 bits, got {chunks}")))?;
+    Ok(Header {
+        magic: MAGIC,
+        version_major: U16::new(VERSION_MAJOR),
+        version_minor: U16::new(VERSION_MINOR),
+        required_features: U32::ZERO,
+        file_length: U64::new(file_length as u64),
+        head_length: U64::new(head_length as u64),
+        head_crc32: U32::ZERO,
+        chunk_count: U32::new(chunk_count),
+        wavelengths: n(head.wavelengths.len()),
+        altitudes: n(head.altitudes.len()),
+        visibilities: n(head.visibilities.len()),
+        fields: n(head.fields.len()),
+        constituents: n(head.constituents),
+        alpha_up_intervals: n(head.up.intervals),
+        alpha_down_intervals: n(head.down.intervals),
+        phi_intervals: n(head.phi_intervals),
+        elevation_intervals: n(head.elevation.intervals),
+        solar_samples: n(head.solar_irradiance.len()),
+        metadata_length: U32::new(head.metadata.len() as u32),
+        planet_radius: F64::new(head.planet.radius),
+        top_altitude: F64::new(head.planet.top),
+        alpha_up_exponent: F64::new(head.up.exponent),
+        alpha_down_exponent: F64::new(head.down.exponent),
+        elevation_min: F64::new(head.elevation.min),
+        elevation_max: F64::new(head.elevation.max),
+        elevation_centre: F64::new(head.elevation.centre),
+        elevation_width: F64::new(head.elevation.width),
+    })
+}
+
+fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
+    let (kind, rank) = match &chunk.payload {
+        Payload::Radiance(factors) => (KIND_RADIANCE, factors.rank),
+        Payload::Column(_) => (KIND_COLUMN, 0),
+    };
+    let index = |i: usize| {
+        u16::try_from(i)
+            .map(U16::new)
+            .map_err(|_| Error::invalid("directory", format!("index {i} does not fit 16 bits")))
+    };
+    Ok(RawEntry {
+        kind: U32::new(kind),
+        altitude: index(chunk.altitude)?,
+        visibility: chunk.visibility.map_or(Ok(U16::new(NO_INDEX)), index)?,
+        offset: U64::new(offset as u64),
+        stored_length: U64::new(payload.len() as u64),
+        raw_length: U64::new(payload.len() as u64),
+        encoding: U32::ZERO,
+        crc32: U32::new(crc32fast::hash(payload)),
+        rank: U32::new(rank as u32),
+        tier: U32::ZERO,
+        error_median: F32::new(chunk.error_median),
+        error_p99: F32::new(chunk.error_p99),
+        reserved: U64::ZERO,
+    })
+}
+
+fn encode_payload(shape: &Shape, payload: &Payload) -> Result<Vec<u8>> {
+    match payload {
+        Payload::Radiance(factors) => encode_radiance(shape, factors),
+        Payload::Column(table) => encode_column(shape, table),
+    }
+}
+
+fn encode_radiance(shape: &Shape, factors: &RadianceFactors) -> Result<Vec<u8>> {
+    let r = factors.rank;
+    if !(1..=MAX_RANK).contains(&r) {
+        let detail = format!("expected 1..={MAX_RANK}, got {r}");
+        return Err(Error::invalid("rank", detail));
+    }
+    let mut bytes = Vec::with_capacity(shape.radiance_bytes(r));
+    check("scale", &factors.scale, r)?;
+    push_f32(&mut bytes, &factors.scale);
+    bytes.resize(4 * ceil16(r), 0);
+    push_half(&mut bytes, "alpha_up", &factors.alpha_up, shape.up, r)?;
+    push_half(&mut bytes, "alpha_down", &factors.alpha_down, shape.down, r)?;
+    push_half(&mut bytes, "phi", &factors.phi, shape.phi, r)?;
+    push_half(
+        &mut bytes,
+        "elevation",
+        &factors.elevation,
+        shape.elevation,
+        r,
+    )?;
+    push_half(&mut bytes, "channel", &factors.channel, r, shape.channels)?;
+    bytes.resize(shape.radiance_bytes(r), 0);
+    Ok(bytes)
+}
+
+fn encode_column(shape: &Shape, table: &ColumnTable) -> Result<Vec<u8>> {
+    let expected = (shape.up + shape.down) * shape.constituents;
+    check("column", &table.values, expected)?;
+    let mut bytes = Vec::with_capacity(shape.column_bytes());
+    push_f32(&mut bytes, &table.values);
+    Ok(bytes)
+}
+
+/// Appends a matrix with rows padded to a multiple of 16.
+fn push_half(
+    bytes: &mut Vec<u8>,
+    what: &'static str,
+    values: &[f32],
+    rows: usize,
+    columns: usize,
+) -> Result<()> {
+    check(what, values, rows * columns)?;
+    for row in values.chunks_exact(columns) {
+        for &value in row {
+            let half = f16::from_f32(value);
+            if !half.is_finite() {
+                let detail = format!("{value} overflows half precision: move the size into scale");
+                return Err(Error::invalid(what, detail));
+            }
+            bytes.extend_from_slice(U16::new(half.to_bits()).as_bytes());
+        }
+        bytes.resize(bytes.len() + 2 * (ceil16(columns) - columns), 0);
+    }
+    Ok(())
+}
+
+fn check(what: &'static str, values: &[f32], expected: usize) -> Result<()> {
+    if values.len() != expected {
+        return Err(Error::Length {
+            what,
+            expected: expected as u64,
+            got: values.len() as u64,
+        });
+    }
+    match values.iter().find(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(v) => Err(Error::invalid(
+            what,
+            format!("expected finite values, got {v}"),
+        )),
+    }
+}
+
+/// Writes `bytes` to a temporary file beside `path` and renames it: readers see the old file or the new one, never a part.
+///
+/// # Errors
+/// [`Error::Io`] with `path`; the temporary file is removed.
+pub fn replace_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
+    let path = path.as_ref();
+    let temporary = temporary_beside(path);
+    let written = write_synced(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|source| {
+        // Best effort: the error that matters is the first one.
+        let _ = fs::remove_file(&temporary);
+        Error::Io {
+            path: path.to_owned(),
+            source,
+        }
+    })
+}
+
+fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = File::create_new(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+fn temporary_beside(path: &Path) -> PathBuf {
+    static COUNTER: AtomicU32 = AtomicU32::new(0);
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    let unique = COUNTER.fetch_add(1, Ordering::Relaxed);
+    name.push(format!(".{}-{unique}.tmp", std::process::id()));
+    path.with_file_name(name)
+}

@@ -1,0 +1,269 @@
+//! From chunks to the tables of one sky: every axis but direction and wavelength is contracted here.
+
+use crate::axis::{Ends, Stencil, hermite, linear, spline};
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::format::{
+    Field, Head, Payload16, PhaseFunction, RadianceView, Shape, altitude_node, visibility_node,
+    widen,
+};
+use crate::math::LANES;
+use crate::model::Model;
+use crate::phase::PhaseTable;
+use crate::sky::Sky;
+use crate::tables::{Layout, SideTable, Tables};
+
+impl Sky {
+    pub(crate) fn prepare(model: &Model, conditions: &Conditions) -> Result<Self> {
+        let conditions = conditions.checked(model)?;
+        let head = model.head();
+        let place = Place::new(head, &conditions);
+        let groups = Groups::new(head);
+        let fold = place.fold(head, conditions.albedo);
+        let [up, down] = sides(model, &place, &groups, &fold)?;
+        let tables = Tables {
+            scale: pad(&place.elevation_scale(head)),
+            irradiance: pad(&solar(head)),
+            extinction: place.extinction(head),
+            xyz: xyz(head),
+            phases: groups.phases,
+            layout: groups.layout,
+            up,
+            down,
+        };
+        if !tables.is_finite() {
+            let detail = "its values overflow at these conditions: the file is not a sensible sky";
+            return Err(Error::invalid("model", detail));
+        }
+        Ok(Self::new(head, conditions, tables))
+    }
+}
+
+/// Weights of the nodes around the conditions.
+struct Place {
+    altitudes: Stencil,
+    visibilities: Stencil,
+    visibilities_linear: Stencil,
+    elevation: f64,
+}
+
+impl Place {
+    fn new(head: &Head, conditions: &Conditions) -> Self {
+        let visibilities = head.visibility_nodes();
+        let x = visibility_node(conditions.visibility);
+        Self {
+            altitudes: hermite(&head.altitude_nodes(), altitude_node(conditions.altitude)),
+            visibilities: hermite(&visibilities, x),
+            visibilities_linear: linear(&visibilities, x),
+            elevation: head.elevation.coordinate(conditions.solar_elevation),
+        }
+    }
+
+    /// A table `[visibility][n]` at the visibility of the sky, linear in 1/V.
+    fn at_visibility(&self, table: &[f64], n: usize) -> Vec<f64> {
+        let mut row = vec![0.0; n];
+        for (v, weight) in self.visibilities_linear.taps() {
+            for (sum, value) in row.iter_mut().zip(&table[v * n..(v + 1) * n]) {
+                *sum += weight * value;
+            }
+        }
+        row
+    }
+
+    /// What each channel `[field][wavelength]` is multiplied with: the light between ground and sky for ground fields.
+    fn fold(&self, head: &Head, albedo: f64) -> Vec<f32> {
+        let spherical = self.at_visibility(&head.spherical_albedo, head.wavelengths.len());
+        let factor = |ground: bool, s: &f64| match ground {
+            true => (albedo / (1.0 - albedo * s)) as f32,
+            false => 1.0,
+        };
+        let field = |ground: bool| spherical.iter().map(move |s| factor(ground, s));
+        head.fields.iter().flat_map(|f| field(f.ground)).collect()
+    }
+
+    /// S(e, λ).
+    fn elevation_scale(&self, head: &Head) -> Vec<f32> {
+        let nw = head.wavelengths.len();
+        let taps = spline(self.elevation, head.elevation.intervals, Ends::Free);
+        let logarithm = |w: usize| -> f64 {
+            let terms = taps.index.iter().zip(taps.weight);
+            terms
+                .map(|(&i, t)| f64::from(t) * f64::from(head.elevation_scale[i * nw + w]))
+                .sum()
+        };
+        (0..nw).map(|w| logarithm(w).exp() as f32).collect()
+    }
+
+    /// K per constituent, `[constituent][block]`.
+    fn extinction(&self, head: &Head) -> Vec<[f32; LANES]> {
+        let nw = head.wavelengths.len();
+        let table = self.at_visibility(&head.extinction, head.constituents * nw);
+        let narrow = |row: &[f64]| pad(&row.iter().map(|&k| k as f32).collect::<Vec<_>>());
+        table.chunks_exact(nw).flat_map(narrow).collect()
+    }
+}
+
+/// Fields with the same phase function and parameters are one group in the tables.
+struct Groups {
+    phases: Vec<PhaseTable>,
+    layout: Layout,
+    /// Position of each channel `[field][wavelength]` in a row of the tables.
+    position: Vec<usize>,
+}
+
+impl Groups {
+    fn new(head: &Head) -> Self {
+        let mut first: Vec<usize> = Vec::new();
+        let mut group_of = Vec::new();
+        for (f, field) in head.fields.iter().enumerate() {
+            let same = |&g: &usize| same_phase(&head.fields[g], field);
+            let group = first.iter().position(same).unwrap_or_else(|| {
+                first.push(f);
+                first.len() - 1
+            });
+            group_of.push(group);
+        }
+        let layout = Layout::new(first.len(), head.wavelengths.len());
+        let wavelengths = 0..head.wavelengths.len();
+        let place = |&g: &usize| wavelengths.clone().map(move |w| layout.position(g, w));
+        Self {
+            phases: first
+                .iter()
+                .map(|&f| PhaseTable::new(&head.fields[f]))
+                .collect(),
+            position: group_of.iter().flat_map(place).collect(),
+            layout,
+        }
+    }
+}
+
+fn same_phase(a: &Field, b: &Field) -> bool {
+    let none = a.phase == PhaseFunction::None;
+    a.phase == b.phase && (none || a.parameter == b.parameter)
+}
+
+fn sides(model: &Model, place: &Place, groups: &Groups, fold: &[f32]) -> Result<[SideTable; 2]> {
+    let head = model.head();
+    let shape = head.shape();
+    let mut up = SideTable::zeros(head.up, shape.up, &shape, &groups.layout);
+    let mut down = SideTable::zeros(head.down, shape.down, &shape, &groups.layout);
+    for (a, altitude_weight) in place.altitudes.taps() {
+        let column = model.column_chunk(a)?.values;
+        let (above, below) = column.split_at(shape.up * shape.constituents);
+        up.add_columns(above, altitude_weight);
+        down.add_columns(below, altitude_weight);
+        for (v, visibility_weight) in place.visibilities.taps() {
+            let chunk = model.radiance_chunk(a, v)?;
+            let weight = altitude_weight * visibility_weight;
+            let components = Components::new(&chunk, &shape, place, head, weight, groups, fold);
+            components.add_to(&mut up, chunk.alpha_up);
+            components.add_to(&mut down, chunk.alpha_down);
+        }
+    }
+    Ok([up, down])
+}
+
+/// The components of one chunk with everything but direction contracted.
+struct Components {
+    rank: usize,
+    stride: usize,
+    row: usize,
+    /// `[phi][rank]`.
+    phi: Vec<f32>,
+    /// `[rank][row]`: weight, scale, elevation and albedo are in it.
+    channel: Vec<f32>,
+}
+
+impl Components {
+    fn new(
+        chunk: &RadianceView,
+        shape: &Shape,
+        place: &Place,
+        head: &Head,
+        weight: f64,
+        groups: &Groups,
+        fold: &[f32],
+    ) -> Self {
+        let row = groups.layout.row();
+        let taps = spline(place.elevation, head.elevation.intervals, Ends::Free);
+        let mut channel = vec![0.0; chunk.rank * row];
+        for (r, out) in channel.chunks_exact_mut(row).enumerate() {
+            let elevation: f32 = (0..4)
+                .map(|k| taps.weight[k] * widen(chunk.elevation[taps.index[k] * chunk.stride + r]))
+                .sum();
+            let factor = weight as f32 * chunk.scale[r].get() * elevation;
+            let values = &chunk.channel[r * chunk.channel_stride..][..shape.channels];
+            for ((&value, &position), fold) in values.iter().zip(&groups.position).zip(fold) {
+                out[position] += factor * fold * widen(value);
+            }
+        }
+        Self {
+            rank: chunk.rank,
+            stride: chunk.stride,
+            row,
+            phi: widen_rows(chunk.phi, chunk.stride, chunk.rank),
+            channel,
+        }
+    }
+
+    fn add_to(&self, side: &mut SideTable, alpha: &Payload16) {
+        let alpha = widen_rows(alpha, self.stride, self.rank);
+        let nodes = self.phi.len() / self.rank;
+        for (alpha, rows) in alpha.chunks_exact(self.rank).zip(
+            side.radiance
+                .as_flattened_mut()
+                .chunks_exact_mut(nodes * self.row),
+        ) {
+            for (phi, out) in self
+                .phi
+                .chunks_exact(self.rank)
+                .zip(rows.chunks_exact_mut(self.row))
+            {
+                self.add_node(alpha, phi, out);
+            }
+        }
+    }
+
+    fn add_node(&self, alpha: &[f32], phi: &[f32], out: &mut [f32]) {
+        let components = alpha.iter().zip(phi);
+        for ((a, p), channel) in components.zip(self.channel.chunks_exact(self.row)) {
+            let factor = a * p;
+            for (sum, value) in out.iter_mut().zip(channel) {
+                *sum += factor * value;
+            }
+        }
+    }
+}
+
+/// Half-precision rows of width `stride` as single-precision rows of width `rank`.
+fn widen_rows(table: &Payload16, stride: usize, rank: usize) -> Vec<f32> {
+    let rows = table.chunks_exact(stride);
+    rows.flat_map(|row| row[..rank].iter().map(|&h| widen(h)))
+        .collect()
+}
+
+fn solar(head: &Head) -> Vec<f32> {
+    let wavelengths = head.wavelengths.iter();
+    wavelengths
+        .map(|&l| head.solar_irradiance_at(l) as f32)
+        .collect()
+}
+
+/// XYZ weights, `[block][X, Y, Z][lane]`.
+fn xyz(head: &Head) -> Vec<[[f32; LANES]; 3]> {
+    let component = |block: &[[f64; 3]], c: usize| {
+        core::array::from_fn(|i| block.get(i).map_or(0.0, |xyz| xyz[c] as f32))
+    };
+    let blocks = head.xyz.chunks(LANES);
+    blocks
+        .map(|block| core::array::from_fn(|c| component(block, c)))
+        .collect()
+}
+
+fn pad(values: &[f32]) -> Vec<[f32; LANES]> {
+    let lane = |block: &[f32], i: usize| block.get(i).copied().unwrap_or(0.0);
+    let blocks = values.chunks(LANES);
+    blocks
+        .map(|block| core::array::from_fn(|i| lane(block, i)))
+        .collect()
+}

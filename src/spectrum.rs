@@ -1,0 +1,42 @@
+//! Radiance between the wavelengths of the model. Format specification, section 7.3.
+
+use crate::axis::{hermite, linear};
+
+/// Interpolates radiances at `nodes` (nm) to `wavelength`: smooth in the logarithm, linear where a value is zero.
+pub(crate) fn between(nodes: &[f64], radiance: &[f32], wavelength: f64) -> f64 {
+    let stencil = hermite(nodes, wavelength);
+    if stencil.taps().all(|(i, _)| radiance[i] > 0.0) {
+        let logarithm: f64 = stencil
+            .taps()
+            .map(|(i, w)| w * f64::from(radiance[i]).ln())
+            .sum();
+        return logarithm.exp();
+    }
+    linear(nodes, wavelength)
+        .taps()
+        .map(|(i, w)| w * f64::from(radiance[i]))
+        .sum()
+}
+
+/// Samples at `start + i · step`, linear between them and constant beyond their ends.
+pub(crate) fn sample(samples: &[f32], [start, step]: [f64; 2], x: f64) -> f64 {
+    let last = samples.len() - 1;
+    let u = ((x - start) / step).clamp(0.0, last as f64);
+    let i = (u as usize).min(last - 1);
+    let t = u - i as f64;
+    (1.0 - t) * f64::from(samples[i]) + t * f64::from(samples[i + 1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::between;
+
+    #[test]
+    fn exact_at_nodes_and_linear_beside_zero() {
+        let nodes = [400.0, 500.0, 600.0, 700.0];
+        assert_eq!(between(&nodes, &[1.0, 2.0, 4.0, 8.0], 500.0) as f32, 2.0);
+        let half = between(&nodes, &[1.0, 2.0, 4.0, 8.0], 550.0);
+        assert!((half - 8f64.sqrt()).abs() < 1e-6);
+        assert_eq!(between(&nodes, &[1.0, 2.0, 4.0, 0.0], 550.0), 3.0);
+    }
+}

@@ -1,0 +1,215 @@
+//! The tables of one sky and the inner loops over them. Format specification, section 7.2.
+//!
+//! Radiance is a bicubic B-spline over (angle from the horizon, azimuth) on each side of the horizon, node-major with
+//! all channels of a node contiguous, so that a query is sixteen short rows times sixteen weights.
+
+use crate::axis::{Ends, Taps, alpha_coordinate, spline};
+use crate::format::{AlphaAxis, Shape};
+use crate::geometry::{Ray, Side};
+use crate::math::{LANES, bound, exp, one_minus_exp_neg};
+use crate::phase::{PhaseTable, SunAngle};
+
+/// Most constituents and most groups of fields that a file can have.
+const MOST: usize = 16;
+/// Groups of fields that stand together in a row.
+const QUAD: usize = 4;
+
+/// Where the channels stand in a row: `[block of wavelengths][quad of groups][group][lane]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layout {
+    blocks: usize,
+    quads: usize,
+}
+
+impl Layout {
+    pub fn new(groups: usize, wavelengths: usize) -> Self {
+        Self {
+            blocks: wavelengths.div_ceil(LANES),
+            quads: groups.div_ceil(QUAD),
+        }
+    }
+
+    /// Numbers in a row.
+    pub fn row(&self) -> usize {
+        self.blocks * self.quads * QUAD * LANES
+    }
+
+    /// Position of a channel in a row.
+    pub fn position(&self, group: usize, wavelength: usize) -> usize {
+        let block = wavelength / LANES * self.quads + group / QUAD;
+        (block * QUAD + group % QUAD) * LANES + wavelength % LANES
+    }
+
+    fn cells(&self) -> usize {
+        self.blocks * self.quads
+    }
+}
+
+/// Coefficients on one side of the horizon.
+#[derive(Clone, Debug)]
+pub(crate) struct SideTable {
+    axis: AlphaAxis,
+    phi_coefficients: usize,
+    constituents: usize,
+    cells: usize,
+    /// `[alpha][phi][cell]`.
+    pub radiance: Vec<[f32; QUAD * LANES]>,
+    /// ln n̄, `[alpha][constituent]`.
+    column: Vec<f32>,
+}
+
+impl SideTable {
+    pub fn zeros(axis: AlphaAxis, coefficients: usize, shape: &Shape, layout: &Layout) -> Self {
+        let cells = layout.cells();
+        Self {
+            axis,
+            phi_coefficients: shape.phi,
+            constituents: shape.constituents,
+            cells,
+            radiance: vec![[0.0; QUAD * LANES]; coefficients * shape.phi * cells],
+            column: vec![0.0; coefficients * shape.constituents],
+        }
+    }
+
+    pub fn add_columns(&mut self, values: &[zerocopy::little_endian::F32], weight: f64) {
+        for (sum, value) in self.column.iter_mut().zip(values) {
+            *sum += (weight * f64::from(value.get())) as f32;
+        }
+    }
+
+    /// Optical path of each constituent per unit of extinction: length times mean density, m.
+    fn depths(&self, taps: &Taps, length: f64) -> [f32; MOST] {
+        let mut depths = [0.0; MOST];
+        let n = self.constituents;
+        for (k, depth) in depths[..n].iter_mut().enumerate() {
+            let terms = taps.index.iter().zip(taps.weight);
+            let logarithm: f32 = terms.map(|(&i, w)| w * self.column[i * n + k]).sum();
+            *depth = length as f32 * exp(logarithm);
+        }
+        depths
+    }
+
+    fn is_finite(&self) -> bool {
+        let radiance = self.radiance.as_flattened().iter();
+        radiance.chain(&self.column).all(|v| v.is_finite())
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.radiance.as_slice()) + size_of_val(self.column.as_slice())
+    }
+}
+
+/// All that a sky needs for its queries.
+#[derive(Clone, Debug)]
+pub(crate) struct Tables {
+    pub layout: Layout,
+    pub up: SideTable,
+    pub down: SideTable,
+    pub phases: Vec<PhaseTable>,
+    /// S, `[block]`.
+    pub scale: Vec<[f32; LANES]>,
+    /// Solar irradiance at the wavelengths, `[block]`.
+    pub irradiance: Vec<[f32; LANES]>,
+    /// K, `[constituent][block]`.
+    pub extinction: Vec<[f32; LANES]>,
+    /// `[block][X, Y, Z]`.
+    pub xyz: Vec<[[f32; LANES]; 3]>,
+}
+
+/// One direction, looked up: what all wavelengths share.
+pub(crate) struct Lookup<'a> {
+    side: &'a SideTable,
+    /// First cell of each of the 16 rows.
+    row: [usize; 16],
+    weight: [f32; 16],
+    depth: [f32; MOST],
+    angle: SunAngle,
+}
+
+impl Tables {
+    /// Finds the coefficients for a ray with the azimuth `phi` (0..=π from the sun).
+    pub fn lookup(&self, ray: &Ray, phi: f64, phi_intervals: usize, angle: SunAngle) -> Lookup<'_> {
+        let side = match ray.side {
+            Side::Up => &self.up,
+            Side::Down => &self.down,
+        };
+        let AlphaAxis {
+            intervals,
+            exponent,
+        } = side.axis;
+        let u = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
+        let alpha = spline(u, intervals, Ends::Free);
+        let u = phi_intervals as f64 * phi / core::f64::consts::PI;
+        let phi = spline(u, phi_intervals, Ends::Mirrored);
+        let node = |t: usize| alpha.index[t / 4] * side.phi_coefficients + phi.index[t % 4];
+        Lookup {
+            side,
+            row: core::array::from_fn(|t| node(t) * side.cells),
+            weight: core::array::from_fn(|t| alpha.weight[t / 4] * phi.weight[t % 4]),
+            depth: side.depths(&alpha, ray.length),
+            angle,
+        }
+    }
+
+    /// Relative radiance (sr⁻¹) at one block of wavelengths: finite and not negative.
+    pub fn block(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
+        let mut sum = [0.0; LANES];
+        for (quad, phases) in self.phases.chunks(QUAD).enumerate() {
+            let fields = lookup.gather(block * self.layout.quads + quad);
+            let fields = fields.as_chunks::<LANES>().0;
+            for (phase, field) in phases.iter().zip(fields) {
+                let phase = phase.evaluate(block, lookup.angle);
+                for i in 0..LANES {
+                    sum[i] += phase[i] * field[i];
+                }
+            }
+        }
+        let opacity = self.opacity(lookup, block);
+        let scale = &self.scale[block];
+        // Only absurd tables can make these bounds count.
+        core::array::from_fn(|i| bound(opacity[i] * scale[i] * sum[i].max(0.0), 0.0, f32::MAX))
+    }
+
+    /// 1 − T.
+    fn opacity(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
+        let mut depth = [0.0; LANES];
+        let rows = self.extinction.chunks_exact(self.layout.blocks);
+        for (row, length) in rows.zip(lookup.depth) {
+            for i in 0..LANES {
+                depth[i] += row[block][i] * length;
+            }
+        }
+        depth.map(one_minus_exp_neg)
+    }
+
+    pub fn is_finite(&self) -> bool {
+        let rows = [&self.scale, &self.irradiance, &self.extinction];
+        let finite = |v: &f32| v.is_finite();
+        rows.iter().all(|r| r.as_flattened().iter().all(finite))
+            && self.xyz.as_flattened().as_flattened().iter().all(finite)
+            && self.up.is_finite()
+            && self.down.is_finite()
+    }
+
+    /// Bytes on the heap.
+    pub fn bytes(&self) -> usize {
+        let rows = [&self.scale, &self.irradiance, &self.extinction];
+        let rows: usize = rows.iter().map(|r| size_of_val(r.as_slice())).sum();
+        let phases: usize = self.phases.iter().map(PhaseTable::bytes).sum();
+        self.up.bytes() + self.down.bytes() + phases + rows + size_of_val(self.xyz.as_slice())
+    }
+}
+
+impl Lookup<'_> {
+    /// The weighted sum of the 16 rows in one cell.
+    fn gather(&self, cell: usize) -> [f32; QUAD * LANES] {
+        let mut sum = [0.0; QUAD * LANES];
+        for (row, weight) in self.row.iter().zip(self.weight) {
+            let values = &self.side.radiance[row + cell];
+            for i in 0..QUAD * LANES {
+                sum[i] += weight * values[i];
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,156 @@
+//! A small model with smooth analytic factors, for tests that need a file but not real air.
+#![allow(dead_code)]
+
+pub mod oracle;
+
+use welkin::axis::ElevationAxis;
+use welkin::format::{
+    AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction, RadianceFactors, encode,
+};
+use welkin::geometry::Planet;
+
+pub const RANK: usize = 5;
+
+/// A model with `altitudes` × `visibilities` radiance chunks.
+pub fn head(altitudes: &[f64], visibilities: &[f64]) -> Head {
+    let wavelengths: Vec<f64> = (0..6).map(|i| 320.0 + 88.0 * f64::from(i)).collect();
+    let (nw, nv) = (wavelengths.len(), visibilities.len());
+    let relative = |l: f64| 550.0 / l;
+    let mut extinction = Vec::new();
+    for v in visibilities {
+        extinction.extend(wavelengths.iter().map(|&l| 1.2e-5 * relative(l).powi(4)));
+        extinction.extend(wavelengths.iter().map(|&l| 3.0 / v * relative(l)));
+    }
+    let ne = 9;
+    let field = |phase, ground, value| Field {
+        phase,
+        ground,
+        parameter: (0..nw).map(|w| value + 0.01 * w as f64).collect(),
+    };
+    Head {
+        planet: Planet {
+            radius: 6_378_000.0,
+            top: 100_000.0,
+        },
+        up: AlphaAxis {
+            intervals: 7,
+            exponent: 3.0,
+        },
+        down: AlphaAxis {
+            intervals: 5,
+            exponent: 2.5,
+        },
+        phi_intervals: 4,
+        elevation: ElevationAxis {
+            min: (-4.2f64).to_radians(),
+            max: 90f64.to_radians(),
+            centre: -0.01,
+            width: 0.06,
+            intervals: ne,
+        },
+        altitudes: altitudes.to_vec(),
+        visibilities: visibilities.to_vec(),
+        constituents: 2,
+        extinction,
+        spherical_albedo: (0..nv * nw).map(|i| 0.05 + 0.01 * i as f64).collect(),
+        xyz: (0..nw)
+            .map(|w| [40.0 + w as f64, 60.0 - w as f64, 30.0].map(|v| 1e3 * v))
+            .collect(),
+        solar_start: 300.0,
+        solar_step: 2.0,
+        elevation_scale: (0..(ne + 3) * nw)
+            .map(|i| -3.0 + 0.25 * (i / nw) as f32 - 0.05 * (i % nw) as f32)
+            .collect(),
+        solar_irradiance: (0..251)
+            .map(|i| 1.0 + 0.5 * (0.1 * i as f32).sin())
+            .collect(),
+        fields: vec![
+            field(PhaseFunction::None, false, 0.0),
+            field(PhaseFunction::Rayleigh, false, 0.03),
+            field(PhaseFunction::HenyeyGreenstein, false, 0.6),
+            field(PhaseFunction::HenyeyGreenstein, false, 0.75),
+            field(PhaseFunction::None, true, 0.0),
+        ],
+        wavelengths,
+        metadata: r#"{"provenance":"synthetic model for tests: not a sky"}"#.to_owned(),
+    }
+}
+
+/// Column and radiance chunks for every altitude and visibility of `head`.
+pub fn chunks(head: &Head) -> Vec<Chunk> {
+    let mut chunks = Vec::new();
+    for a in 0..head.altitudes.len() {
+        chunks.push(Chunk {
+            altitude: a,
+            visibility: None,
+            error_median: 0.0,
+            error_p99: 0.0,
+            payload: Payload::Column(column(head, a)),
+        });
+        for v in 0..head.visibilities.len() {
+            chunks.push(Chunk {
+                altitude: a,
+                visibility: Some(v),
+                error_median: 0.001,
+                error_p99: 0.01,
+                payload: Payload::Radiance(factors(head, a, v)),
+            });
+        }
+    }
+    chunks
+}
+
+fn column(head: &Head, a: usize) -> ColumnTable {
+    let shape = head.shape();
+    let rows = shape.up + shape.down;
+    let value = |row: usize, k: usize| {
+        let steep = if row < shape.up { row } else { rows - row } as f32;
+        -1.0 - 0.1 * a as f32 - 0.2 * steep * (1.0 + k as f32)
+    };
+    let values = (0..rows * shape.constituents)
+        .map(|i| value(i / shape.constituents, i % shape.constituents))
+        .collect();
+    ColumnTable { values }
+}
+
+/// Smooth positive factors that differ between chunks.
+fn factors(head: &Head, a: usize, v: usize) -> RadianceFactors {
+    let shape = head.shape();
+    let wave = |rows: usize, columns: usize, speed: f32| -> Vec<f32> {
+        (0..rows * columns)
+            .map(|i| {
+                let (x, y) = ((i / columns) as f32, (i % columns) as f32);
+                1.2 + (speed * x + 1.3 * y + 0.2 * a as f32 - 0.1 * v as f32).sin()
+            })
+            .collect()
+    };
+    RadianceFactors {
+        rank: RANK,
+        scale: (0..RANK).map(|r| 0.02 / (1.0 + r as f32)).collect(),
+        alpha_up: wave(shape.up, RANK, 0.3),
+        alpha_down: wave(shape.down, RANK, 0.4),
+        phi: wave(shape.phi, RANK, 0.5),
+        elevation: wave(shape.elevation, RANK, 0.2),
+        channel: wave(RANK, shape.channels, 0.7),
+    }
+}
+
+/// Four altitudes, three visibilities.
+pub fn model_bytes() -> Vec<u8> {
+    let head = head(&[0.0, 120.0, 1000.0, 2000.0], &[20e3, 59.4e3, 131.8e3]);
+    encode(&head, &chunks(&head)).expect("the synthetic model is valid")
+}
+
+/// One altitude, one visibility, few nodes: for exhaustive damage.
+pub fn tiny_bytes() -> Vec<u8> {
+    let mut head = head(&[0.0], &[50e3]);
+    head.solar_start = 300.0;
+    head.solar_step = 100.0;
+    head.solar_irradiance = vec![1.0, 1.5, 1.4, 1.2, 1.1, 1.0];
+    head.up.intervals = 2;
+    head.down.intervals = 1;
+    head.phi_intervals = 1;
+    head.elevation.intervals = 1;
+    head.elevation_scale.truncate(4 * head.wavelengths.len());
+    encode(&head, &chunks(&head)).expect("the tiny model is valid")
+}

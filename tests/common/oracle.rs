@@ -1,0 +1,385 @@
+//! The format specification, section 7, once more: slow, in f64, straight from the bytes of the file, and without a
+//! line of the library.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+pub struct Oracle<'a> {
+    file: &'a [u8],
+    n: Counts,
+    at: Offsets,
+}
+
+struct Counts {
+    chunks: usize,
+    w: usize,
+    a: usize,
+    v: usize,
+    f: usize,
+    k: usize,
+    u: usize,
+    d: usize,
+    p: usize,
+    e: usize,
+    s: usize,
+}
+
+struct Offsets {
+    wavelength: usize,
+    altitude: usize,
+    visibility: usize,
+    extinction: usize,
+    spherical: usize,
+    parameter: usize,
+    xyz: usize,
+    solar_axis: usize,
+    scale: usize,
+    solar: usize,
+    field: usize,
+    directory: usize,
+}
+
+pub struct Query {
+    pub altitude: f64,
+    pub visibility: f64,
+    pub albedo: f64,
+    pub solar_elevation: f64,
+    pub direction: [f64; 3],
+    pub solar_azimuth: f64,
+}
+
+impl<'a> Oracle<'a> {
+    pub fn new(file: &'a [u8]) -> Self {
+        let u16 = |at: usize| u16::from_le_bytes(file[at..at + 2].try_into().unwrap()) as usize;
+        let u32 = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        let n = Counts {
+            chunks: u32(36),
+            w: u16(40),
+            a: u16(42),
+            v: u16(44),
+            f: u16(46),
+            k: u16(48),
+            u: u16(50),
+            d: u16(52),
+            p: u16(54),
+            e: u16(56),
+            s: u16(58),
+        };
+        let mut next = 128;
+        let mut place = |bytes: usize| {
+            next += bytes;
+            next - bytes
+        };
+        let at = Offsets {
+            wavelength: place(8 * n.w),
+            altitude: place(8 * n.a),
+            visibility: place(8 * n.v),
+            extinction: place(8 * n.v * n.k * n.w),
+            spherical: place(8 * n.v * n.w),
+            parameter: place(8 * n.f * n.w),
+            xyz: place(24 * n.w),
+            solar_axis: place(16),
+            scale: place(4 * (n.e + 3) * n.w),
+            solar: place(4 * n.s),
+            field: place(4 * n.f),
+            directory: (place(u32(60)) + u32(60)).next_multiple_of(8),
+        };
+        Self { file, n, at }
+    }
+
+    fn f64(&self, at: usize, i: usize) -> f64 {
+        f64::from_le_bytes(self.file[at + 8 * i..][..8].try_into().unwrap())
+    }
+
+    fn f32(&self, at: usize, i: usize) -> f64 {
+        f32::from_le_bytes(self.file[at + 4 * i..][..4].try_into().unwrap()).into()
+    }
+
+    fn f16(&self, at: usize, i: usize) -> f64 {
+        let bits = u16::from_le_bytes(self.file[at + 2 * i..][..2].try_into().unwrap());
+        let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
+        let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023) / 1024.0);
+        sign * match exponent {
+            0 => fraction * 2f64.powi(-14),
+            _ => (1.0 + fraction) * 2f64.powi(exponent - 15),
+        }
+    }
+
+    fn axis(&self, at: usize, n: usize, map: fn(f64) -> f64) -> Vec<f64> {
+        (0..n).map(|i| map(self.f64(at, i))).collect()
+    }
+
+    /// Offset and rank of a chunk.
+    fn chunk(&self, kind: u32, altitude: usize, visibility: usize) -> (usize, usize) {
+        (0..self.n.chunks)
+            .map(|i| &self.file[self.at.directory + 64 * i..][..64])
+            .find(|e| {
+                u32::from_le_bytes(e[0..4].try_into().unwrap()) == kind
+                    && usize::from(u16::from_le_bytes(e[4..6].try_into().unwrap())) == altitude
+                    && usize::from(u16::from_le_bytes(e[6..8].try_into().unwrap())) == visibility
+            })
+            .map(|e| {
+                let offset = u64::from_le_bytes(e[8..16].try_into().unwrap());
+                let rank = u32::from_le_bytes(e[40..44].try_into().unwrap());
+                (offset as usize, rank as usize)
+            })
+            .unwrap()
+    }
+
+    /// Relative radiance at every wavelength.
+    pub fn radiance(&self, q: &Query) -> Vec<f64> {
+        let n = &self.n;
+        let (radius, top) = (self.f64(64, 0), self.f64(72, 0));
+        let r = radius + q.altitude;
+        let [x, y, z] = q.direction;
+        let length = (x * x + y * y + z * z).sqrt();
+        let elevation = (z / length).asin();
+        let dip = (radius / r).acos();
+        let delta = elevation + dip;
+        let up = delta >= 0.0;
+        let u = if up {
+            n.u as f64 * (delta / (FRAC_PI_2 + dip)).powf(1.0 / self.f64(80, 0))
+        } else {
+            n.d as f64 * (-delta / (FRAC_PI_2 - dip)).powf(1.0 / self.f64(88, 0))
+        };
+        let intervals = if up { n.u } else { n.d };
+        let alpha = free(u, intervals);
+        let phi = if x == 0.0 && y == 0.0 {
+            0.0
+        } else {
+            y.atan2(x) - q.solar_azimuth
+        };
+        let azimuth = mirrored(n.p as f64 * phi.cos().acos() / PI, n.p);
+        let sun = [
+            q.solar_elevation.cos() * q.solar_azimuth.cos(),
+            q.solar_elevation.cos() * q.solar_azimuth.sin(),
+            q.solar_elevation.sin(),
+        ];
+        let cosine = (x * sun[0] + y * sun[1] + z * sun[2]) / length;
+        let g = |e: f64| ((e - self.f64(112, 0)) / self.f64(120, 0)).asinh();
+        let (low, high) = (g(self.f64(96, 0)), g(self.f64(104, 0)));
+        let e = free(
+            n.e as f64 * (g(q.solar_elevation) - low) / (high - low),
+            n.e,
+        );
+
+        let cube_roots = self.axis(self.at.altitude, n.a, f64::cbrt);
+        let inverses = self.axis(self.at.visibility, n.v, f64::recip);
+        let a = hermite(&cube_roots, q.altitude.cbrt());
+        let b = hermite(&inverses, 1.0 / q.visibility);
+        let bl = piecewise(&inverses, 1.0 / q.visibility);
+
+        let mu = z / length;
+        let d = if up {
+            let c = (top - q.altitude) * (2.0 * radius + top + q.altitude);
+            -r * mu + ((r * mu).powi(2) + c).sqrt()
+        } else {
+            let c = q.altitude * (2.0 * radius + q.altitude);
+            -r * mu - ((r * mu).powi(2) - c).max(0.0).sqrt()
+        };
+        let row = if up { 0 } else { n.u + 3 };
+        let density: Vec<f64> = (0..n.k)
+            .map(|k| {
+                let mut sum = 0.0;
+                for &(j, aj) in &a {
+                    let (at, _) = self.chunk(2, j, 65535);
+                    for &(i, w) in &alpha {
+                        sum += aj * w * self.f32(at, (row + i) * n.k + k);
+                    }
+                }
+                sum.exp()
+            })
+            .collect();
+        let at_visibility = |at: usize, stride: usize, i: usize| -> f64 {
+            bl.iter()
+                .map(|&(m, w)| w * self.f64(at, m * stride + i))
+                .sum()
+        };
+        (0..n.w)
+            .map(|w| {
+                let depth: f64 = (0..n.k)
+                    .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
+                    .sum::<f64>()
+                    * d;
+                let s: f64 = e
+                    .iter()
+                    .map(|&(i, t)| t * self.f32(self.at.scale, i * n.w + w))
+                    .sum();
+                let spherical = at_visibility(self.at.spherical, n.w, w);
+                let mut total = 0.0;
+                for f in 0..n.f {
+                    let mut value = 0.0;
+                    for &(j, aj) in &a {
+                        for &(m, bm) in &b {
+                            value +=
+                                aj * bm * self.factors(j, m, up, &alpha, &azimuth, &e, f * n.w + w);
+                        }
+                    }
+                    let code = u32::from_le_bytes(
+                        self.file[self.at.field + 4 * f..][..4].try_into().unwrap(),
+                    );
+                    let parameter = self.f64(self.at.parameter, f * n.w + w);
+                    value *= phase(code & 0xffff, parameter, cosine);
+                    if code >> 16 == 1 {
+                        value *= q.albedo / (1.0 - q.albedo * spherical);
+                    }
+                    total += value;
+                }
+                -(-depth).exp_m1() * s.exp() * total.max(0.0)
+            })
+            .collect()
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn factors(
+        &self,
+        altitude: usize,
+        visibility: usize,
+        up: bool,
+        alpha: &[(usize, f64)],
+        phi: &[(usize, f64)],
+        e: &[(usize, f64)],
+        channel: usize,
+    ) -> f64 {
+        let n = &self.n;
+        let (at, rank) = self.chunk(1, altitude, visibility);
+        let q = rank.div_ceil(16) * 16;
+        let c = (n.f * n.w).div_ceil(16) * 16;
+        let up_at = at + 4 * q;
+        let down_at = up_at + 2 * q * (n.u + 3);
+        let phi_at = down_at + 2 * q * (n.d + 3);
+        let e_at = phi_at + 2 * q * (n.p + 1);
+        let channel_at = e_at + 2 * q * (n.e + 3);
+        let along = |at: usize, taps: &[(usize, f64)], r: usize| -> f64 {
+            taps.iter().map(|&(i, w)| w * self.f16(at, i * q + r)).sum()
+        };
+        (0..rank)
+            .map(|r| {
+                self.f32(at, r)
+                    * along(if up { up_at } else { down_at }, alpha, r)
+                    * along(phi_at, phi, r)
+                    * along(e_at, e, r)
+                    * self.f16(channel_at, r * c + channel)
+            })
+            .sum()
+    }
+
+    /// Relative radiance between wavelengths, and the solar irradiance there.
+    pub fn radiance_at(&self, q: &Query, wavelength: f64) -> (f64, f64) {
+        let nodes = self.axis(self.at.wavelength, self.n.w, |x| x);
+        let values = self.radiance(q);
+        let logarithm: f64 = hermite(&nodes, wavelength)
+            .iter()
+            .map(|&(i, w)| w * values[i].ln())
+            .sum();
+        let x = (wavelength - self.f64(self.at.solar_axis, 0)) / self.f64(self.at.solar_axis, 1);
+        let i = (x.floor() as usize).min(self.n.s - 2);
+        let t = x - i as f64;
+        let solar = (1.0 - t) * self.f32(self.at.solar, i) + t * self.f32(self.at.solar, i + 1);
+        (logarithm.exp(), solar)
+    }
+
+    pub fn xyz(&self, q: &Query) -> [f64; 3] {
+        let values = self.radiance(q);
+        [0, 1, 2].map(|c| {
+            values
+                .iter()
+                .enumerate()
+                .map(|(w, v)| v * self.f64(self.at.xyz, 3 * w + c))
+                .sum()
+        })
+    }
+}
+
+fn phase(code: u32, p: f64, cosine: f64) -> f64 {
+    match code {
+        0 => 1.0,
+        1 => {
+            let delta = (1.0 - p) / (1.0 + p / 2.0);
+            delta * 0.75 * (1.0 + cosine * cosine) + 1.0 - delta
+        }
+        _ => (1.0 - p * p) / (1.0 + p * p - 2.0 * p * cosine).powf(1.5),
+    }
+}
+
+fn basis(u: f64, n: usize) -> (usize, [f64; 4]) {
+    let u = u.clamp(0.0, n as f64);
+    let i = (u.floor() as usize).min(n - 1);
+    let t = u - i as f64;
+    let w = [
+        (1.0 - t).powi(3),
+        3.0 * t.powi(3) - 6.0 * t * t + 4.0,
+        -3.0 * t.powi(3) + 3.0 * t * t + 3.0 * t + 1.0,
+        t.powi(3),
+    ];
+    (i, w.map(|w| w / 6.0))
+}
+
+fn free(u: f64, n: usize) -> Vec<(usize, f64)> {
+    let (i, w) = basis(u, n);
+    (0..4).map(|k| (i + k, w[k])).collect()
+}
+
+fn mirrored(u: f64, n: usize) -> Vec<(usize, f64)> {
+    let (i, w) = basis(u, n);
+    let reflect = |m: i64| match m {
+        -1 => 1,
+        m if m == n as i64 + 1 => n - 1,
+        m => m as usize,
+    };
+    (0..4)
+        .map(|k| (reflect((i + k) as i64 - 1), w[k]))
+        .collect()
+}
+
+fn interval(nodes: &[f64], x: f64) -> usize {
+    let between = |i: &usize| (nodes[*i] - x) * (nodes[i + 1] - x) <= 0.0;
+    (0..nodes.len() - 1).find(between).unwrap()
+}
+
+fn piecewise(nodes: &[f64], x: f64) -> Vec<(usize, f64)> {
+    if nodes.len() == 1 {
+        return vec![(0, 1.0)];
+    }
+    let i = interval(nodes, x);
+    let t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+    vec![(i, 1.0 - t), (i + 1, t)]
+}
+
+/// Weights by feeding unit vectors through the textbook form of the Hermite interpolant.
+fn hermite(nodes: &[f64], x: f64) -> Vec<(usize, f64)> {
+    if nodes.len() <= 2 {
+        return piecewise(nodes, x);
+    }
+    let i = interval(nodes, x);
+    let step = nodes[i + 1] - nodes[i];
+    let t = (x - nodes[i]) / step;
+    let value = |y: &[f64]| {
+        let (h00, h10) = (
+            2.0 * t.powi(3) - 3.0 * t * t + 1.0,
+            t.powi(3) - 2.0 * t * t + t,
+        );
+        let (h01, h11) = (3.0 * t * t - 2.0 * t.powi(3), t.powi(3) - t * t);
+        h00 * y[i]
+            + h10 * step * slope(nodes, y, i)
+            + h01 * y[i + 1]
+            + h11 * step * slope(nodes, y, i + 1)
+    };
+    let mut weights = Vec::new();
+    for j in 0..nodes.len() {
+        let mut unit = vec![0.0; nodes.len()];
+        unit[j] = 1.0;
+        let weight = value(&unit);
+        if weight != 0.0 {
+            weights.push((j, weight));
+        }
+    }
+    weights
+}
+
+/// Derivative at node `k` of the Newton form of the parabola through three nodes.
+fn slope(x: &[f64], y: &[f64], k: usize) -> f64 {
+    let a = k.saturating_sub(1).min(x.len() - 3);
+    let first = (y[a + 1] - y[a]) / (x[a + 1] - x[a]);
+    let second = ((y[a + 2] - y[a + 1]) / (x[a + 2] - x[a + 1]) - first) / (x[a + 2] - x[a]);
+    first + second * ((x[k] - x[a]) + (x[k] - x[a + 1]))
+}

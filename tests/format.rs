@@ -1,0 +1,163 @@
+//! Writing and reading back, and what the reader and the writer refuse.
+
+mod common;
+
+use proptest::prelude::*;
+use welkin::Error;
+use welkin::format::{
+    ColumnView, Entry, Kind, Payload, RadianceView, VERSION_MAJOR, encode, parse, write,
+};
+
+fn payload<'a>(bytes: &'a [u8], entry: &Entry) -> &'a [u8] {
+    &bytes[entry.offset..entry.offset + entry.length]
+}
+
+#[test]
+fn head_and_chunks_survive_a_round_trip() {
+    let head = common::head(&[0.0, 500.0], &[20e3, 80e3]);
+    let chunks = common::chunks(&head);
+    let bytes = encode(&head, &chunks).unwrap();
+    let contents = parse(&bytes).unwrap();
+    assert_eq!(contents.head, head);
+    assert_eq!(contents.directory.len(), chunks.len());
+    for (entry, chunk) in contents.directory.iter().zip(&chunks) {
+        assert_eq!(entry.offset % 64, 0);
+        let bytes = payload(&bytes, entry);
+        assert_eq!(crc32fast::hash(bytes), entry.crc32);
+        match &chunk.payload {
+            Payload::Column(table) => {
+                assert_eq!(entry.kind, Kind::Column);
+                let view = ColumnView::new(bytes, &head.shape()).unwrap();
+                assert!(view.values.iter().zip(&table.values).all(|(a, b)| a == b));
+            }
+            Payload::Radiance(factors) => {
+                let view = RadianceView::new(bytes, &head.shape(), entry.rank).unwrap();
+                assert_eq!(view.rank, factors.rank);
+                let row = view.stride;
+                for (i, &expected) in factors.phi.iter().enumerate() {
+                    let bits = view.phi[i / factors.rank * row + i % factors.rank].get();
+                    assert_eq!(half::f16::from_bits(bits), half::f16::from_f32(expected));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_written_file_has_the_encoded_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.welkin");
+    let head = common::head(&[0.0], &[20e3]);
+    write(&path, &head, &common::chunks(&head)).unwrap();
+    let expected = encode(&head, &common::chunks(&head)).unwrap();
+    assert_eq!(std::fs::read(&path).unwrap(), expected);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    let nowhere = folder.path().join("missing").join("model.welkin");
+    assert!(matches!(
+        write(&nowhere, &head, &[]),
+        Err(Error::Io { path, .. }) if path == nowhere
+    ));
+}
+
+#[test]
+fn the_writer_refuses_what_the_reader_would() {
+    let head = common::head(&[0.0], &[20e3]);
+    let good = common::chunks(&head);
+    let refuse = |change: &dyn Fn(&mut welkin::format::Chunk)| {
+        let mut chunks = good.clone();
+        change(&mut chunks[1]);
+        encode(&head, &chunks).unwrap_err()
+    };
+    let factors = |change: fn(&mut welkin::format::RadianceFactors)| {
+        refuse(&|chunk| {
+            if let Payload::Radiance(f) = &mut chunk.payload {
+                change(f);
+            }
+        })
+    };
+    assert!(matches!(
+        factors(|f| f.phi[3] = f32::NAN),
+        Error::Invalid { what: "phi", .. }
+    ));
+    assert!(matches!(
+        factors(|f| f.phi[3] = 70e3),
+        Error::Invalid { what: "phi", .. }
+    ));
+    assert!(matches!(
+        factors(|f| f.rank = 0),
+        Error::Invalid { what: "rank", .. }
+    ));
+    assert!(matches!(
+        factors(|f| f.rank = 6),
+        Error::Length { what: "scale", .. }
+    ));
+    assert!(matches!(refuse(&|c| c.altitude = 1), Error::Invalid { .. }));
+    assert!(matches!(
+        refuse(&|c| c.visibility = None),
+        Error::Invalid { .. }
+    ));
+    assert!(matches!(
+        refuse(&|c| c.error_p99 = f32::NAN),
+        Error::Invalid { .. }
+    ));
+    let twice = [good.clone(), good.clone()].concat();
+    assert!(
+        encode(&head, &twice)
+            .unwrap_err()
+            .to_string()
+            .contains("twice")
+    );
+}
+
+#[test]
+fn foreign_newer_and_short_files_get_errors_of_their_own() {
+    let bytes = common::tiny_bytes();
+    assert!(matches!(parse(b""), Err(Error::NotWelkin)));
+    assert!(matches!(parse(b"\x89PNG\r\n\x1a\n"), Err(Error::NotWelkin)));
+    assert!(matches!(parse(&bytes[..100]), Err(Error::Length { .. })));
+    assert!(matches!(
+        parse(&bytes[..bytes.len() - 1]),
+        Err(Error::Length { .. })
+    ));
+    let longer = [bytes.clone(), vec![0]].concat();
+    assert!(matches!(parse(&longer), Err(Error::Length { .. })));
+    let mut newer = bytes.clone();
+    newer[8] = 1;
+    assert!(matches!(
+        parse(&newer),
+        Err(Error::Version {
+            expected: VERSION_MAJOR,
+            got: 1
+        })
+    ));
+    let mut featured = bytes.clone();
+    featured[12] = 4;
+    assert!(matches!(parse(&featured), Err(Error::Feature { bits: 4 })));
+}
+
+proptest! {
+    #[test]
+    fn any_valid_head_survives_a_round_trip(
+        altitudes in proptest::collection::btree_set(0u32..15_000, 1..5),
+        visibilities in proptest::collection::btree_set(1u32..200, 1..5),
+        metadata in ".{0,40}",
+        exponent in 1.0..8.0f64,
+    ) {
+        let floats = |set: std::collections::BTreeSet<u32>, scale: f64| -> Vec<f64> {
+            set.into_iter().map(|v| f64::from(v) * scale).collect()
+        };
+        let mut head = common::head(&floats(altitudes, 1.0), &floats(visibilities, 1e3));
+        head.metadata = metadata;
+        head.up.exponent = exponent;
+        let bytes = encode(&head, &common::chunks(&head)).unwrap();
+        prop_assert_eq!(parse(&bytes).unwrap().head, head);
+    }
+
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in proptest::collection::vec(any::<u8>(), 0..400), prefix in 0usize..300) {
+        let mut file = common::tiny_bytes();
+        file.truncate(prefix);
+        file.extend(bytes);
+        prop_assert!(parse(&file).is_err());
+    }
+}
