@@ -50,8 +50,9 @@ impl Model {
     pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         #[cfg(feature = "mmap")]
-        return Self::new(Bytes::Mapped(map(path).map_err(|e| io(path, e))?));
-        #[cfg(not(feature = "mmap"))]
+        if let Some(map) = map(path).map_err(|e| io(path, e))? {
+            return Self::new(Bytes::Mapped(map));
+        }
         Self::read(path)
     }
 
@@ -165,6 +166,11 @@ impl Model {
         self.bytes.as_slice().len()
     }
 
+    /// Length of the head, bytes: all that opening reads.
+    pub fn head_bytes(&self) -> usize {
+        self.contents.head_length
+    }
+
     /// Bytes of the file that were read so far: the head and the touched chunks.
     pub fn touched_bytes(&self) -> usize {
         let touched = self.verified.iter().zip(self.directory());
@@ -260,11 +266,15 @@ fn io(path: &Path, source: std::io::Error) -> Error {
     }
 }
 
+/// Maps a regular file; anything else (a pipe, say) cannot be mapped.
 #[cfg(feature = "mmap")]
-fn map(path: &Path) -> std::io::Result<memmap2::Mmap> {
+fn map(path: &Path) -> std::io::Result<Option<memmap2::Mmap>> {
     let file = std::fs::File::open(path)?;
+    if !file.metadata()?.is_file() {
+        return Ok(None);
+    }
     // SAFETY: the map is read-only and private to the model; that nobody changes the file meanwhile is the caller's
     // part, stated at `Model::open`. All bytes are treated as untrusted integers and floats, of which every bit
     // pattern is valid.
-    unsafe { memmap2::Mmap::map(&file) }
+    unsafe { memmap2::Mmap::map(&file) }.map(Some)
 }

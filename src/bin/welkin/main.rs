@@ -1,2 +1,103 @@
-//! cli
-fn main() {}
+//! The `welkin` command: renders, queries and describes clear-sky models.
+
+mod failure;
+mod image;
+mod info;
+mod projection;
+mod query;
+mod render;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand};
+use failure::{Failure, Result};
+use welkin::Model;
+
+/// Clear-sky radiance from a compact model.
+#[derive(Parser)]
+#[command(name = "welkin", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a sky to EXR and PNG.
+    Render(render::Options),
+    /// Answer the rows of a CSV table with values.
+    Query(query::Options),
+    /// Describe a model file.
+    Info(info::Options),
+}
+
+/// Which model a command works on.
+#[derive(clap::Args)]
+struct Source {
+    /// Model file; the embedded default model if absent.
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+}
+
+impl Source {
+    fn open(&self) -> Result<Model> {
+        match &self.model {
+            Some(path) => Model::open(path).map_err(|error| Failure::in_file(path, error)),
+            None => Ok(Model::default_model()?),
+        }
+    }
+
+    fn name(&self) -> String {
+        match &self.model {
+            Some(path) => path.display().to_string(),
+            None => "embedded default model".to_owned(),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse_arguments(&error),
+    };
+    let outcome = match &arguments.command {
+        Command::Render(options) => render::run(options),
+        Command::Query(options) => query::run(options),
+        Command::Info(options) => info::run(options),
+    };
+    match outcome {
+        // Whoever closed the pipe has seen enough.
+        Ok(()) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
+        Err(Failure::Message(message)) => complain(&message),
+    }
+}
+
+/// Help goes out as clap writes it; errors become one line.
+fn refuse_arguments(error: &clap::Error) -> ExitCode {
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            // A closed pipe is no failure here either.
+            let _ = error.print();
+            ExitCode::SUCCESS
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            complain("a command is missing: render, query or info (see welkin --help)")
+        }
+        _ => {
+            let text = error.render().to_string();
+            let about = |line: &&str| !line.trim().is_empty();
+            let first: Vec<&str> = text.lines().take_while(about).map(str::trim).collect();
+            complain(first.join(" ").trim_start_matches("error: "))
+        }
+    }
+}
+
+fn complain(message: &str) -> ExitCode {
+    use std::io::Write;
+    let line = message.replace(['\n', '\r'], " ");
+    // Nobody is left to tell when standard error is closed.
+    let _ = writeln!(std::io::stderr(), "welkin: {line}");
+    ExitCode::from(2)
+}

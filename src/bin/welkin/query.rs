@@ -1,0 +1,289 @@
+//! `welkin query`: a CSV table in, the same table with values out.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+
+use csv::ByteRecord;
+use welkin::{Conditions, Model, Sky};
+
+use crate::Source;
+use crate::failure::{Failure, Result, describe};
+
+/// Prepared skies that are kept at once.
+const MOST_SKIES: usize = 128;
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: Source,
+    /// Fail (exit code 2) if a row got an error.
+    #[arg(long)]
+    strict: bool,
+    /// Move conditions that the model does not reach to its nearest.
+    #[arg(long)]
+    clamp: bool,
+    /// Table with a header; standard input if absent or "-".
+    file: Option<PathBuf>,
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    let model = options.source.open()?;
+    let mut reader = csv::ReaderBuilder::new()
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(input(options)?);
+    let header = reader.byte_headers().map_err(unreadable)?.clone();
+    let columns = Columns::find(&header)?;
+    let mut writer = csv::Writer::from_writer(io::stdout().lock());
+    write_row(&mut writer, &header, header.len(), "value", "error")?;
+    let mut answerer = Answerer {
+        model: &model,
+        clamp: options.clamp,
+        skies: HashMap::new(),
+    };
+    let (mut rows, mut failures) = (0u64, 0u64);
+    let mut row = ByteRecord::new();
+    while reader.read_byte_record(&mut row).map_err(unreadable)? {
+        rows += 1;
+        let (value, error) = match columns.answer(&row, header.len(), &mut answerer) {
+            Ok(value) => (format!("{value:?}"), String::new()),
+            Err(error) => (String::new(), error),
+        };
+        failures += u64::from(!error.is_empty());
+        write_row(&mut writer, &row, header.len(), &value, &error)?;
+    }
+    writer.flush()?;
+    if options.strict && failures > 0 {
+        let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
+        return Err(Failure::message(text));
+    }
+    Ok(())
+}
+
+fn input(options: &Options) -> Result<Box<dyn Read>> {
+    match &options.file {
+        Some(path) if path.as_os_str() != "-" => {
+            let unreadable = |e: io::Error| Failure::message(format!("{}: {e}", path.display()));
+            Ok(Box::new(File::open(path).map_err(unreadable)?))
+        }
+        _ => Ok(Box::new(io::stdin().lock())),
+    }
+}
+
+fn unreadable(error: csv::Error) -> Failure {
+    Failure::message(format!("cannot read the table: {error}"))
+}
+
+fn write_row(
+    writer: &mut csv::Writer<impl io::Write>,
+    row: &ByteRecord,
+    columns: usize,
+    value: &str,
+    error: &str,
+) -> Result<()> {
+    let cells = (0..columns).map(|i| row.get(i).unwrap_or(b""));
+    let written = writer.write_record(cells.chain([value.as_bytes(), error.as_bytes()]));
+    written.map_err(|error| match error.into_kind() {
+        csv::ErrorKind::Io(error) => Failure::from(error),
+        other => Failure::message(format!("cannot write the table: {other:?}")),
+    })
+}
+
+const QUANTITY: &str = "quantity";
+const DISTANCE: &str = "distance_m";
+const NUMBERS: [&str; 7] = [
+    "visibility_km",
+    "albedo",
+    "altitude_m",
+    "solar_elevation_deg",
+    "view_zenith_deg",
+    "view_azimuth_deg",
+    "wavelength_nm",
+];
+
+/// Where the columns stand.
+struct Columns {
+    quantity: usize,
+    numbers: [usize; 7],
+    distance: Option<usize>,
+}
+
+impl Columns {
+    fn find(header: &ByteRecord) -> Result<Self> {
+        for reserved in ["value", "error"] {
+            if position(header, reserved)?.is_some() {
+                let text = format!("the table has a column \"{reserved}\" already: rename it");
+                return Err(Failure::message(text));
+            }
+        }
+        let wanted = |name: &str| {
+            position(header, name)?.ok_or_else(|| {
+                Failure::message(format!(
+                    "the table lacks the column \"{name}\"; it needs {QUANTITY}, {}",
+                    NUMBERS.join(", ")
+                ))
+            })
+        };
+        let mut numbers = [0; 7];
+        for (index, name) in numbers.iter_mut().zip(NUMBERS) {
+            *index = wanted(name)?;
+        }
+        Ok(Self {
+            quantity: wanted(QUANTITY)?,
+            numbers,
+            distance: position(header, DISTANCE)?,
+        })
+    }
+
+    /// The value for a row, or what to write in its error column.
+    fn answer(
+        &self,
+        row: &ByteRecord,
+        columns: usize,
+        answerer: &mut Answerer,
+    ) -> std::result::Result<f32, String> {
+        if row.len() != columns {
+            return Err(format!("expected {columns} cells, got {}", row.len()));
+        }
+        let quantity = Quantity::parse(&row[self.quantity])?;
+        let mut numbers = [0.0; 7];
+        for ((number, &index), name) in numbers.iter_mut().zip(&self.numbers).zip(NUMBERS) {
+            *number = parse_number(name, &row[index])?;
+        }
+        if let Some(cell) = self.distance.map(|index| &row[index])
+            && !cell.is_empty()
+            && parse_number(DISTANCE, cell)? != f64::INFINITY
+        {
+            return Err("distance_m must be empty: radiance is along the whole ray".to_owned());
+        }
+        answerer.answer(quantity, numbers)
+    }
+}
+
+/// The index of a column; two of the same name are an error.
+fn position(header: &ByteRecord, name: &str) -> Result<Option<usize>> {
+    let bytes = name.as_bytes();
+    let mut found = header.iter().enumerate().filter(|(_, cell)| {
+        // Some programs put a byte order mark before the first column.
+        cell.strip_prefix(b"\xef\xbb\xbf").unwrap_or(cell) == bytes
+    });
+    let first = found.next().map(|(i, _)| i);
+    match found.next() {
+        None => Ok(first),
+        Some(_) => Err(Failure::message(format!(
+            "the table has two columns \"{name}\""
+        ))),
+    }
+}
+
+fn parse_number(name: &str, cell: &[u8]) -> std::result::Result<f64, String> {
+    let text = String::from_utf8_lossy(cell);
+    if text.is_empty() {
+        return Err(format!("{name} is empty"));
+    }
+    let number = text.parse::<f64>();
+    number.map_err(|_| format!("{name} must be a number, got \"{text}\""))
+}
+
+#[derive(Clone, Copy)]
+enum Quantity {
+    Radiance,
+    RelativeRadiance,
+}
+
+impl Quantity {
+    fn parse(cell: &[u8]) -> std::result::Result<Self, String> {
+        match cell {
+            b"radiance" => Ok(Self::Radiance),
+            b"relative_radiance" => Ok(Self::RelativeRadiance),
+            b"polarisation" | b"transmittance" | b"in_scatter" | b"sun_radiance" => {
+                Err("not in this version".to_owned())
+            }
+            other => Err(format!(
+                "unknown quantity \"{}\": expected radiance or relative_radiance",
+                String::from_utf8_lossy(other)
+            )),
+        }
+    }
+}
+
+/// Answers rows, and keeps skies for rows with the same conditions.
+struct Answerer<'a> {
+    model: &'a Model,
+    clamp: bool,
+    skies: HashMap<[u64; 4], Sky>,
+}
+
+impl Answerer<'_> {
+    fn answer(
+        &mut self,
+        quantity: Quantity,
+        [
+            visibility,
+            albedo,
+            altitude,
+            elevation,
+            zenith,
+            azimuth,
+            wavelength,
+        ]: [f64; 7],
+    ) -> std::result::Result<f32, String> {
+        if !(0.0..=180.0).contains(&zenith) {
+            return Err(format!("view_zenith_deg must be in 0..=180, got {zenith}"));
+        }
+        if !azimuth.is_finite() {
+            return Err(format!("view_azimuth_deg must be finite, got {azimuth}"));
+        }
+        let sky = self.sky(Conditions {
+            solar_elevation: elevation.to_radians(),
+            solar_azimuth: 0.0,
+            visibility: visibility * 1e3,
+            albedo,
+            altitude,
+        })?;
+        let direction = direction(zenith, azimuth);
+        let value = match quantity {
+            Quantity::Radiance => sky.radiance_at(direction, wavelength),
+            Quantity::RelativeRadiance => sky.relative_radiance_at(direction, wavelength),
+        };
+        value.map_err(|error| describe(&error))
+    }
+
+    fn sky(&mut self, conditions: Conditions) -> std::result::Result<&Sky, String> {
+        let key = [
+            conditions.solar_elevation,
+            conditions.visibility,
+            conditions.albedo,
+            conditions.altitude,
+        ]
+        .map(f64::to_bits);
+        if !self.skies.contains_key(&key) {
+            let conditions = match self.clamp {
+                true => conditions.clamped(self.model),
+                false => Ok(conditions),
+            };
+            let sky = conditions.and_then(|c| self.model.sky(&c));
+            let sky = sky.map_err(|error| describe(&error))?;
+            if self.skies.len() == MOST_SKIES {
+                self.skies.clear();
+            }
+            self.skies.insert(key, sky);
+        }
+        Ok(&self.skies[&key])
+    }
+}
+
+/// Unit vector at a zenith angle and an azimuth from the sun, degrees; exact at the poles and the horizon.
+fn direction(zenith: f64, azimuth: f64) -> [f32; 3] {
+    let elevation = (90.0 - zenith).to_radians();
+    let (z, horizontal) = elevation.sin_cos();
+    let horizontal = if zenith == 0.0 || zenith == 180.0 {
+        0.0
+    } else {
+        horizontal
+    };
+    let (y, x) = (azimuth % 360.0).to_radians().sin_cos();
+    [horizontal * x, horizontal * y, z].map(|v| v as f32)
+}

@@ -1,0 +1,319 @@
+//! `welkin render`.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use welkin::format::replace_file;
+use welkin::{Conditions, Model, Sky};
+
+use crate::Source;
+use crate::failure::Result;
+use crate::image::{Planes, exr, png};
+use crate::projection::Projection;
+
+/// Luminance of display white over the mean luminance of the sky (a geometric mean), for the automatic exposure.
+const WHITE_OVER_MEAN: f64 = 3.5;
+/// Luminance of display white at exposure value 0 (ISO 100), cd m⁻².
+const WHITE_AT_EV_0: f64 = 1.2;
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: Source,
+    /// Solar elevation, degrees.
+    #[arg(
+        long,
+        default_value_t = 20.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_elevation: f64,
+    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_azimuth: f64,
+    /// Azimuth at the top of the up fish-eye or in the middle of the others, degrees.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    view_azimuth: f64,
+    /// Visibility (meteorological range) at the ground, km.
+    #[arg(
+        long,
+        default_value_t = 59.4,
+        allow_negative_numbers = true,
+        value_name = "KM"
+    )]
+    visibility: f64,
+    /// Albedo of the ground, 0 to 1.
+    #[arg(long, default_value_t = 0.2, allow_negative_numbers = true)]
+    albedo: f64,
+    /// Altitude of the observer above the ground, m.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "M"
+    )]
+    altitude: f64,
+    /// Move conditions that the model does not reach to its nearest.
+    #[arg(long)]
+    clamp: bool,
+    /// How the sphere of directions is laid onto the picture.
+    #[arg(long, value_enum, default_value = "up")]
+    projection: Projection,
+    /// Height of the picture, pixels; lat-long is twice as wide.
+    #[arg(long, default_value_t = 768, value_parser = clap::value_parser!(u16).range(1..=16384), value_name = "PIXELS")]
+    size: u16,
+    /// Base name for an EXR and a PNG, or the name of one of them with its extension.
+    #[arg(long, default_value = "sky", value_name = "FILE")]
+    out: PathBuf,
+    /// Write the EXR with one channel per wavelength (W m⁻² sr⁻¹ nm⁻¹) instead of linear sRGB (cd m⁻²).
+    #[arg(long)]
+    spectral: bool,
+    /// Exposure value of the PNG at ISO 100; automatic if absent.
+    #[arg(long, allow_negative_numbers = true, value_name = "EV", value_parser = exposure)]
+    exposure: Option<f64>,
+}
+
+fn exposure(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (-60.0..=60.0).contains(&value) => Ok(value),
+        _ => Err("expected a number in -60..=60".to_owned()),
+    }
+}
+
+impl Options {
+    fn conditions(&self, model: &Model) -> Result<Conditions> {
+        let conditions = Conditions {
+            solar_elevation: self.sun_elevation.to_radians(),
+            solar_azimuth: self.sun_azimuth.to_radians(),
+            visibility: self.visibility * 1e3,
+            albedo: self.albedo,
+            altitude: self.altitude,
+        };
+        if self.clamp {
+            return Ok(conditions.clamped(model)?);
+        }
+        Ok(conditions)
+    }
+
+    /// Paths of the EXR and the PNG, as far as they are wanted.
+    fn outputs(&self) -> [Option<PathBuf>; 2] {
+        let extension = self.out.extension().map(|e| e.to_ascii_lowercase());
+        let with = |extension: &str| {
+            let mut path = self.out.clone().into_os_string();
+            path.push(extension);
+            Some(PathBuf::from(path))
+        };
+        match extension.as_ref().and_then(|e| e.to_str()) {
+            Some("exr") => [Some(self.out.clone()), None],
+            Some("png") => [None, Some(self.out.clone())],
+            _ => [with(".exr"), with(".png")],
+        }
+    }
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    let start = Instant::now();
+    let model = options.source.open()?;
+    let sky = model.sky(&options.conditions(&model)?)?;
+    let prepared = start.elapsed();
+    let view = View::new(options)?;
+    let rendering = Instant::now();
+    let pixels = view.rgb(&sky)?;
+    let rendered = rendering.elapsed();
+    let white = match options.exposure {
+        Some(value) => WHITE_AT_EV_0 * value.exp2(),
+        None => WHITE_OVER_MEAN * mean_luminance(&sky)?,
+    };
+    let written = write(options, &view, &sky, &pixels, white as f32)?;
+    let count = pixels.len();
+    report(options, &model, &sky, white, &written)?;
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "time            {:.2} ms to open and prepare, {:.0} ms for {count} pixels",
+        1e3 * prepared.as_secs_f64(),
+        1e3 * rendered.as_secs_f64(),
+    )?;
+    writeln!(
+        out,
+        "memory          {} of {} bytes of the model touched, {} bytes of tables prepared",
+        model.touched_bytes(),
+        model.file_bytes(),
+        sky.bytes(),
+    )?;
+    Ok(())
+}
+
+/// The pixels of a picture.
+struct View {
+    projection: Projection,
+    size: [usize; 2],
+    azimuth: f64,
+}
+
+impl View {
+    fn new(options: &Options) -> Result<Self> {
+        if !options.view_azimuth.is_finite() {
+            let text = format!("view azimuth must be finite, got {}", options.view_azimuth);
+            return Err(crate::failure::Failure::message(text));
+        }
+        Ok(Self {
+            projection: options.projection,
+            size: options.projection.dimensions(options.size.into()),
+            azimuth: options.view_azimuth.to_radians(),
+        })
+    }
+
+    fn directions(&self) -> impl Iterator<Item = Option<[f32; 3]>> + '_ {
+        let [width, height] = self.size;
+        let pixels = (0..height).flat_map(move |row| (0..width).map(move |column| [column, row]));
+        pixels.map(|pixel| self.projection.direction(pixel, self.size, self.azimuth))
+    }
+
+    fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
+        let pixel = |direction: Option<[f32; 3]>| match direction {
+            Some(direction) => sky.linear_srgb(direction),
+            None => Ok([0.0; 3]),
+        };
+        self.directions().map(pixel).collect()
+    }
+
+    fn spectral(&self, sky: &Sky) -> welkin::Result<Vec<Vec<f32>>> {
+        let count = self.size[0] * self.size[1];
+        let mut planes = vec![vec![0.0; count]; sky.wavelengths().len()];
+        let mut radiance = vec![0.0; planes.len()];
+        for (i, direction) in self.directions().enumerate() {
+            if let Some(direction) = direction {
+                sky.radiance(direction, &mut radiance)?;
+                planes
+                    .iter_mut()
+                    .zip(&radiance)
+                    .for_each(|(p, &l)| p[i] = l);
+            }
+        }
+        Ok(planes)
+    }
+}
+
+fn write(
+    options: &Options,
+    view: &View,
+    sky: &Sky,
+    pixels: &[[f32; 3]],
+    white: f32,
+) -> Result<Vec<PathBuf>> {
+    let [exr_path, png_path] = options.outputs();
+    let mut written = Vec::new();
+    let mut save = |path: Option<PathBuf>, bytes: &dyn Fn() -> Result<Vec<u8>>| -> Result<()> {
+        if let Some(path) = path {
+            replace_file(&path, &bytes()?)?;
+            written.push(path);
+        }
+        Ok(())
+    };
+    save(exr_path, &|| exr(planes(options, view, sky, pixels)?))?;
+    save(png_path, &|| png(view.size, pixels, white))?;
+    Ok(written)
+}
+
+fn planes(options: &Options, view: &View, sky: &Sky, pixels: &[[f32; 3]]) -> Result<Planes> {
+    let size = view.size;
+    if options.spectral {
+        let names = sky.wavelengths().iter().map(|&l| channel_name(l));
+        return Ok(Planes {
+            size,
+            planes: names.zip(view.spectral(sky)?).collect(),
+            attributes: vec![
+                ("spectralLayoutVersion", "1.0"),
+                ("emissiveUnits", "W.m^-2.sr^-1.nm^-1"),
+            ],
+            comment: "spectral radiance, W m^-2 sr^-1 nm^-1",
+        });
+    }
+    let plane = |i: usize| pixels.iter().map(|p| p[i]).collect();
+    Ok(Planes {
+        size,
+        planes: vec![
+            ("R".to_owned(), plane(0)),
+            ("G".to_owned(), plane(1)),
+            ("B".to_owned(), plane(2)),
+        ],
+        attributes: Vec::new(),
+        comment: "linear sRGB, cd m^-2",
+    })
+}
+
+/// A dot would separate layers, so the decimal mark is a comma.
+fn channel_name(wavelength: f64) -> String {
+    format!("S0.{}nm", wavelength.to_string().replace('.', ","))
+}
+
+/// Geometric mean over the upper hemisphere, cd m⁻².
+fn mean_luminance(sky: &Sky) -> Result<f64> {
+    let rings = 8;
+    let spokes = 16;
+    let (mut sum, mut count) = (0.0, 0.0);
+    for ring in 0..rings {
+        let z = (f64::from(ring) + 0.5) / f64::from(rings);
+        for spoke in 0..spokes {
+            let phi = f64::from(spoke) / f64::from(spokes) * std::f64::consts::TAU;
+            let r = (1.0 - z * z).sqrt();
+            let direction = [r * phi.cos(), r * phi.sin(), z].map(|v| v as f32);
+            sum += f64::from(sky.xyz(direction)?[1]).max(1e-12).ln();
+            count += 1.0;
+        }
+    }
+    Ok((sum / count).exp())
+}
+
+fn report(
+    options: &Options,
+    model: &Model,
+    sky: &Sky,
+    white: f64,
+    written: &[impl AsRef<Path>],
+) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    let conditions = sky.conditions();
+    writeln!(
+        out,
+        "model           {}, {} wavelengths",
+        options.source.name(),
+        model.wavelengths().len()
+    )?;
+    writeln!(
+        out,
+        "sun             elevation {:.2}°, azimuth {:.2}°",
+        conditions.solar_elevation.to_degrees(),
+        conditions.solar_azimuth.to_degrees(),
+    )?;
+    writeln!(
+        out,
+        "conditions      visibility {} km, albedo {}, altitude {} m",
+        conditions.visibility * 1e-3,
+        conditions.albedo,
+        conditions.altitude,
+    )?;
+    let zenith = sky.xyz([0.0, 0.0, 1.0])?[1];
+    writeln!(out, "zenith          {zenith:.4} cd/m²")?;
+    writeln!(
+        out,
+        "exposure        EV {:.2}",
+        (white / WHITE_AT_EV_0).log2()
+    )?;
+    for path in written {
+        writeln!(out, "wrote           {}", path.as_ref().display())?;
+    }
+    Ok(())
+}
