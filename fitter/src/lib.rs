@@ -2,6 +2,10 @@
 //!
 //! `atmosphere → tracer → dataset → decompose → file`, each in a module of its own.
 
+pub mod assess;
 pub mod atmosphere;
 pub mod column;
+pub mod dataset;
+pub mod decompose;
 pub mod orders;
+pub mod pack;

@@ -5,7 +5,7 @@
 //! optical depth at every wavelength.
 
 mod real;
-mod table;
+pub mod table;
 
 pub use real::{VISIBILITIES, real};
 

@@ -118,6 +118,16 @@ impl<'a> Gatherer<'a> {
         }
     }
 
+    /// Polarising share of Rayleigh scattering.
+    pub fn polarising(&self) -> &Spectrum {
+        &self.medium.polarising
+    }
+
+    /// Henyey-Greenstein phase function of an aerosol species.
+    pub fn phase(&self, species: usize, cosine: f32) -> Spectrum {
+        henyey_greenstein(&self.asymmetry(species), cosine)
+    }
+
     /// Asymmetry parameter of an aerosol species; 0 where the atmosphere has none.
     pub fn asymmetry(&self, species: usize) -> Spectrum {
         let mut found = self.medium.parts.iter().filter_map(|p| p.aerosols.get(species));

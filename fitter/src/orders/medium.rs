@@ -152,6 +152,11 @@ pub fn henyey_greenstein(g: &Spectrum, c: f32) -> Spectrum {
     })
 }
 
+/// Rayleigh phase function, mean 1, for polarising shares `delta`.
+pub fn rayleigh_phase(delta: &Spectrum, c: f32) -> Spectrum {
+    delta.map(|d| 0.75 * d * (1.0 + c * c) + 1.0 - d)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

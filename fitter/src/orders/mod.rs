@@ -14,6 +14,7 @@ mod solve;
 pub mod source;
 
 pub use gather::{FIELDS, Fields, Gatherer};
-pub use medium::{Medium, NW, SUN_RADIUS, Spectrum};
+pub use medium::{Medium, NW, SUN_RADIUS, Spectrum, rayleigh_phase};
+pub use path::Path;
 pub use moments::Moments;
 pub use solve::{LightField, Settings, solve};

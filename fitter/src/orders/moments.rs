@@ -79,6 +79,15 @@ impl Moments {
         Self { values: rows.into_iter().flatten().collect() }
     }
 
+    /// From all values in a row.
+    pub fn from_values(values: &[f32]) -> Self {
+        let (spectra, _) = values.as_chunks::<NW>();
+        let (nodes, _) = spectra.as_chunks::<COUNT>();
+        Self {
+            values: nodes.to_vec(),
+        }
+    }
+
     /// The moments of altitude `i` and sun `j`.
     pub fn node(&self, i: usize, j: usize) -> &[Spectrum; COUNT] {
         &self.values[i * SUNS + j]

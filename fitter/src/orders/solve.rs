@@ -53,6 +53,30 @@ pub struct LightField {
     pub spherical_albedo: Spectrum,
 }
 
+impl LightField {
+    /// All numbers in a row, for a file.
+    pub fn to_values(&self) -> Vec<f32> {
+        let moments = [&self.sky, &self.ground].into_iter().flat_map(Moments::nodes);
+        let moments = moments.flatten().flatten();
+        let rest = self.diffuse.iter().flatten().chain(&self.spherical_albedo);
+        moments.chain(rest).copied().collect()
+    }
+
+    /// The inverse of [`LightField::to_values`]; `None` for another number of values.
+    pub fn from_values(values: &[f32]) -> Option<Self> {
+        let nodes = ALTITUDES.len() * SUNS;
+        let (sky, rest) = values.split_at_checked(nodes * COUNT * NW)?;
+        let (ground, rest) = rest.split_at_checked(nodes * COUNT * NW)?;
+        let (diffuse, albedo) = rest.split_at_checked(SUNS * NW)?;
+        Some(Self {
+            sky: Moments::from_values(sky),
+            ground: Moments::from_values(ground),
+            diffuse: diffuse.as_chunks().0.to_vec(),
+            spherical_albedo: albedo.try_into().ok()?,
+        })
+    }
+}
+
 /// Where ground emission comes from in one application of the transport operator.
 enum Source<'a> {
     Sun,
@@ -133,7 +157,6 @@ impl<'a> Solver<'a> {
 
     /// Moments of the light that reaches every grid node from `source` without being scattered again.
     fn apply(&self, source: &Source) -> Moments {
-        let t = std::time::Instant::now();
         let rows = (0..ALTITUDES.len())
             .into_par_iter()
             .map(|i| {
@@ -145,7 +168,6 @@ impl<'a> Solver<'a> {
                 row
             })
             .collect();
-        eprintln!("apply {:?} nodes {}", t.elapsed(), self.directions.iter().flatten().map(|d| d.path.nodes.len()).sum::<usize>());
         Moments::from_rows(rows)
     }
 

@@ -1,0 +1,119 @@
+//! How far a model is from held-out traced radiance.
+
+use crate::dataset::Sample;
+use anyhow::Result;
+use serde::Serialize;
+use welkin::{Conditions, Model};
+
+/// Median, 95th, 99th percentile and largest relative error of a class of directions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Quantiles {
+    /// Number of values.
+    pub count: usize,
+    /// Half of the errors are smaller.
+    pub median: f64,
+    /// 95 of 100 errors are smaller.
+    pub p95: f64,
+    /// 99 of 100 errors are smaller.
+    pub p99: f64,
+    /// The largest error.
+    pub max: f64,
+}
+
+/// A relative error and where it was made.
+#[derive(Clone, Copy, Debug)]
+pub struct Error {
+    /// |model − truth| / truth.
+    pub relative: f64,
+    /// Solar elevation, rad.
+    pub solar_elevation: f64,
+    /// Angle from the geometric horizon, rad.
+    pub from_horizon: f64,
+    /// Angle to the sun, rad.
+    pub to_sun: f64,
+}
+
+/// Directions of the sphere and suns that are reported apart.
+pub const CLASSES: [(&str, fn(&Error) -> bool); 6] = [
+    ("all", |_| true),
+    ("day (sun > 0°)", |e| e.solar_elevation > 0.0),
+    ("twilight", |e| e.solar_elevation <= 0.0),
+    ("sun 0..12°", |e| (0.0..0.21).contains(&e.solar_elevation)),
+    ("within 15° of the sun", |e| e.to_sun < 0.262),
+    ("within 2° of the horizon", |e| e.from_horizon < 0.0349),
+];
+
+impl Quantiles {
+    /// Of `errors`; `None` if there are none.
+    pub fn of(errors: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = errors.collect();
+        sorted.sort_by(f64::total_cmp);
+        let last = sorted.len().checked_sub(1)?;
+        let at = |q: f64| sorted[(q * last as f64).round() as usize];
+        Some(Self { count: last + 1, median: at(0.5), p95: at(0.95), p99: at(0.99), max: at(1.0) })
+    }
+}
+
+/// Errors of `model` at `samples` for all wavelengths. Directions in which the truth is exactly zero must be zero in the model and
+/// do not count.
+pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<Error>> {
+    let mut out = vec![];
+    let mut row = vec![];
+    let mut previous: Option<(Conditions, welkin::Sky)> = None;
+    for sample in samples {
+        let conditions = Conditions {
+            solar_elevation: sample.solar_elevation,
+            solar_azimuth: 0.0,
+            visibility,
+            albedo: sample.albedo,
+            altitude: sample.altitude,
+        };
+        let sky = match previous.take() {
+            Some((same, sky)) if same == conditions => sky,
+            _ => model.sky(&conditions)?,
+        };
+        row.resize(sky.wavelengths().len(), 0.0f32);
+        sky.relative_radiance(sample.direction(), &mut row)?;
+        let place = place(&sky, sample);
+        for (got, want) in row.iter().zip(sample.radiance) {
+            if want > 0.0 {
+                out.push(Error { relative: (f64::from(*got) / want - 1.0).abs(), ..place });
+            } else {
+                anyhow::ensure!(*got == 0.0, "light where there is none");
+            }
+        }
+        previous = Some((conditions, sky));
+    }
+    Ok(out)
+}
+
+fn place(sky: &welkin::Sky, sample: &Sample) -> Error {
+    let sun = sky.sun_direction();
+    let d = sample.direction();
+    let cosine: f32 = sun.iter().zip(d).map(|(a, b)| a * b).sum();
+    Error {
+        relative: 0.0,
+        solar_elevation: sample.solar_elevation,
+        from_horizon: sky.planet().ray(sample.altitude, sample.view_elevation).angle,
+        to_sun: f64::from(cosine.clamp(-1.0, 1.0)).acos(),
+    }
+}
+
+/// One line per class with errors in percent.
+pub fn table(errors: &[Error]) -> String {
+    let mut out = format!("{:<26}{:>9}{:>9}{:>9}{:>9}{:>10}\n", "", "values", "median", "p95", "p99", "max");
+    for (name, belongs) in CLASSES {
+        let class = errors.iter().filter(|e| belongs(e)).map(|e| e.relative);
+        if let Some(q) = Quantiles::of(class) {
+            out += &format!(
+                "{name:<26}{:>9}{:>8.3}%{:>8.3}%{:>8.3}%{:>9.3}%\n",
+                q.count,
+                100.0 * q.median,
+                100.0 * q.p95,
+                100.0 * q.p99,
+                100.0 * q.max
+            );
+        }
+    }
+    out
+}

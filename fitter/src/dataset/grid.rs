@@ -1,0 +1,126 @@
+//! Where the sky is sampled: the axes of the model and the points on them.
+
+use crate::orders::NW;
+use std::f64::consts::{FRAC_PI_2, PI};
+use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
+use welkin::geometry::{Planet, Side};
+
+/// Wavelength nodes, nm: 320, 360 … 760, so that any wavelength of the paper's 11 bands can be asked.
+pub const WAVELENGTHS: [f64; NW] =
+    [320.0, 360.0, 400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0, 720.0, 760.0];
+
+/// A spline axis with its sample sites.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// Number of intervals.
+    pub intervals: usize,
+    /// Behaviour at the ends.
+    pub ends: Ends,
+}
+
+impl Axis {
+    /// As many sites as coefficients: the knots, and for free ends the middle of the first and last interval.
+    pub fn sites(&self) -> Vec<f64> {
+        let knots = (0..=self.intervals).map(|i| i as f64);
+        match self.ends {
+            Ends::Mirrored => knots.collect(),
+            Ends::Free => {
+                let n = self.intervals as f64;
+                let mut sites: Vec<f64> = knots.chain([0.5, n - 0.5]).collect();
+                sites.sort_by(f64::total_cmp);
+                sites
+            }
+        }
+    }
+
+    /// Number of coefficients and of sites.
+    pub fn len(&self) -> usize {
+        coefficients(self.intervals, self.ends)
+    }
+
+    /// Never: an axis has at least two coefficients.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+}
+
+/// The grid of a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// Observer altitudes, m.
+    pub altitudes: Vec<f64>,
+    /// Visibilities, m.
+    pub visibilities: Vec<f64>,
+    /// Axis above the geometric horizon and its exponent.
+    pub up: (Axis, f64),
+    /// Axis below the geometric horizon and its exponent.
+    pub down: (Axis, f64),
+    /// Azimuth axis.
+    pub phi: Axis,
+    /// Solar elevation axis.
+    pub elevation: ElevationAxis,
+}
+
+impl Default for Grid {
+    /// The grid of the embedded default model.
+    fn default() -> Self {
+        let free = |intervals| Axis { intervals, ends: Ends::Free };
+        Self {
+            altitudes: vec![0.0, 30.0, 120.0, 400.0, 1000.0, 1500.0, 2000.0],
+            visibilities: vec![20_000.0, 59_400.0, 131_800.0],
+            up: (free(40), 3.0),
+            down: (free(24), 3.0),
+            phi: Axis { intervals: 12, ends: Ends::Mirrored },
+            elevation: ElevationAxis {
+                min: (-4.2f64).to_radians(),
+                max: FRAC_PI_2,
+                centre: (-1.0f64).to_radians(),
+                width: 4f64.to_radians(),
+                intervals: 40,
+            },
+        }
+    }
+}
+
+/// Observers at the ground are traced from this height: looking down they would see nothing to normalise.
+const LOWEST: f64 = 0.5;
+
+impl Grid {
+    /// Altitude at which chunk `a` is traced, m.
+    pub fn traced_altitude(&self, a: usize) -> f64 {
+        self.altitudes[a].max(LOWEST)
+    }
+
+    /// View directions of altitude `a`: side and elevation above the local horizontal (rad), up axis first.
+    pub fn view_sites(&self, planet: Planet, a: usize) -> Vec<(Side, f64)> {
+        let dip = planet.dip(self.traced_altitude(a));
+        let branch = |(axis, exponent): (Axis, f64), range: f64, side: Side| {
+            axis.sites().into_iter().map(move |u| {
+                let angle = alpha_angle(u, range, axis.intervals, exponent);
+                match side {
+                    Side::Up => (side, angle - dip),
+                    Side::Down => (side, -angle - dip),
+                }
+            })
+        };
+        branch(self.up, FRAC_PI_2 + dip, Side::Up)
+            .chain(branch(self.down, FRAC_PI_2 - dip, Side::Down))
+            .collect()
+    }
+
+    /// Azimuths relative to the sun, rad.
+    pub fn phi_sites(&self) -> Vec<f64> {
+        let n = self.phi.intervals as f64;
+        self.phi.sites().into_iter().map(|u| u / n * PI).collect()
+    }
+
+    /// The elevation axis as a spline axis.
+    pub fn elevation_axis(&self) -> Axis {
+        Axis { intervals: self.elevation.intervals, ends: Ends::Free }
+    }
+
+    /// Solar elevations, rad.
+    pub fn elevation_sites(&self) -> Vec<f64> {
+        self.elevation_axis().sites().into_iter().map(|u| self.elevation.elevation(u)).collect()
+    }
+}

@@ -1,0 +1,11 @@
+//! The data that the model is fitted to: the grid, the work units that fill it, and their files.
+
+mod checkpoint;
+mod grid;
+mod tensor;
+mod truth;
+
+pub use checkpoint::Store;
+pub use grid::{Axis, Grid, WAVELENGTHS};
+pub use tensor::{Tensor, trace_tensor};
+pub use truth::{Sample, truth};

@@ -1,0 +1,138 @@
+//! Traced radiance at random, held-out conditions, to judge a fit by.
+
+use crate::orders::source::Sun;
+use crate::orders::{Fields, Gatherer, LightField, NW, gather, rayleigh_phase};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI};
+use welkin::geometry::Side;
+
+/// One held-out direction under one sun.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Observer altitude, m.
+    pub altitude: f64,
+    /// Elevation of the view direction, rad.
+    pub view_elevation: f64,
+    /// Azimuth relative to the sun, rad.
+    pub view_azimuth: f64,
+    /// Solar elevation, rad.
+    pub solar_elevation: f64,
+    /// Ground albedo.
+    pub albedo: f64,
+    /// Traced radiance per unit of solar irradiance, sr⁻¹.
+    pub radiance: [f64; NW],
+}
+
+/// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns and albedos.
+///
+/// Half of the solar elevations are uniform in −4.2..90°, the others in −4.2..12°. Sun-major.
+pub fn truth(gatherer: &Gatherer, light: &LightField, altitude: f64, counts: [usize; 2], seed: u64) -> Vec<Sample> {
+    let [views, suns] = counts;
+    let skies = skies(altitude, suns, seed);
+    let rows: Vec<Vec<Sample>> = (0..views)
+        .into_par_iter()
+        .map(|i| view(gatherer, light, &skies, seed.wrapping_add(7919 * (i as u64 + 1))))
+        .collect();
+    (0..suns).flat_map(|k| rows.iter().map(move |row| row[k])).collect()
+}
+
+fn uniform(rng: &mut Pcg64Mcg) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+fn skies(altitude: f64, count: usize, seed: u64) -> Vec<Sample> {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let lowest = (-4.2f64).to_radians();
+    (0..count)
+        .map(|k| {
+            let highest = if k % 2 == 0 { FRAC_PI_2 } else { 12f64.to_radians() };
+            Sample {
+                altitude,
+                view_elevation: 0.0,
+                view_azimuth: 0.0,
+                solar_elevation: lowest + uniform(&mut rng) * (highest - lowest),
+                albedo: uniform(&mut rng),
+                radiance: [0.0; NW],
+            }
+        })
+        .collect()
+}
+
+fn view(gatherer: &Gatherer, light: &LightField, skies: &[Sample], seed: u64) -> Vec<Sample> {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let mu = 2.0 * uniform(&mut rng) - 1.0;
+    let mut samples = skies.to_vec();
+    for sample in &mut samples {
+        sample.view_elevation = mu.asin();
+        sample.view_azimuth = PI * uniform(&mut rng);
+    }
+    let altitude = skies[0].altitude;
+    let side = gatherer.planet().ray(altitude, mu.asin()).side;
+    if side == Side::Down && altitude == 0.0 {
+        return samples;
+    }
+    let suns: Vec<Sun> = samples.iter().map(sun).collect();
+    let path = gatherer.path(altitude, mu.asin(), side);
+    let fields = gatherer.fields(&path, mu, &suns);
+    for ((sample, fields), sun) in samples.iter_mut().zip(&fields).zip(&suns) {
+        let cosine = gather::scattering_cosine(mu, sun);
+        sample.radiance = total(gatherer, light, fields, cosine, sample.albedo);
+    }
+    samples
+}
+
+fn sun(sample: &Sample) -> Sun {
+    let (se, ce) = sample.solar_elevation.sin_cos();
+    let (sa, ca) = sample.view_azimuth.sin_cos();
+    Sun { elevation: (ce, se), azimuth: (ca, sa) }
+}
+
+/// Radiance from its fields, for a scattering cosine and a ground albedo.
+pub fn total(gatherer: &Gatherer, light: &LightField, fields: &Fields, cosine: f32, albedo: f64) -> [f64; NW] {
+    let rayleigh = rayleigh_phase(gatherer.polarising(), cosine);
+    let fine = gatherer.phase(0, cosine);
+    let coarse = gatherer.phase(1, cosine);
+    std::array::from_fn(|w| {
+        let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));
+        f64::from(fields.rayleigh[w] * rayleigh[w] + fields.fine[w] * fine[w] + fields.coarse[w] * coarse[w])
+            + f64::from(fields.multiple[0][w])
+            + ground * f64::from(fields.ground[0][w])
+    })
+}
+
+/// Length of a sample in a file.
+const SAMPLE: usize = 5 + NW;
+
+impl Sample {
+    /// As numbers for a file.
+    pub fn to_values(&self) -> [f32; SAMPLE] {
+        let head = [self.altitude, self.view_elevation, self.view_azimuth, self.solar_elevation, self.albedo];
+        let mut values = head.into_iter().chain(self.radiance);
+        std::array::from_fn(|_| values.next().unwrap_or(0.0) as f32)
+    }
+
+    /// The inverse of [`Sample::to_values`] for a row of samples.
+    pub fn from_values(values: &[f32]) -> Vec<Self> {
+        values.as_chunks::<SAMPLE>().0.iter().map(|v| Self::from_row(&v.map(f64::from))).collect()
+    }
+
+    fn from_row(v: &[f64; SAMPLE]) -> Self {
+        Self {
+            altitude: v[0],
+            view_elevation: v[1],
+            view_azimuth: v[2],
+            solar_elevation: v[3],
+            albedo: v[4],
+            radiance: std::array::from_fn(|w| v[5 + w]),
+        }
+    }
+
+    /// View direction in the frame whose +x points towards the sun.
+    pub fn direction(&self) -> [f32; 3] {
+        let (se, ce) = self.view_elevation.sin_cos();
+        let (sa, ca) = self.view_azimuth.sin_cos();
+        [(ce * ca) as f32, (ce * sa) as f32, se as f32]
+    }
+}
