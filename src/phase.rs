@@ -50,6 +50,7 @@ impl PhaseTable {
     }
 
     /// Values for one block of wavelengths.
+    #[inline(always)]
     pub fn evaluate(&self, block: usize, angle: SunAngle) -> [f32; LANES] {
         match self {
             Self::Quadratic(table) => {

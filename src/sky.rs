@@ -226,6 +226,7 @@ impl Sky {
         }
     }
 
+    #[inline(always)]
     fn lookup(&self, direction: [f32; 3]) -> Result<Lookup<'_>> {
         // In double precision the square of every single-precision number is normal.
         let [x, y, z] = direction.map(f64::from);

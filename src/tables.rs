@@ -78,6 +78,7 @@ impl SideTable {
     }
 
     /// Optical path of each constituent per unit of extinction: length times mean density, m.
+    #[inline(always)]
     fn depths(&self, taps: &Taps, length: f64) -> [f32; MOST] {
         let mut depths = [0.0; MOST];
         let n = self.constituents;
@@ -128,6 +129,7 @@ pub(crate) struct Lookup<'a> {
 
 impl Tables {
     /// Finds the coefficients for a ray with the azimuth `phi` (0..=π from the sun).
+    #[inline(always)]
     pub fn lookup(&self, ray: &Ray, phi: f64, phi_intervals: usize, angle: SunAngle) -> Lookup<'_> {
         let side = match ray.side {
             Side::Up => &self.up,
@@ -171,6 +173,7 @@ impl Tables {
     }
 
     /// 1 − T.
+    #[inline(always)]
     fn opacity(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
         let mut depth = [0.0; LANES];
         let rows = self.extinction.chunks_exact(self.layout.blocks);
@@ -179,7 +182,11 @@ impl Tables {
                 depth[i] += row[block][i] * length;
             }
         }
-        depth.map(one_minus_exp_neg)
+        // A plain loop: `map` over an array is not always inlined, and then does not vectorise.
+        for value in &mut depth {
+            *value = one_minus_exp_neg(*value);
+        }
+        depth
     }
 
     pub fn is_finite(&self) -> bool {
@@ -202,6 +209,7 @@ impl Tables {
 
 impl Lookup<'_> {
     /// The weighted sum of the 16 rows in one cell.
+    #[inline(always)]
     fn gather(&self, cell: usize) -> [f32; QUAD * LANES] {
         let mut sum = [0.0; QUAD * LANES];
         for (row, weight) in self.row.iter().zip(self.weight) {
