@@ -14,6 +14,21 @@ const MOST: usize = 16;
 /// Groups of fields that stand together in a row.
 const QUAD: usize = 4;
 
+/// One block of wavelengths of four groups. Aligned so that it stands in one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Cell(pub [f32; QUAD * LANES]);
+
+impl Cell {
+    pub const ZERO: Self = Self([0.0; QUAD * LANES]);
+
+    #[inline(always)]
+    pub fn add(&mut self, weight: f32, other: &Cell) {
+        // A new array instead of sums in place: nothing can alias, so this vectorises.
+        self.0 = core::array::from_fn(|i| self.0[i] + weight * other.0[i]);
+    }
+}
+
 /// Where the channels stand in a row: `[block of wavelengths][quad of groups][group][lane]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
@@ -29,18 +44,14 @@ impl Layout {
         }
     }
 
-    /// Numbers in a row.
-    pub fn row(&self) -> usize {
-        self.blocks * self.quads * QUAD * LANES
+    /// Cell of a channel in a row, and its place in the cell.
+    pub fn position(&self, group: usize, wavelength: usize) -> (usize, usize) {
+        let cell = wavelength / LANES * self.quads + group / QUAD;
+        (cell, group % QUAD * LANES + wavelength % LANES)
     }
 
-    /// Position of a channel in a row.
-    pub fn position(&self, group: usize, wavelength: usize) -> usize {
-        let block = wavelength / LANES * self.quads + group / QUAD;
-        (block * QUAD + group % QUAD) * LANES + wavelength % LANES
-    }
-
-    fn cells(&self) -> usize {
+    /// Cells in a row.
+    pub fn cells(&self) -> usize {
         self.blocks * self.quads
     }
 }
@@ -53,7 +64,7 @@ pub(crate) struct SideTable {
     constituents: usize,
     cells: usize,
     /// `[alpha][phi][cell]`.
-    pub radiance: Vec<[f32; QUAD * LANES]>,
+    pub radiance: Vec<Cell>,
     /// ln n̄, `[alpha][constituent]`.
     column: Vec<f32>,
 }
@@ -66,7 +77,7 @@ impl SideTable {
             phi_coefficients: shape.phi,
             constituents: shape.constituents,
             cells,
-            radiance: vec![[0.0; QUAD * LANES]; coefficients * shape.phi * cells],
+            radiance: vec![Cell::ZERO; coefficients * shape.phi * cells],
             column: vec![0.0; coefficients * shape.constituents],
         }
     }
@@ -91,7 +102,7 @@ impl SideTable {
     }
 
     fn is_finite(&self) -> bool {
-        let radiance = self.radiance.as_flattened().iter();
+        let radiance = self.radiance.iter().flat_map(|cell| &cell.0);
         radiance.chain(&self.column).all(|v| v.is_finite())
     }
 
@@ -153,19 +164,48 @@ impl Tables {
         }
     }
 
-    /// Relative radiance (sr⁻¹) at one block of wavelengths: finite and not negative.
-    pub fn block(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
-        let mut sum = [0.0; LANES];
-        for (quad, phases) in self.phases.chunks(QUAD).enumerate() {
-            let fields = lookup.gather(block * self.layout.quads + quad);
-            let fields = fields.as_chunks::<LANES>().0;
-            for (phase, field) in phases.iter().zip(fields) {
-                let phase = phase.evaluate(block, lookup.angle);
-                for i in 0..LANES {
-                    sum[i] += phase[i] * field[i];
+    /// Relative radiance (sr⁻¹), finite and not negative, handed to `emit` block by block of wavelengths.
+    #[inline(always)]
+    pub fn radiance(&self, lookup: &Lookup, mut emit: impl FnMut(usize, [f32; LANES])) {
+        let mut block = 0;
+        if self.layout.quads == 1 {
+            // The usual case: three cells at a time share the work on weights and rows.
+            while block + 3 <= self.layout.blocks {
+                for cell in lookup.gather::<3>(block) {
+                    emit(
+                        block,
+                        self.finish(lookup, block, self.fields(lookup, 0, block, &cell)),
+                    );
+                    block += 1;
                 }
             }
         }
+        while block < self.layout.blocks {
+            let mut sum = [0.0; LANES];
+            for quad in 0..self.layout.quads {
+                let [cell] = lookup.gather(block * self.layout.quads + quad);
+                let fields = self.fields(lookup, quad, block, &cell);
+                sum = core::array::from_fn(|i| sum[i] + fields[i]);
+            }
+            emit(block, self.finish(lookup, block, sum));
+            block += 1;
+        }
+    }
+
+    /// Sum of the fields of a quad, each times its phase function.
+    #[inline(always)]
+    fn fields(&self, lookup: &Lookup, quad: usize, block: usize, cell: &Cell) -> [f32; LANES] {
+        let mut sum = [0.0; LANES];
+        let phases = self.phases[quad * QUAD..].iter().take(QUAD);
+        for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
+            let phase = phase.evaluate(block, lookup.angle);
+            sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i]);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn finish(&self, lookup: &Lookup, block: usize, sum: [f32; LANES]) -> [f32; LANES] {
         let opacity = self.opacity(lookup, block);
         let scale = &self.scale[block];
         // Only absurd tables can make these bounds count.
@@ -208,16 +248,16 @@ impl Tables {
 }
 
 impl Lookup<'_> {
-    /// The weighted sum of the 16 rows in one cell.
+    /// The weighted sums of the 16 rows in `N` cells.
     #[inline(always)]
-    fn gather(&self, cell: usize) -> [f32; QUAD * LANES] {
-        let mut sum = [0.0; QUAD * LANES];
+    fn gather<const N: usize>(&self, cell: usize) -> [Cell; N] {
+        let mut sums = [Cell::ZERO; N];
         for (row, weight) in self.row.iter().zip(self.weight) {
-            let values = &self.side.radiance[row + cell];
-            for i in 0..QUAD * LANES {
-                sum[i] += weight * values[i];
+            let values = &self.side.radiance[row + cell..][..N];
+            for (sum, values) in sums.iter_mut().zip(values) {
+                sum.add(weight, values);
             }
         }
-        sum
+        sums
     }
 }
