@@ -27,7 +27,7 @@
 //!
 //! Units are SI, angles radians, wavelengths nanometres. Every input is checked: what cannot be answered is an
 //! [`Error`] that names the parameter, its value and its range. The file format is specified in
-//! `format-spec/SPEC.md` and implemented in [`format`].
+//! `format-spec/SPEC.md` and implemented in [`mod@format`].
 //!
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
 //! builds the command `welkin`.
