@@ -36,13 +36,13 @@ pub fn spline(u: f64, intervals: usize, ends: Ends) -> Taps {
     let i = (u as usize).min(intervals - 1);
     let t = u - i as f64;
     let s = 1.0 - t;
+    const SIXTH: f64 = 1.0 / 6.0;
     let weight = [
-        s * s * s / 6.0,
-        (t * t * (3.0 * t - 6.0) + 4.0) / 6.0,
-        (s * s * (3.0 * s - 6.0) + 4.0) / 6.0,
-        t * t * t / 6.0,
-    ]
-    .map(|w| w as f32);
+        (s * s * s * SIXTH) as f32,
+        ((t * t * (3.0 * t - 6.0) + 4.0) * SIXTH) as f32,
+        ((s * s * (3.0 * s - 6.0) + 4.0) * SIXTH) as f32,
+        (t * t * t * SIXTH) as f32,
+    ];
     let index = core::array::from_fn(|k| match ends {
         Ends::Free => i + k,
         Ends::Mirrored => reflect(i as isize + k as isize - 1, intervals as isize),

@@ -229,7 +229,8 @@ impl Sky {
             return Err(Error::Direction { got: direction });
         }
         let length = square.sqrt();
-        let unit = [x, y, z].map(|v| v / length);
+        let shrink = 1.0 / length;
+        let unit = [x * shrink, y * shrink, z * shrink];
         let elevation = z.atan2(horizontal.sqrt());
         let ray = self
             .planet

@@ -154,10 +154,12 @@ impl Tables {
         let alpha = spline(u, intervals, Ends::Free);
         let u = phi_intervals as f64 * phi / core::f64::consts::PI;
         let phi = spline(u, phi_intervals, Ends::Mirrored);
-        let node = |t: usize| alpha.index[t / 4] * side.phi_coefficients + phi.index[t % 4];
+        let stride = side.phi_coefficients * side.cells;
+        let rows: [usize; 4] = core::array::from_fn(|k| alpha.index[k] * stride);
+        let columns: [usize; 4] = core::array::from_fn(|k| phi.index[k] * side.cells);
         Lookup {
             side,
-            row: core::array::from_fn(|t| node(t) * side.cells),
+            row: core::array::from_fn(|t| rows[t / 4] + columns[t % 4]),
             weight: core::array::from_fn(|t| alpha.weight[t / 4] * phi.weight[t % 4]),
             depth: side.depths(&alpha, ray.length),
             angle,
@@ -171,13 +173,12 @@ impl Tables {
         if self.layout.quads == 1 {
             // The usual case: three cells at a time share the work on weights and rows.
             while block + 3 <= self.layout.blocks {
-                for cell in lookup.gather::<3>(block) {
-                    emit(
-                        block,
-                        self.finish(lookup, block, self.fields(lookup, 0, block, &cell)),
-                    );
-                    block += 1;
+                let cells = lookup.gather::<3>(block);
+                for (i, cell) in cells.iter().enumerate() {
+                    let fields = self.fields(lookup, 0, block + i, cell);
+                    emit(block + i, self.finish(lookup, block + i, fields));
                 }
+                block += 3;
             }
         }
         while block < self.layout.blocks {
