@@ -29,19 +29,20 @@ pub const fn coefficients(intervals: usize, ends: Ends) -> usize {
 }
 
 /// Uniform cubic B-spline weights at `u` in `0..=intervals` (clamped; NaN counts as 0).
+#[inline]
 pub fn spline(u: f64, intervals: usize, ends: Ends) -> Taps {
     let top = intervals as f64;
     let u = if u > 0.0 { u.min(top) } else { 0.0 };
     let i = (u as usize).min(intervals - 1);
     let t = u - i as f64;
     let s = 1.0 - t;
+    const SIXTH: f64 = 1.0 / 6.0;
     let weight = [
-        s * s * s / 6.0,
-        (t * t * (3.0 * t - 6.0) + 4.0) / 6.0,
-        (s * s * (3.0 * s - 6.0) + 4.0) / 6.0,
-        t * t * t / 6.0,
-    ]
-    .map(|w| w as f32);
+        (s * s * s * SIXTH) as f32,
+        ((t * t * (3.0 * t - 6.0) + 4.0) * SIXTH) as f32,
+        ((s * s * (3.0 * s - 6.0) + 4.0) * SIXTH) as f32,
+        (t * t * t * SIXTH) as f32,
+    ];
     let index = core::array::from_fn(|k| match ends {
         Ends::Free => i + k,
         Ends::Mirrored => reflect(i as isize + k as isize - 1, intervals as isize),
@@ -49,6 +50,7 @@ pub fn spline(u: f64, intervals: usize, ends: Ends) -> Taps {
     Taps { index, weight }
 }
 
+#[inline]
 fn reflect(m: isize, n: isize) -> usize {
     let m = m.abs();
     (if m > n { 2 * n - m } else { m }) as usize
@@ -159,6 +161,7 @@ fn add_tangent(nodes: &[f64], k: usize, first: usize, factor: f64, weight: &mut 
 }
 
 /// Maps an angle from the geometric horizon to a spline coordinate (the up and down axes).
+#[inline]
 pub fn alpha_coordinate(angle: f64, range: f64, intervals: usize, exponent: f64) -> f64 {
     intervals as f64 * (angle / range).clamp(0.0, 1.0).powf(1.0 / exponent)
 }

@@ -47,6 +47,7 @@ impl Planet {
     }
 
     /// [`Planet::ray`] for callers who know the dip of the horizon and the sine of the elevation.
+    #[inline]
     pub fn ray_with_dip(&self, altitude: f64, dip: f64, elevation: f64, sine: f64) -> Ray {
         let delta = elevation + dip;
         let (side, range) = if delta >= 0.0 {
@@ -62,6 +63,7 @@ impl Planet {
         }
     }
 
+    #[inline]
     fn length(&self, altitude: f64, mu: f64, side: Side) -> f64 {
         let r = self.radius + altitude;
         let b = r * mu;

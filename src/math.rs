@@ -4,6 +4,7 @@
 pub(crate) const LANES: usize = 4;
 
 /// Splits e^x into a power of two `s` and `e` with e^x = s + e, |e| small against s; x in −87..=88.
+#[inline(always)]
 fn split_exp(x: f32) -> (f32, f32) {
     // Adding 1.5 · 2^23 rounds to an integer and leaves it in the low bits.
     const ROUND: f32 = 12_582_912.0;
@@ -26,17 +27,20 @@ fn split_exp(x: f32) -> (f32, f32) {
 }
 
 /// `x` in `low..=high`; unlike `clamp`, NaN becomes `low`.
+#[inline(always)]
 pub(crate) fn bound(x: f32, low: f32, high: f32) -> f32 {
     x.max(low).min(high)
 }
 
 /// e^x with a relative error below 2e-7; x is clamped to −87..=88, NaN counts as −87.
+#[inline(always)]
 pub(crate) fn exp(x: f32) -> f32 {
     let (power, rest) = split_exp(bound(x, -87.0, 88.0));
     power + rest
 }
 
 /// 1 − e^−x with a relative error below 4e-7, for x ≥ 0 (clamped to 0..=87, NaN counts as 87).
+#[inline(always)]
 pub(crate) fn one_minus_exp_neg(x: f32) -> f32 {
     let (power, rest) = split_exp(bound(-x, -87.0, 0.0));
     (1.0 - power) - rest

@@ -50,6 +50,7 @@ impl PhaseTable {
     }
 
     /// Values for one block of wavelengths.
+    #[inline(always)]
     pub fn evaluate(&self, block: usize, angle: SunAngle) -> [f32; LANES] {
         match self {
             Self::Quadratic(table) => {
@@ -75,12 +76,13 @@ impl PhaseTable {
     }
 }
 
-/// Transposes the coefficients of up to [`LANES`] parameters; missing ones become 0 (b = 1 would do as well).
+/// Transposes the coefficients of up to [`LANES`] parameters; where parameters are missing, 1 keeps the arithmetic
+/// away from underflow, which is slow.
 fn lanes<const N: usize>(
     parameters: &[f64],
     coefficients: impl Fn(f64) -> [f64; N],
 ) -> [[f32; LANES]; N] {
-    let mut block = [[0.0; LANES]; N];
+    let mut block = [[1.0; LANES]; N];
     for (lane, &parameter) in parameters.iter().enumerate() {
         for (row, value) in block.iter_mut().zip(coefficients(parameter)) {
             row[lane] = value as f32;

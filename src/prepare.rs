@@ -1,17 +1,16 @@
 //! From chunks to the tables of one sky: every axis but direction and wavelength is contracted here.
 
-use crate::axis::{Ends, Stencil, hermite, linear, spline};
+use crate::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    Field, Head, Payload16, PhaseFunction, RadianceView, Shape, altitude_node, visibility_node,
-    widen,
+    Field, Head, Payload16, PhaseFunction, RadianceView, altitude_node, visibility_node, widen,
 };
 use crate::math::LANES;
 use crate::model::Model;
 use crate::phase::PhaseTable;
 use crate::sky::Sky;
-use crate::tables::{Layout, SideTable, Tables};
+use crate::tables::{Cell, Layout, SideTable, Tables};
 
 impl Sky {
     pub(crate) fn prepare(model: &Model, conditions: &Conditions) -> Result<Self> {
@@ -19,8 +18,14 @@ impl Sky {
         let head = model.head();
         let place = Place::new(head, &conditions);
         let groups = Groups::new(head);
-        let fold = place.fold(head, conditions.albedo);
-        let [up, down] = sides(model, &place, &groups, &fold)?;
+        let baker = Baker {
+            model,
+            place: &place,
+            groups: &groups,
+            fold: place.fold(head, conditions.albedo),
+            elevation: spline(place.elevation, head.elevation.intervals, Ends::Free),
+        };
+        let [up, down] = baker.sides()?;
         let tables = Tables {
             scale: pad(&place.elevation_scale(head)),
             irradiance: pad(&solar(head)),
@@ -108,7 +113,7 @@ struct Groups {
     phases: Vec<PhaseTable>,
     layout: Layout,
     /// Position of each channel `[field][wavelength]` in a row of the tables.
-    position: Vec<usize>,
+    position: Vec<(usize, usize)>,
 }
 
 impl Groups {
@@ -142,95 +147,101 @@ fn same_phase(a: &Field, b: &Field) -> bool {
     a.phase == b.phase && (none || a.parameter == b.parameter)
 }
 
-fn sides(model: &Model, place: &Place, groups: &Groups, fold: &[f32]) -> Result<[SideTable; 2]> {
-    let head = model.head();
-    let shape = head.shape();
-    let mut up = SideTable::zeros(head.up, shape.up, &shape, &groups.layout);
-    let mut down = SideTable::zeros(head.down, shape.down, &shape, &groups.layout);
-    for (a, altitude_weight) in place.altitudes.taps() {
-        let column = model.column_chunk(a)?.values;
-        let (above, below) = column.split_at(shape.up * shape.constituents);
-        up.add_columns(above, altitude_weight);
-        down.add_columns(below, altitude_weight);
-        for (v, visibility_weight) in place.visibilities.taps() {
-            let chunk = model.radiance_chunk(a, v)?;
-            let weight = altitude_weight * visibility_weight;
-            let components = Components::new(&chunk, &shape, place, head, weight, groups, fold);
-            components.add_to(&mut up, chunk.alpha_up);
-            components.add_to(&mut down, chunk.alpha_down);
+/// All that turns the chunks of a model into tables.
+struct Baker<'a> {
+    model: &'a Model,
+    place: &'a Place,
+    groups: &'a Groups,
+    /// Factor of each channel `[field][wavelength]`.
+    fold: Vec<f32>,
+    elevation: Taps,
+}
+
+impl Baker<'_> {
+    /// The tables above and below the horizon.
+    fn sides(&self) -> Result<[SideTable; 2]> {
+        let head = self.model.head();
+        let shape = head.shape();
+        let mut up = SideTable::zeros(head.up, shape.up, &shape, &self.groups.layout);
+        let mut down = SideTable::zeros(head.down, shape.down, &shape, &self.groups.layout);
+        for (a, altitude_weight) in self.place.altitudes.taps() {
+            let column = self.model.column_chunk(a)?.values;
+            let (above, below) = column.split_at(shape.up * shape.constituents);
+            up.add_columns(above, altitude_weight);
+            down.add_columns(below, altitude_weight);
+            for (v, visibility_weight) in self.place.visibilities.taps() {
+                let chunk = self.model.radiance_chunk(a, v)?;
+                let components = self.components(&chunk, altitude_weight * visibility_weight);
+                components.add_to(&mut up, chunk.alpha_up);
+                components.add_to(&mut down, chunk.alpha_down);
+            }
+        }
+        Ok([up, down])
+    }
+
+    fn components(&self, chunk: &RadianceView, weight: f64) -> Components {
+        let rank = chunk.rank;
+        let mut channel = vec![Cell::ZERO; self.groups.layout.cells() * rank];
+        for r in 0..rank {
+            let factor = weight as f32 * chunk.scale[r].get() * self.elevation(chunk, r);
+            let values = &chunk.channel[r * chunk.channel_stride..][..self.fold.len()];
+            let positions = self.groups.position.iter().zip(&self.fold);
+            for (&value, (&(cell, place), fold)) in values.iter().zip(positions) {
+                channel[cell * rank + r].0[place] += factor * fold * widen(value);
+            }
+        }
+        Components {
+            rank,
+            stride: chunk.stride,
+            phi: widen_rows(chunk.phi, chunk.stride, rank),
+            channel,
         }
     }
-    Ok([up, down])
+
+    /// Value of a component at the solar elevation of the sky.
+    fn elevation(&self, chunk: &RadianceView, r: usize) -> f32 {
+        let terms = self.elevation.index.iter().zip(self.elevation.weight);
+        terms
+            .map(|(&i, w)| w * widen(chunk.elevation[i * chunk.stride + r]))
+            .sum()
+    }
 }
 
 /// The components of one chunk with everything but direction contracted.
 struct Components {
     rank: usize,
     stride: usize,
-    row: usize,
     /// `[phi][rank]`.
     phi: Vec<f32>,
-    /// `[rank][row]`: weight, scale, elevation and albedo are in it.
-    channel: Vec<f32>,
+    /// `[cell][rank]`: weight, scale, elevation and albedo are in it.
+    channel: Vec<Cell>,
 }
 
 impl Components {
-    fn new(
-        chunk: &RadianceView,
-        shape: &Shape,
-        place: &Place,
-        head: &Head,
-        weight: f64,
-        groups: &Groups,
-        fold: &[f32],
-    ) -> Self {
-        let row = groups.layout.row();
-        let taps = spline(place.elevation, head.elevation.intervals, Ends::Free);
-        let mut channel = vec![0.0; chunk.rank * row];
-        for (r, out) in channel.chunks_exact_mut(row).enumerate() {
-            let elevation: f32 = (0..4)
-                .map(|k| taps.weight[k] * widen(chunk.elevation[taps.index[k] * chunk.stride + r]))
-                .sum();
-            let factor = weight as f32 * chunk.scale[r].get() * elevation;
-            let values = &chunk.channel[r * chunk.channel_stride..][..shape.channels];
-            for ((&value, &position), fold) in values.iter().zip(&groups.position).zip(fold) {
-                out[position] += factor * fold * widen(value);
-            }
-        }
-        Self {
-            rank: chunk.rank,
-            stride: chunk.stride,
-            row,
-            phi: widen_rows(chunk.phi, chunk.stride, chunk.rank),
-            channel,
-        }
-    }
-
     fn add_to(&self, side: &mut SideTable, alpha: &Payload16) {
         let alpha = widen_rows(alpha, self.stride, self.rank);
-        let nodes = self.phi.len() / self.rank;
-        for (alpha, rows) in alpha.chunks_exact(self.rank).zip(
-            side.radiance
-                .as_flattened_mut()
-                .chunks_exact_mut(nodes * self.row),
-        ) {
-            for (phi, out) in self
-                .phi
-                .chunks_exact(self.rank)
-                .zip(rows.chunks_exact_mut(self.row))
-            {
-                self.add_node(alpha, phi, out);
+        let cells = self.channel.len() / self.rank;
+        let mut factors = vec![0.0; self.rank];
+        let mut nodes = side.radiance.chunks_exact_mut(cells);
+        for alpha in alpha.chunks_exact(self.rank) {
+            // `zip` asks the azimuths first, so none of the nodes, which go on with the next row, is lost.
+            for (phi, node) in self.phi.chunks_exact(self.rank).zip(&mut nodes) {
+                for (factor, (a, p)) in factors.iter_mut().zip(alpha.iter().zip(phi)) {
+                    *factor = a * p;
+                }
+                self.add_node(&factors, node);
             }
         }
     }
 
-    fn add_node(&self, alpha: &[f32], phi: &[f32], out: &mut [f32]) {
-        let components = alpha.iter().zip(phi);
-        for ((a, p), channel) in components.zip(self.channel.chunks_exact(self.row)) {
-            let factor = a * p;
-            for (sum, value) in out.iter_mut().zip(channel) {
-                *sum += factor * value;
+    /// Adds all components to the cells of a node; the sums stay in registers.
+    fn add_node(&self, factors: &[f32], node: &mut [Cell]) {
+        for (out, channel) in node.iter_mut().zip(self.channel.chunks_exact(self.rank)) {
+            let mut sum = Cell::ZERO;
+            for (&factor, values) in factors.iter().zip(channel) {
+                sum.add(factor, values);
             }
+            out.add(1.0, &sum);
         }
     }
 }

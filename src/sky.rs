@@ -154,14 +154,11 @@ impl Sky {
     pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
         let lookup = self.lookup(direction)?;
         let mut sums = [[0f32; LANES]; 3];
-        for (block, weights) in self.tables.xyz.iter().enumerate() {
-            let radiance = self.tables.block(&lookup, block);
-            for (sum, weight) in sums.iter_mut().zip(weights) {
-                for i in 0..LANES {
-                    sum[i] += weight[i] * radiance[i];
-                }
+        self.tables.radiance(&lookup, |block, radiance| {
+            for (sum, weight) in sums.iter_mut().zip(&self.tables.xyz[block]) {
+                *sum = core::array::from_fn(|i| sum[i] + weight[i] * radiance[i]);
             }
-        }
+        });
         Ok(sums.map(|lanes| finite(lanes.iter().sum())))
     }
 
@@ -210,22 +207,19 @@ impl Sky {
     }
 
     fn relative_into(&self, lookup: &Lookup, out: &mut [f32]) {
-        for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let radiance = self.tables.block(lookup, block);
-            out.copy_from_slice(&radiance[..out.len()]);
-        }
+        self.tables
+            .radiance(lookup, |block, radiance| store(out, block, radiance));
     }
 
     fn spectral_into(&self, lookup: &Lookup, out: &mut [f32]) {
-        for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let radiance = self.tables.block(lookup, block);
+        self.tables.radiance(lookup, |block, radiance| {
             let irradiance = &self.tables.irradiance[block];
-            let spectral: [f32; LANES] =
-                core::array::from_fn(|i| (radiance[i] * irradiance[i]).min(f32::MAX));
-            out.copy_from_slice(&spectral[..out.len()]);
-        }
+            let spectral = core::array::from_fn(|i| (radiance[i] * irradiance[i]).min(f32::MAX));
+            store(out, block, spectral);
+        });
     }
 
+    #[inline(always)]
     fn lookup(&self, direction: [f32; 3]) -> Result<Lookup<'_>> {
         // In double precision the square of every single-precision number is normal.
         let [x, y, z] = direction.map(f64::from);
@@ -235,7 +229,8 @@ impl Sky {
             return Err(Error::Direction { got: direction });
         }
         let length = square.sqrt();
-        let unit = [x, y, z].map(|v| v / length);
+        let shrink = 1.0 / length;
+        let unit = [x * shrink, y * shrink, z * shrink];
         let elevation = z.atan2(horizontal.sqrt());
         let ray = self
             .planet
@@ -255,6 +250,16 @@ impl Sky {
 
     fn check_output(&self, out: &[f32], directions: usize) -> Result<()> {
         check_length(out.len(), directions.saturating_mul(self.wavelengths.len()))
+    }
+}
+
+/// Writes a block of wavelengths, of which the last may be cut short.
+#[inline(always)]
+fn store(out: &mut [f32], block: usize, values: [f32; LANES]) {
+    let out = &mut out[block * LANES..];
+    match out.first_chunk_mut() {
+        Some(whole) => *whole = values,
+        None => out.copy_from_slice(&values[..out.len()]),
     }
 }
 

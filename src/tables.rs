@@ -14,6 +14,21 @@ const MOST: usize = 16;
 /// Groups of fields that stand together in a row.
 const QUAD: usize = 4;
 
+/// One block of wavelengths of four groups. Aligned so that it stands in one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Cell(pub [f32; QUAD * LANES]);
+
+impl Cell {
+    pub const ZERO: Self = Self([0.0; QUAD * LANES]);
+
+    #[inline(always)]
+    pub fn add(&mut self, weight: f32, other: &Cell) {
+        // A new array instead of sums in place: nothing can alias, so this vectorises.
+        self.0 = core::array::from_fn(|i| self.0[i] + weight * other.0[i]);
+    }
+}
+
 /// Where the channels stand in a row: `[block of wavelengths][quad of groups][group][lane]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Layout {
@@ -29,18 +44,14 @@ impl Layout {
         }
     }
 
-    /// Numbers in a row.
-    pub fn row(&self) -> usize {
-        self.blocks * self.quads * QUAD * LANES
+    /// Cell of a channel in a row, and its place in the cell.
+    pub fn position(&self, group: usize, wavelength: usize) -> (usize, usize) {
+        let cell = wavelength / LANES * self.quads + group / QUAD;
+        (cell, group % QUAD * LANES + wavelength % LANES)
     }
 
-    /// Position of a channel in a row.
-    pub fn position(&self, group: usize, wavelength: usize) -> usize {
-        let block = wavelength / LANES * self.quads + group / QUAD;
-        (block * QUAD + group % QUAD) * LANES + wavelength % LANES
-    }
-
-    fn cells(&self) -> usize {
+    /// Cells in a row.
+    pub fn cells(&self) -> usize {
         self.blocks * self.quads
     }
 }
@@ -53,7 +64,7 @@ pub(crate) struct SideTable {
     constituents: usize,
     cells: usize,
     /// `[alpha][phi][cell]`.
-    pub radiance: Vec<[f32; QUAD * LANES]>,
+    pub radiance: Vec<Cell>,
     /// ln n̄, `[alpha][constituent]`.
     column: Vec<f32>,
 }
@@ -66,7 +77,7 @@ impl SideTable {
             phi_coefficients: shape.phi,
             constituents: shape.constituents,
             cells,
-            radiance: vec![[0.0; QUAD * LANES]; coefficients * shape.phi * cells],
+            radiance: vec![Cell::ZERO; coefficients * shape.phi * cells],
             column: vec![0.0; coefficients * shape.constituents],
         }
     }
@@ -78,6 +89,7 @@ impl SideTable {
     }
 
     /// Optical path of each constituent per unit of extinction: length times mean density, m.
+    #[inline(always)]
     fn depths(&self, taps: &Taps, length: f64) -> [f32; MOST] {
         let mut depths = [0.0; MOST];
         let n = self.constituents;
@@ -90,7 +102,7 @@ impl SideTable {
     }
 
     fn is_finite(&self) -> bool {
-        let radiance = self.radiance.as_flattened().iter();
+        let radiance = self.radiance.iter().flat_map(|cell| &cell.0);
         radiance.chain(&self.column).all(|v| v.is_finite())
     }
 
@@ -128,6 +140,7 @@ pub(crate) struct Lookup<'a> {
 
 impl Tables {
     /// Finds the coefficients for a ray with the azimuth `phi` (0..=π from the sun).
+    #[inline(always)]
     pub fn lookup(&self, ray: &Ray, phi: f64, phi_intervals: usize, angle: SunAngle) -> Lookup<'_> {
         let side = match ray.side {
             Side::Up => &self.up,
@@ -141,29 +154,59 @@ impl Tables {
         let alpha = spline(u, intervals, Ends::Free);
         let u = phi_intervals as f64 * phi / core::f64::consts::PI;
         let phi = spline(u, phi_intervals, Ends::Mirrored);
-        let node = |t: usize| alpha.index[t / 4] * side.phi_coefficients + phi.index[t % 4];
+        let stride = side.phi_coefficients * side.cells;
+        let rows: [usize; 4] = core::array::from_fn(|k| alpha.index[k] * stride);
+        let columns: [usize; 4] = core::array::from_fn(|k| phi.index[k] * side.cells);
         Lookup {
             side,
-            row: core::array::from_fn(|t| node(t) * side.cells),
+            row: core::array::from_fn(|t| rows[t / 4] + columns[t % 4]),
             weight: core::array::from_fn(|t| alpha.weight[t / 4] * phi.weight[t % 4]),
             depth: side.depths(&alpha, ray.length),
             angle,
         }
     }
 
-    /// Relative radiance (sr⁻¹) at one block of wavelengths: finite and not negative.
-    pub fn block(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
-        let mut sum = [0.0; LANES];
-        for (quad, phases) in self.phases.chunks(QUAD).enumerate() {
-            let fields = lookup.gather(block * self.layout.quads + quad);
-            let fields = fields.as_chunks::<LANES>().0;
-            for (phase, field) in phases.iter().zip(fields) {
-                let phase = phase.evaluate(block, lookup.angle);
-                for i in 0..LANES {
-                    sum[i] += phase[i] * field[i];
+    /// Relative radiance (sr⁻¹), finite and not negative, handed to `emit` block by block of wavelengths.
+    #[inline(always)]
+    pub fn radiance(&self, lookup: &Lookup, mut emit: impl FnMut(usize, [f32; LANES])) {
+        let mut block = 0;
+        if self.layout.quads == 1 {
+            // The usual case: three cells at a time share the work on weights and rows.
+            while block + 3 <= self.layout.blocks {
+                let cells = lookup.gather::<3>(block);
+                for (i, cell) in cells.iter().enumerate() {
+                    let fields = self.fields(lookup, 0, block + i, cell);
+                    emit(block + i, self.finish(lookup, block + i, fields));
                 }
+                block += 3;
             }
         }
+        while block < self.layout.blocks {
+            let mut sum = [0.0; LANES];
+            for quad in 0..self.layout.quads {
+                let [cell] = lookup.gather(block * self.layout.quads + quad);
+                let fields = self.fields(lookup, quad, block, &cell);
+                sum = core::array::from_fn(|i| sum[i] + fields[i]);
+            }
+            emit(block, self.finish(lookup, block, sum));
+            block += 1;
+        }
+    }
+
+    /// Sum of the fields of a quad, each times its phase function.
+    #[inline(always)]
+    fn fields(&self, lookup: &Lookup, quad: usize, block: usize, cell: &Cell) -> [f32; LANES] {
+        let mut sum = [0.0; LANES];
+        let phases = self.phases[quad * QUAD..].iter().take(QUAD);
+        for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
+            let phase = phase.evaluate(block, lookup.angle);
+            sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i]);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn finish(&self, lookup: &Lookup, block: usize, sum: [f32; LANES]) -> [f32; LANES] {
         let opacity = self.opacity(lookup, block);
         let scale = &self.scale[block];
         // Only absurd tables can make these bounds count.
@@ -171,6 +214,7 @@ impl Tables {
     }
 
     /// 1 − T.
+    #[inline(always)]
     fn opacity(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
         let mut depth = [0.0; LANES];
         let rows = self.extinction.chunks_exact(self.layout.blocks);
@@ -179,7 +223,11 @@ impl Tables {
                 depth[i] += row[block][i] * length;
             }
         }
-        depth.map(one_minus_exp_neg)
+        // A plain loop: `map` over an array is not always inlined, and then does not vectorise.
+        for value in &mut depth {
+            *value = one_minus_exp_neg(*value);
+        }
+        depth
     }
 
     pub fn is_finite(&self) -> bool {
@@ -201,15 +249,16 @@ impl Tables {
 }
 
 impl Lookup<'_> {
-    /// The weighted sum of the 16 rows in one cell.
-    fn gather(&self, cell: usize) -> [f32; QUAD * LANES] {
-        let mut sum = [0.0; QUAD * LANES];
+    /// The weighted sums of the 16 rows in `N` cells.
+    #[inline(always)]
+    fn gather<const N: usize>(&self, cell: usize) -> [Cell; N] {
+        let mut sums = [Cell::ZERO; N];
         for (row, weight) in self.row.iter().zip(self.weight) {
-            let values = &self.side.radiance[row + cell];
-            for i in 0..QUAD * LANES {
-                sum[i] += weight * values[i];
+            let values = &self.side.radiance[row + cell..][..N];
+            for (sum, values) in sums.iter_mut().zip(values) {
+                sum.add(weight, values);
             }
         }
-        sum
+        sums
     }
 }

@@ -20,8 +20,10 @@ proptest! {
         solar_azimuth in -7.0..7.0f64,
         direction in proptest::array::uniform3(-1.0..1.0f32),
         wavelength in 320.0..760.0f64,
+        bytes in prop::sample::select(vec![
+            common::model_bytes(), common::wide_bytes(), common::long_bytes(),
+        ]),
     ) {
-        let bytes = common::model_bytes();
         let oracle = Oracle::new(&bytes);
         let model = Model::from_bytes(bytes.clone()).unwrap();
         let solar_elevation = solar_elevation.to_radians();

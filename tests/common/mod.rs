@@ -13,7 +13,13 @@ pub const RANK: usize = 5;
 
 /// A model with `altitudes` × `visibilities` radiance chunks.
 pub fn head(altitudes: &[f64], visibilities: &[f64]) -> Head {
-    let wavelengths: Vec<f64> = (0..6).map(|i| 320.0 + 88.0 * f64::from(i)).collect();
+    head_with(altitudes, visibilities, 6)
+}
+
+/// The same with any number of wavelengths over 320..=760 nm.
+pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) -> Head {
+    let step = 440.0 / (wavelengths - 1) as f64;
+    let wavelengths: Vec<f64> = (0..wavelengths).map(|i| 320.0 + step * i as f64).collect();
     let (nw, nv) = (wavelengths.len(), visibilities.len());
     let relative = |l: f64| 550.0 / l;
     let mut extinction = Vec::new();
@@ -52,7 +58,9 @@ pub fn head(altitudes: &[f64], visibilities: &[f64]) -> Head {
         visibilities: visibilities.to_vec(),
         constituents: 2,
         extinction,
-        spherical_albedo: (0..nv * nw).map(|i| 0.05 + 0.01 * i as f64).collect(),
+        spherical_albedo: (0..nv * nw)
+            .map(|i| 0.05 + 0.01 * (i % 40) as f64)
+            .collect(),
         xyz: (0..nw)
             .map(|w| [40.0 + w as f64, 60.0 - w as f64, 30.0].map(|v| 1e3 * v))
             .collect(),
@@ -139,6 +147,23 @@ fn factors(head: &Head, a: usize, v: usize) -> RadianceFactors {
 pub fn model_bytes() -> Vec<u8> {
     let head = head(&[0.0, 120.0, 1000.0, 2000.0], &[20e3, 59.4e3, 131.8e3]);
     encode(&head, &chunks(&head)).expect("the synthetic model is valid")
+}
+
+/// More wavelengths and fields, for the parts of the evaluator that small models do not reach.
+pub fn wide_bytes() -> Vec<u8> {
+    let mut head = head_with(&[0.0, 2000.0], &[20e3, 59.4e3, 131.8e3], 14);
+    for g in [0.5, 0.3, -0.2] {
+        let mut field = head.fields[2].clone();
+        field.parameter.fill(g);
+        head.fields.push(field);
+    }
+    encode(&head, &chunks(&head)).expect("the wide model is valid")
+}
+
+/// Enough wavelengths that blocks of them are gathered together.
+pub fn long_bytes() -> Vec<u8> {
+    let head = head_with(&[0.0, 2000.0], &[20e3, 131.8e3], 14);
+    encode(&head, &chunks(&head)).expect("the long model is valid")
 }
 
 /// One altitude, one visibility, few nodes: for exhaustive damage.

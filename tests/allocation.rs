@@ -1,0 +1,60 @@
+//! Queries do not allocate.
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use welkin::{Conditions, Model};
+
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: every call goes to the system allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn queries_do_not_allocate() {
+    let model = Model::from_bytes(common::model_bytes()).unwrap();
+    let mut sky = model.sky(&Conditions::default()).unwrap();
+    assert!(COUNT.get() > 0, "the counter counts");
+    let mut out = vec![0.0; sky.wavelengths().len()];
+    let directions = [
+        [0.1, 0.2, 0.3],
+        [0.0, 0.0, 1.0],
+        [0.5, -0.2, -0.1],
+        [0.0; 3],
+    ];
+    let mut batch = vec![0.0; 3 * out.len()];
+    let mut xyz = [[0.0; 3]; 3];
+    let before = COUNT.get();
+    for direction in directions {
+        let _ = sky.radiance(direction, &mut out);
+        let _ = sky.relative_radiance(direction, &mut out);
+        let _ = sky.radiance_at(direction, 500.0);
+        let _ = sky.radiance_at(direction, f64::NAN);
+        let _ = sky.xyz(direction);
+        let _ = sky.linear_srgb(direction);
+    }
+    let _ = sky.radiance_batch(&directions[..3], &mut batch);
+    let _ = sky.xyz_batch(&directions[..3], &mut xyz);
+    let _ = sky.set_solar_azimuth(2.0);
+    assert_eq!(COUNT.get(), before);
+}

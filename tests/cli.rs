@@ -1,0 +1,387 @@
+//! The command: exit codes, messages, tables in and out.
+#![cfg(feature = "cli")]
+
+mod common;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use welkin::{Conditions, Model};
+
+struct Bench {
+    folder: tempfile::TempDir,
+    model: PathBuf,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let model = folder.path().join("model.welkin");
+        std::fs::write(&model, common::model_bytes()).unwrap();
+        Self { folder, model }
+    }
+
+    fn run(&self, arguments: &[&str], input: &str) -> Output {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // The command may stop before it has read all.
+        let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+        child.wait_with_output().unwrap()
+    }
+
+    fn on_model(&self, arguments: &[&str], input: &str) -> Output {
+        let model = ["--model", self.model.to_str().unwrap()];
+        self.run(&[arguments, &model].concat(), input)
+    }
+
+    /// The one line that a refused call prints.
+    fn refusal(&self, arguments: &[&str], input: &str) -> String {
+        let output = self.run(arguments, input);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert_eq!(text.lines().count(), 1, "{text}");
+        assert!(
+            text.starts_with("welkin: ") && !text.contains("panicked"),
+            "{text}"
+        );
+        text
+    }
+}
+
+const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
+
+#[test]
+fn query_answers_what_the_library_answers() {
+    let bench = Bench::new();
+    let table = format!(
+        "{HEADER}\nradiance,59.4,0.2,120,20,60,30,,550\nrelative_radiance,59.4,0.2,120,20,60,30,,550\n"
+    );
+    let output = bench.on_model(&["query"], &table);
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], format!("{HEADER},value,error"));
+    let model = Model::open(&bench.model).unwrap();
+    let sky = model
+        .sky(&Conditions {
+            altitude: 120.0,
+            ..Conditions::default()
+        })
+        .unwrap();
+    let (z, r) = 30f64.to_radians().sin_cos();
+    let (y, x) = 30f64.to_radians().sin_cos();
+    let direction = [r * x, r * y, z].map(|v| v as f32);
+    for (line, expected) in lines[1..].iter().zip([
+        sky.radiance_at(direction, 550.0).unwrap(),
+        sky.relative_radiance_at(direction, 550.0).unwrap(),
+    ]) {
+        let cells: Vec<&str> = line.split(',').collect();
+        assert_eq!(cells[..3], line.split(',').take(3).collect::<Vec<_>>()[..]);
+        let value: f32 = cells[9].parse().unwrap();
+        assert!((value / expected - 1.0).abs() < 1e-6);
+        assert_eq!(cells[10], "");
+    }
+}
+
+#[test]
+fn columns_come_in_any_order_and_others_are_echoed() {
+    let bench = Bench::new();
+    let table = "note,wavelength_nm,view_azimuth_deg,view_zenith_deg,solar_elevation_deg,altitude_m,albedo,visibility_km,quantity\n\"a, b\",550,0,10,20,0,0.2,59.4,radiance\n";
+    let output = bench.on_model(&["query"], table);
+    let text = String::from_utf8(output.stdout).unwrap();
+    let row = text.lines().nth(1).unwrap();
+    assert!(
+        row.starts_with("\"a, b\",550,0,10,20,0,0.2,59.4,radiance,0."),
+        "{row}"
+    );
+}
+
+#[test]
+fn bad_rows_get_an_error_and_good_ones_a_value() {
+    let bench = Bench::new();
+    let rows = [
+        ("radiance,59.4,0.2,0,20,60,30,,550", ""),
+        (
+            "radiance,5,0.2,0,20,60,30,,550",
+            "visibility must be in 20..=131.8 km, got 5",
+        ),
+        (
+            "radiance,59.4,nan,0,20,60,30,,550",
+            "albedo must be in 0..=1, got NaN",
+        ),
+        (
+            "radiance,59.4,0.2,0,-4.3,60,30,,550",
+            "solar elevation must be in -4.2..=90 degrees, got -4.3",
+        ),
+        (
+            "radiance,59.4,0.2,0,20,181,30,,550",
+            "view_zenith_deg must be in 0..=180, got 181",
+        ),
+        (
+            "radiance,59.4,0.2,0,20,60,inf,,550",
+            "view_azimuth_deg must be finite, got inf",
+        ),
+        (
+            "radiance,59.4,0.2,0,20,60,30,,1550",
+            "wavelength must be in 320..=760 nm, got 1550",
+        ),
+        ("radiance,59.4,0.2,,20,60,30,,550", "altitude_m is empty"),
+        (
+            "radiance,59.4,0.2,1 m,20,60,30,,550",
+            "altitude_m must be a number",
+        ),
+        (
+            "radiance,59.4,0.2,0,20,60,30,100,550",
+            "distance_m must be empty",
+        ),
+        (
+            "transmittance,59.4,0.2,0,20,60,30,,550",
+            "not in this version",
+        ),
+        ("brightness,59.4,0.2,0,20,60,30,,550", "unknown quantity"),
+        ("radiance,59.4", "expected 9 cells, got 2"),
+        ("radiance,59.4,0.2,0,-4.2,0,0,inf,320", ""),
+        ("radiance,131.8,1,2000,90,180,0,,760", ""),
+    ];
+    let lines: Vec<&str> = rows.iter().map(|(row, _)| *row).collect();
+    let table = format!("{HEADER}\n{}\n", lines.join("\n"));
+    let output = bench.on_model(&["query"], &table);
+    assert!(output.status.success());
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let answers: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
+    assert_eq!(answers.len(), rows.len());
+    for ((row, error), answer) in rows.iter().zip(&answers) {
+        assert!(answer[10].starts_with(error), "{row}: {}", &answer[10]);
+        assert_eq!(
+            answer[10].is_empty(),
+            error.is_empty(),
+            "{row}: {}",
+            &answer[10]
+        );
+        assert_eq!(answer[9].parse::<f32>().is_ok(), error.is_empty(), "{row}");
+    }
+    let model = bench.model.to_str().unwrap();
+    let text = bench.refusal(&["query", "--strict", "--model", model], &table);
+    assert!(text.contains("12 of 15 rows failed"), "{text}");
+    let clamped = bench.on_model(&["query", "--clamp"], &format!("{HEADER}\n{}\n", rows[1].0));
+    assert!(
+        String::from_utf8(clamped.stdout)
+            .unwrap()
+            .trim_end()
+            .ends_with(',')
+    );
+}
+
+#[test]
+fn info_describes_the_file() {
+    let bench = Bench::new();
+    let output = bench.on_model(&["info", "--json", "--verify"], "");
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(json["file_bytes"], common::model_bytes().len());
+    assert_eq!(json["altitudes_m"][1], 120.0);
+    assert_eq!(json["chunks"].as_array().unwrap().len(), 16);
+    assert_eq!(
+        json["metadata"]["provenance"],
+        "synthetic model for tests: not a sky"
+    );
+    let human = bench.run(&["info"], "");
+    assert!(human.status.success());
+    assert!(
+        String::from_utf8(human.stdout)
+            .unwrap()
+            .contains("file_bytes")
+    );
+}
+
+#[test]
+fn render_writes_pictures_and_says_what_they_show() {
+    let bench = Bench::new();
+    for projection in ["up", "side", "lat-long"] {
+        let out = format!("picture-{projection}");
+        let output = bench.on_model(
+            &[
+                "render",
+                "--size",
+                "16",
+                "--projection",
+                projection,
+                "--out",
+                &out,
+            ],
+            "",
+        );
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let text = String::from_utf8(output.stdout).unwrap();
+        for word in ["sun", "visibility", "cd/m²", "time", "touched"] {
+            assert!(text.contains(word), "{text}");
+        }
+        let png = std::fs::read(bench.folder.path().join(format!("{out}.png"))).unwrap();
+        assert_eq!(&png[1..4], b"PNG");
+        let exr = exr::prelude::read_first_rgba_layer_from_file(
+            bench.folder.path().join(format!("{out}.exr")),
+            |size, _| vec![[0f32; 4]; size.width() * size.height()],
+            |pixels, at, pixel: (f32, f32, f32, f32)| pixels[at.x() + 16 * at.y()] = pixel.into(),
+        );
+        assert!(projection == "lat-long" || exr.is_ok());
+    }
+    let output = bench.on_model(
+        &["render", "--size", "8", "--spectral", "--out", "only.exr"],
+        "",
+    );
+    assert!(output.status.success());
+    assert!(!bench.folder.path().join("only.png").exists());
+    let image = exr::prelude::read_first_flat_layer_from_file(bench.folder.path().join("only.exr"))
+        .unwrap();
+    let names: Vec<String> = image
+        .layer_data
+        .channel_data
+        .list
+        .iter()
+        .map(|c| c.name.to_string())
+        .collect();
+    assert_eq!(names[0], "S0.320nm");
+    assert_eq!(names.len(), 6);
+}
+
+#[test]
+fn refusals_are_one_line_and_code_2() {
+    let bench = Bench::new();
+    let model = bench.model.to_str().unwrap().to_owned();
+    let calls: &[(&[&str], &str)] = &[
+        (&[], "command is missing"),
+        (&["paint"], "paint"),
+        (&["render", "--size", "0"], "size"),
+        (&["render", "--size", "many"], "size"),
+        (
+            &["render", "--model", &model, "--sun-elevation", "nan"],
+            "solar elevation",
+        ),
+        (
+            &["render", "--model", &model, "--sun-azimuth", "inf"],
+            "solar azimuth",
+        ),
+        (
+            &["render", "--model", &model, "--visibility", "-1"],
+            "visibility",
+        ),
+        (&["render", "--model", &model, "--albedo", "1.5"], "albedo"),
+        (
+            &["render", "--model", &model, "--altitude", "1e9"],
+            "altitude",
+        ),
+        (
+            &["render", "--model", &model, "--view-azimuth", "nan"],
+            "view azimuth",
+        ),
+        (
+            &["render", "--model", &model, "--exposure", "nan"],
+            "exposure",
+        ),
+        (
+            &[
+                "render",
+                "--model",
+                &model,
+                "--size",
+                "4",
+                "--out",
+                "missing/sky",
+            ],
+            "missing/sky.exr",
+        ),
+        (&["render", "--model", "missing.welkin"], "missing.welkin"),
+        (&["info", "missing.welkin"], "missing.welkin"),
+        (&["info", "."], "directory"),
+        (&["query", "--model", &model, "missing.csv"], "missing.csv"),
+        (&["query", "--model", &model], "lacks the column"),
+    ];
+    for (arguments, word) in calls {
+        let text = bench.refusal(arguments, "");
+        assert!(text.contains(word), "{arguments:?}: {text}");
+    }
+    let twice = format!("{HEADER},albedo\n");
+    assert!(
+        bench
+            .refusal(&["query", "--model", &model], &twice)
+            .contains("two columns")
+    );
+    std::fs::write(
+        bench.folder.path().join("bad.welkin"),
+        &common::model_bytes()[..5000],
+    )
+    .unwrap();
+    assert!(
+        bench
+            .refusal(&["info", "bad.welkin"], "")
+            .contains("truncated")
+    );
+}
+
+#[test]
+fn a_damaged_chunk_is_noticed_when_it_is_needed() {
+    let bench = Bench::new();
+    let mut bytes = common::model_bytes();
+    *bytes.last_mut().unwrap() ^= 1;
+    std::fs::write(&bench.model, bytes).unwrap();
+    assert!(bench.on_model(&["info"], "").status.success());
+    assert!(
+        bench
+            .on_model(&["render", "--size", "4"], "")
+            .status
+            .success()
+    );
+    let model = bench.model.to_str().unwrap();
+    // The last chunk: highest altitude and visibility; the last byte is padding, which the checksum covers too.
+    let far = [
+        "render",
+        "--size",
+        "4",
+        "--altitude",
+        "2000",
+        "--visibility",
+        "131.8",
+        "--model",
+        model,
+    ];
+    assert!(bench.refusal(&far, "").contains("damaged"));
+    assert!(
+        bench
+            .refusal(&["info", "--verify", "--model", model], "")
+            .contains("damaged")
+    );
+}
+
+#[test]
+fn a_closed_pipe_is_no_failure() {
+    let bench = Bench::new();
+    let row = "radiance,59.4,0.2,0,20,60,30,,550\n";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
+        .args(["query", "--model", bench.model.to_str().unwrap()])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut input = child.stdin.take().unwrap();
+    let _ = input.write_all(HEADER.as_bytes());
+    let _ = input.write_all(b"\n");
+    for _ in 0..5000 {
+        let _ = input.write_all(row.as_bytes());
+    }
+    drop(input);
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success());
+    assert!(output.stderr.is_empty());
+}

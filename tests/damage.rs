@@ -1,0 +1,119 @@
+//! Damaged and hostile files: an error or the same numbers, never a panic or garbage.
+
+mod common;
+
+use proptest::prelude::*;
+use welkin::format::parse;
+use welkin::{Conditions, Model, Result};
+
+const DIRECTIONS: [[f32; 3]; 3] = [[0.1, 0.2, 0.3], [0.0, 0.0, 1.0], [1.0, 0.1, 0.01]];
+
+/// Everything that the tiny model says, as bits.
+fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
+    let model = Model::from_bytes(bytes)?;
+    let sky = model.sky(&Conditions {
+        visibility: 50e3,
+        ..Conditions::default()
+    })?;
+    let mut out = vec![0.0; sky.wavelengths().len()];
+    let mut bits = Vec::new();
+    for direction in DIRECTIONS {
+        sky.radiance(direction, &mut out)?;
+        let values = out
+            .iter()
+            .chain(&sky.xyz(direction)?)
+            .copied()
+            .collect::<Vec<f32>>();
+        assert!(values.iter().all(|v| v.is_finite()), "{values:?}");
+        assert!(out.iter().all(|&l| l >= 0.0));
+        bits.extend(values.into_iter().map(f32::to_bits));
+    }
+    Ok(bits)
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let bytes = common::tiny_bytes();
+    for length in 0..bytes.len() {
+        assert!(parse(&bytes[..length]).is_err(), "{length}");
+    }
+}
+
+#[test]
+fn every_flip_is_refused_or_changes_nothing() {
+    let bytes = common::tiny_bytes();
+    let expected = answers(bytes.clone()).unwrap();
+    let mut refused = 0;
+    for i in 0..bytes.len() {
+        for mask in [1 << (i % 8), 0xff] {
+            let mut damaged = bytes.clone();
+            damaged[i] ^= mask;
+            match answers(damaged) {
+                Ok(got) => assert_eq!(got, expected, "byte {i}"),
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    // Only the zeros between the chunks are not covered by a checksum.
+    assert!(
+        refused >= 2 * (bytes.len() - 128),
+        "{refused} of {}",
+        2 * bytes.len()
+    );
+}
+
+/// Makes all checksums right again, so that damage reaches the checks behind them.
+fn forge(bytes: &mut [u8], original: &[u8]) {
+    let contents = parse(original).unwrap();
+    let directory = contents.head_length - 64 * contents.directory.len();
+    for (i, entry) in contents.directory.iter().enumerate() {
+        let crc = crc32fast::hash(&bytes[entry.offset..entry.offset + entry.length]);
+        bytes[directory + 64 * i + 36..][..4].copy_from_slice(&crc.to_le_bytes());
+    }
+    bytes[32..36].fill(0);
+    let crc = crc32fast::hash(&bytes[..contents.head_length]);
+    bytes[32..36].copy_from_slice(&crc.to_le_bytes());
+}
+
+fn hostile() -> impl Strategy<Value = (usize, Vec<u8>)> {
+    let floats = [
+        f64::NAN,
+        f64::INFINITY,
+        -1.0,
+        0.0,
+        1e300,
+        5e-324,
+        1e38,
+        -1e38,
+    ];
+    let bytes = prop_oneof![
+        prop::collection::vec(any::<u8>(), 1..9),
+        prop::sample::select(floats.to_vec()).prop_map(|v| v.to_le_bytes().to_vec()),
+        prop::sample::select(floats.to_vec()).prop_map(|v| (v as f32).to_le_bytes().to_vec()),
+        prop::sample::select(vec![0u16, 1, 2, 0x7bff, 0xfbff, 0x7c00, 0xffff])
+            .prop_map(|v| v.to_le_bytes().to_vec()),
+    ];
+    (
+        any::<prop::sample::Index>().prop_map(|i| i.index(1 << 20)),
+        bytes,
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn forged_files_are_refused_or_give_numbers(edits in prop::collection::vec(hostile(), 1..4), aligned in any::<bool>()) {
+        let original = common::tiny_bytes();
+        let mut forged = original.clone();
+        for (position, bytes) in edits {
+            let mut at = position % (forged.len() - 8);
+            if aligned {
+                at -= at % bytes.len().next_power_of_two();
+            }
+            forged[at..at + bytes.len()].copy_from_slice(&bytes);
+        }
+        forge(&mut forged, &original);
+        let _ = answers(forged);
+    }
+}
