@@ -74,7 +74,7 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
         };
         row.resize(sky.wavelengths().len(), 0.0f32);
         sky.relative_radiance(sample.direction(), &mut row)?;
-        let place = place(&sky, sample);
+        let place = place(model.head().planet, &sky, sample);
         for (got, want) in row.iter().zip(sample.radiance) {
             if want > 0.0 {
                 out.push(Error { relative: (f64::from(*got) / want - 1.0).abs(), ..place });
@@ -87,14 +87,14 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
     Ok(out)
 }
 
-fn place(sky: &welkin::Sky, sample: &Sample) -> Error {
+fn place(planet: welkin::geometry::Planet, sky: &welkin::Sky, sample: &Sample) -> Error {
     let sun = sky.sun_direction();
     let d = sample.direction();
     let cosine: f32 = sun.iter().zip(d).map(|(a, b)| a * b).sum();
     Error {
         relative: 0.0,
         solar_elevation: sample.solar_elevation,
-        from_horizon: sky.planet().ray(sample.altitude, sample.view_elevation).angle,
+        from_horizon: planet.ray(sample.altitude, sample.view_elevation).angle,
         to_sun: f64::from(cosine.clamp(-1.0, 1.0)).acos(),
     }
 }

@@ -4,6 +4,7 @@
 
 pub mod assess;
 pub mod atmosphere;
+pub mod build;
 pub mod column;
 pub mod dataset;
 pub mod decompose;

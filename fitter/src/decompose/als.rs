@@ -29,35 +29,48 @@ pub struct Cpd {
     pub error: f64,
 }
 
+/// Weight of the components' squared norms in the objective.
 const RIDGE: f64 = 1e-9;
 
 /// Decomposes `core`.
 pub fn decompose(core: &Dense, options: Options) -> Cpd {
     let problem = Problem::new(core);
     let mut best = start(core.shape, options);
-    let mut best_error = f64::INFINITY;
-    let mut previous = best.clone();
+    let mut least = WORST;
     let mut factors = best.clone();
     let mut momentum: f64 = 0.5;
+    let mut extrapolated = false;
     for _ in 0..options.sweeps {
-        let error = problem.sweep(&mut factors);
-        if error <= best_error {
-            previous = std::mem::replace(&mut best, factors.clone());
-            best_error = error;
-            momentum = (momentum * 1.05).min(0.97);
-            for (f, p) in factors.iter_mut().zip(&previous) {
-                *f = &*f + (&*f - p) * faer::Scale(momentum);
-            }
-        } else {
+        let cost = problem.sweep(&mut factors);
+        if cost.objective > least.objective && extrapolated {
             // The extrapolation overshot: go on from the best factors with a shorter one.
             factors = best.clone();
             momentum *= 0.7;
+            extrapolated = false;
+            continue;
+        }
+        let previous = std::mem::replace(&mut best, factors.clone());
+        least = cost;
+        momentum = (momentum * 1.05).min(0.99);
+        extrapolated = true;
+        for (f, p) in factors.iter_mut().zip(&previous) {
+            *f = &*f + (&*f - p) * faer::Scale(momentum);
         }
     }
-    balance(&mut best);
-    drop(previous);
-    Cpd { factors: best, error: best_error }
+    Cpd { factors: best, error: least.error }
 }
+
+#[derive(Clone, Copy)]
+struct Cost {
+    error: f64,
+    /// Squared error plus the ridge: what every update lowers.
+    objective: f64,
+}
+
+const WORST: Cost = Cost {
+    error: f64::INFINITY,
+    objective: f64::INFINITY,
+};
 
 struct Problem {
     /// Unfolding `[modes 0, 1][modes 2, 3]`.
@@ -74,8 +87,8 @@ impl Problem {
         Self { matrix, shape: core.shape, energy }
     }
 
-    /// Updates all factors in turn; returns the relative error afterwards.
-    fn sweep(&self, factors: &mut [Mat<f64>; 4]) -> f64 {
+    /// Updates all factors in turn; returns what is left afterwards.
+    fn sweep(&self, factors: &mut [Mat<f64>; 4]) -> Cost {
         let [a, b, c, d] = self.shape;
         let right = &self.matrix * khatri_rao(&factors[2], &factors[3]);
         update(factors, 0, &contract_second(&right, &factors[1], a, b));
@@ -85,38 +98,27 @@ impl Problem {
         let product = contract_first(&left, &factors[2], c, d);
         update(factors, 3, &product);
         let overlap = dot(&product, &factors[3]);
-        let norm = dot(&gram_of_others(factors, 3), &(factors[3].transpose() * &factors[3]));
-        ((self.energy - 2.0 * overlap + norm).max(0.0) / self.energy).sqrt()
+        let gram = gram_of_others(factors, 3);
+        let last = factors[3].transpose() * &factors[3];
+        let components: f64 = (0..gram.nrows()).map(|r| gram[(r, r)] * last[(r, r)]).sum();
+        let residual = (self.energy - 2.0 * overlap + dot(&gram, &last)).max(0.0);
+        balance(factors);
+        Cost {
+            error: (residual / self.energy).sqrt(),
+            objective: (residual + RIDGE * components) / self.energy,
+        }
     }
 }
 
 /// Solves for factor `mode` given the product of the tensor with all others.
 fn update(factors: &mut [Mat<f64>; 4], mode: usize, product: &Mat<f64>) {
     let mut gram = gram_of_others(factors, mode);
-    let rank = gram.nrows();
-    let trace: f64 = (0..rank).map(|i| gram[(i, i)]).sum();
-    for i in 0..rank {
-        gram[(i, i)] += RIDGE * trace / rank as f64;
+    // Relative to each component, so that small ones are not put down.
+    for i in 0..gram.nrows() {
+        gram[(i, i)] *= 1.0 + RIDGE;
     }
     if let Ok(llt) = Llt::new(gram.as_ref(), Side::Lower) {
         factors[mode] = llt.solve(product.transpose()).transpose().to_owned();
-    }
-    normalise(factors, mode);
-}
-
-/// Keeps the weights in the last mode that was updated: the others have unit columns.
-fn normalise(factors: &mut [Mat<f64>; 4], mode: usize) {
-    if mode == 3 {
-        return;
-    }
-    for r in 0..factors[mode].ncols() {
-        let norm = factors[mode].col(r).norm_l2().max(1e-300);
-        for i in 0..factors[mode].nrows() {
-            factors[mode][(i, r)] /= norm;
-        }
-        for i in 0..factors[3].nrows() {
-            factors[3][(i, r)] *= norm;
-        }
     }
 }
 

@@ -1,0 +1,275 @@
+//! From atmospheres to a model file, in work units that resume.
+
+use crate::assess::{self, Error, Quantiles};
+use crate::atmosphere::real;
+use crate::dataset::{Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
+use crate::decompose::{ElevationScale, Fit, Options, channel_weights, chunk_geometry, fit};
+use crate::orders::{FIELDS, Gatherer, LightField, Medium, NW, SUN_RADIUS, Settings, solve};
+use crate::pack::{Air, head};
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::path::Path;
+use welkin::Model;
+use welkin::format::{Chunk, ColumnTable, Head, Payload, encode, replace_file};
+
+/// What to build and how well.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The grid.
+    pub grid: Grid,
+    /// Components per chunk, sweeps, seed.
+    pub options: Options,
+    /// Resolution of the solver.
+    pub settings: Settings,
+    /// Held-out view directions and suns per chunk.
+    pub held_out: [usize; 2],
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            grid: Grid::default(),
+            options: Options { rank: 96, sweeps: 600, seed: 1 },
+            settings: Settings::default(),
+            held_out: [160, 24],
+        }
+    }
+}
+
+impl Plan {
+    /// What the traced data depend on.
+    pub fn key(&self) -> String {
+        format!("{UNIT_VERSION} {:?} {:?} {:?} {WAVELENGTHS:?}", self.grid, self.settings, self.held_out)
+    }
+}
+
+/// Length of ray segments when view rays are gathered, relative to the finest.
+const FINENESS: f64 = 1.0;
+/// Changes whenever the physics or the layout of the units does.
+const UNIT_VERSION: u32 = 1;
+
+/// A visibility, solved.
+struct Solved {
+    visibility: f64,
+    medium: Medium,
+    light: LightField,
+}
+
+/// Traced data and its fit.
+struct Fitted {
+    altitude: usize,
+    visibility: usize,
+    fit: Fit,
+    truth: Vec<Sample>,
+}
+
+/// Builds the model file `out`, keeping units in `work`; returns a report.
+pub fn build(plan: &Plan, work: &Path, out: &Path) -> Result<String> {
+    let store = Store::open(work, plan.key())?;
+    let started = std::time::Instant::now();
+    let solved = solve_all(plan, &store)?;
+    let traced = trace_all(plan, &store, &solved)?;
+    let tracing = started.elapsed();
+    let scale = reference_scale(plan, &solved, &traced);
+    let fitted = fit_all(plan, &solved, traced, &scale);
+    let fitting = started.elapsed() - tracing;
+    let (bytes, errors) = assemble(plan, &solved, &fitted, &scale)?;
+    replace_file(out, &bytes).with_context(|| format!("cannot write {}", out.display()))?;
+    Ok(format!(
+        "{}\n{}\n{} bytes in {}\ntracing {:.0} s, fitting {:.0} s\n",
+        chunk_table(plan, &fitted, &errors),
+        assess::table(&errors.concat()),
+        bytes.len(),
+        out.display(),
+        tracing.as_secs_f64(),
+        fitting.as_secs_f64(),
+    ))
+}
+
+fn bar(length: usize, what: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{msg:<28} {wide_bar} {pos}/{len} {eta}");
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length as u64).with_style(style).with_message(what.to_owned())
+}
+
+fn solve_all(plan: &Plan, store: &Store) -> Result<Vec<Solved>> {
+    let mut out = vec![];
+    for &visibility in &plan.grid.visibilities {
+        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
+        let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
+        let values = store.unit(&format!("light-{visibility}"), || {
+            let tell = |share: f64| progress.set_position((100.0 * share) as u64);
+            Ok(solve(&medium, plan.settings, &tell).to_values())
+        })?;
+        progress.finish();
+        let light = LightField::from_values(&values).context("a light field of another size")?;
+        out.push(Solved { visibility, medium, light });
+    }
+    Ok(out)
+}
+
+/// Tensor and held-out samples of every chunk, visibility-major.
+fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<(Tensor, Vec<Sample>)>> {
+    let grid = &plan.grid;
+    let chunks = solved.len() * grid.altitudes.len();
+    let progress = bar(chunks, "tracing");
+    let mut out = vec![];
+    for s in solved {
+        let gatherer = Gatherer::new(&s.medium, &s.light, FINENESS);
+        for (a, altitude) in grid.altitudes.iter().enumerate() {
+            let name = format!("{}-{altitude}", s.visibility);
+            let values = store.unit(&format!("tensor-{name}"), || {
+                Ok(trace_tensor(&gatherer, grid, a, &|| ()).values)
+            })?;
+            let shape = tensor_shape(grid);
+            let seed = (s.visibility + altitude) as u64;
+            let samples = store.unit(&format!("truth-{name}"), || {
+                let samples = truth(&gatherer, &s.light, *altitude, plan.held_out, seed);
+                Ok(samples.iter().flat_map(Sample::to_values).collect())
+            })?;
+            out.push((Tensor { shape, values }, Sample::from_values(&samples)));
+            progress.inc(1);
+        }
+    }
+    progress.finish();
+    Ok(out)
+}
+
+fn tensor_shape(grid: &Grid) -> [usize; 4] {
+    let views = grid.up.0.len() + grid.down.0.len();
+    [views, grid.phi.len(), grid.elevation_axis().len(), FIELDS * NW]
+}
+
+/// S from the lowest altitude of the middle visibility.
+fn reference_scale(plan: &Plan, solved: &[Solved], traced: &[(Tensor, Vec<Sample>)]) -> ElevationScale {
+    let v = solved.len() / 2;
+    let medium = &solved[v].medium;
+    let planet = crate::column::planet(&medium.atmosphere);
+    let geometry = chunk_geometry(medium, planet, &plan.grid, 0);
+    ElevationScale::new(&traced[v * plan.grid.altitudes.len()].0, &geometry, medium)
+}
+
+fn fit_all(
+    plan: &Plan,
+    solved: &[Solved],
+    traced: Vec<(Tensor, Vec<Sample>)>,
+    scale: &ElevationScale,
+) -> Vec<Fitted> {
+    let progress = bar(traced.len(), "fitting");
+    let altitudes = plan.grid.altitudes.len();
+    let out = traced
+        .into_par_iter()
+        .enumerate()
+        .map(|(i, (tensor, truth))| {
+            let (visibility, altitude) = (i / altitudes, i % altitudes);
+            let s = &solved[visibility];
+            let gatherer = Gatherer::new(&s.medium, &s.light, FINENESS);
+            let geometry = chunk_geometry(&s.medium, gatherer.planet(), &plan.grid, altitude);
+            let weights = channel_weights(&tensor, &gatherer, &plan.grid, altitude);
+            let fit = fit(&tensor, &geometry, &s.medium, &plan.grid, scale, &weights, plan.options);
+            progress.inc(1);
+            Fitted { altitude, visibility, fit, truth }
+        })
+        .collect();
+    progress.finish();
+    out
+}
+
+/// Encodes the file twice: once to measure the errors of its chunks, once with them.
+fn assemble(
+    plan: &Plan,
+    solved: &[Solved],
+    fitted: &[Fitted],
+    scale: &ElevationScale,
+) -> Result<(Vec<u8>, Vec<Vec<Error>>)> {
+    let airs: Vec<Air> = solved.iter().map(|s| Air::new(&s.medium, s.light.spherical_albedo)).collect();
+    let gatherer = Gatherer::new(&solved[0].medium, &solved[0].light, FINENESS);
+    let mut head = head(&plan.grid, &airs, &gatherer, scale, "{}".into())?;
+    let mut chunks = chunks(plan, solved, fitted);
+    let model = Model::from_bytes(encode(&head, &chunks)?)?;
+    let mut all = vec![];
+    for (chunk, f) in chunks.iter_mut().filter(|c| c.visibility.is_some()).zip(fitted) {
+        let errors = assess::errors(&model, solved[f.visibility].visibility, &f.truth)?;
+        if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
+            chunk.error_median = q.median as f32;
+            chunk.error_p99 = q.p99 as f32;
+        }
+        all.push(errors);
+    }
+    head.metadata = metadata(plan, &head, &all);
+    Ok((encode(&head, &chunks)?, all))
+}
+
+/// Radiance chunks in the order of `fitted`, then columns.
+fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Vec<Chunk> {
+    let radiance = fitted.iter().map(|f| Chunk {
+        altitude: f.altitude,
+        visibility: Some(f.visibility),
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload: Payload::Radiance(f.fit.factors.clone()),
+    });
+    let medium = &solved[0].medium;
+    let planet = crate::column::planet(&medium.atmosphere);
+    let columns = (0..plan.grid.altitudes.len()).map(|a| {
+        let geometry = chunk_geometry(medium, planet, &plan.grid, a);
+        let values = geometry.coefficients(plan.grid.up.0, plan.grid.down.0);
+        Chunk {
+            altitude: a,
+            visibility: None,
+            error_median: 0.0,
+            error_p99: 0.0,
+            payload: Payload::Column(ColumnTable { values }),
+        }
+    });
+    radiance.chain(columns).collect()
+}
+
+fn metadata(plan: &Plan, head: &Head, errors: &[Vec<Error>]) -> String {
+    let all = errors.concat();
+    let classes: serde_json::Map<String, serde_json::Value> = assess::CLASSES
+        .iter()
+        .filter_map(|(name, belongs)| {
+            let q = Quantiles::of(all.iter().filter(|e| belongs(e)).map(|e| e.relative))?;
+            Some(((*name).to_owned(), serde_json::to_value(q).ok()?))
+        })
+        .collect();
+    serde_json::json!({
+        "title": "Clear sky of the US standard atmosphere with OPAC continental aerosol",
+        "generator": concat!("welkin-fit ", env!("CARGO_PKG_VERSION")),
+        "atmosphere": {
+            "air": "AFGL US standard 1986; Rayleigh scattering: Bodhaine et al. 1999; ozone: Gorshelev et al. 2014, 223 K",
+            "aerosol": "OPAC water-soluble (50 % humidity), insoluble, soot (Hess et al. 1998), Henyey-Greenstein",
+            "sun": "ASTM G173-03 extraterrestrial",
+            "planet_radius_m": head.planet.radius,
+        },
+        "method": "single scattering by quadrature, multiple scattering by successive orders with polarised Rayleigh scattering",
+        "solver": format!("{:?}", plan.settings),
+        "fit": { "rank": plan.options.rank, "sweeps": plan.options.sweeps, "seed": plan.options.seed },
+        "relative_error_held_out": classes,
+    })
+    .to_string()
+}
+
+fn chunk_table(plan: &Plan, fitted: &[Fitted], errors: &[Vec<Error>]) -> String {
+    let mut out = format!(
+        "{:>10} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}\n",
+        "visibility", "altitude", "condition", "median", "p95", "p99", "max"
+    );
+    for (f, errors) in fitted.iter().zip(errors) {
+        if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
+            out += &format!(
+                "{:>7.1} km {:>7} m {:>10.1} {:>8.3}% {:>8.3}% {:>8.3}% {:>8.2}%\n",
+                plan.grid.visibilities[f.visibility] / 1e3,
+                plan.grid.altitudes[f.altitude],
+                f.fit.condition,
+                100.0 * q.median,
+                100.0 * q.p95,
+                100.0 * q.p99,
+                100.0 * q.max
+            );
+        }
+    }
+    out
+}
