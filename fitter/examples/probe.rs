@@ -18,7 +18,8 @@ fn main() {
     let e = d["sun_elevation_deg"].as_f64().unwrap().to_radians();
     let t = Instant::now();
     let medium = Medium::new(air, 0.0).unwrap();
-    let light = solve(&medium, Settings::default(), &|_| ());
+    let mut st = Settings::default(); for a in std::env::var("ST").unwrap_or_default().split(",").filter(|a| !a.is_empty()) { let (k, v) = a.split_once("=").unwrap(); match k { "up" => st.up = v.parse().unwrap(), "down" => st.down = v.parse().unwrap(), "az" => st.azimuths = v.parse().unwrap(), "orders" => st.orders = v.parse().unwrap(), _ => st.fineness = v.parse().unwrap() } }
+    println!("{st:?}"); let light = solve(&medium, st, &|_| ());
     println!("{path} e {:.1} A {albedo} solved {:.1?} s {:.5}", e.to_degrees(), t.elapsed(), light.spherical_albedo[0]);
     let t = Instant::now();
     let g = Gatherer::new(&medium, &light, 1.0);

@@ -40,7 +40,13 @@ impl Default for Plan {
 impl Plan {
     /// What the traced data depend on.
     pub fn key(&self) -> String {
-        format!("{UNIT_VERSION} {:?} {:?} {:?} {WAVELENGTHS:?}", self.grid, self.settings, self.held_out)
+        let axes = Grid { altitudes: vec![], visibilities: vec![], ..self.grid.clone() };
+        format!("{UNIT_VERSION} {axes:?} {:?} {:?} {WAVELENGTHS:?}", self.settings, self.held_out)
+    }
+
+    /// Work units in the folder `work`.
+    pub fn store(&self, work: &Path) -> Result<Store> {
+        Store::open(work, self.key())
     }
 }
 
@@ -66,7 +72,7 @@ struct Fitted {
 
 /// Builds the model file `out`, keeping units in `work`; returns a report.
 pub fn build(plan: &Plan, work: &Path, out: &Path) -> Result<String> {
-    let store = Store::open(work, plan.key())?;
+    let store = plan.store(work)?;
     let started = std::time::Instant::now();
     let solved = solve_all(plan, &store)?;
     let traced = trace_all(plan, &store, &solved)?;
@@ -94,19 +100,52 @@ fn bar(length: usize, what: &str) -> ProgressBar {
 }
 
 fn solve_all(plan: &Plan, store: &Store) -> Result<Vec<Solved>> {
-    let mut out = vec![];
-    for &visibility in &plan.grid.visibilities {
-        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
-        let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
-        let values = store.unit(&format!("light-{visibility}"), || {
-            let tell = |share: f64| progress.set_position((100.0 * share) as u64);
-            Ok(solve(&medium, plan.settings, &tell).to_values())
-        })?;
-        progress.finish();
-        let light = LightField::from_values(&values).context("a light field of another size")?;
-        out.push(Solved { visibility, medium, light });
-    }
-    Ok(out)
+    plan.grid.visibilities.iter().map(|&v| solve_one(plan, store, v)).collect()
+}
+
+fn solve_one(plan: &Plan, store: &Store, visibility: f64) -> Result<Solved> {
+    let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
+    let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
+    let values = store.unit(&format!("light-{visibility}"), || {
+        let tell = |share: f64| progress.set_position((100.0 * share) as u64);
+        Ok(solve(&medium, plan.settings, &tell).to_values())
+    })?;
+    progress.finish();
+    let light = LightField::from_values(&values).context("a light field of another size")?;
+    Ok(Solved { visibility, medium, light })
+}
+
+/// Traced radiance for conditions that need not be on the grid: held-out samples for each of `altitudes` (m) at `visibility` (m).
+pub fn between_nodes(
+    plan: &Plan,
+    work: &Path,
+    visibility: f64,
+    altitudes: &[f64],
+) -> Result<Vec<(f64, Vec<Sample>)>> {
+    let store = plan.store(work)?;
+    let solved = solve_one(plan, &store, visibility)?;
+    let gatherer = Gatherer::new(&solved.medium, &solved.light, FINENESS);
+    let sample = |&altitude: &f64| {
+        let seed = (visibility + altitude) as u64;
+        let samples = held_out(plan, &store, &gatherer, &solved, altitude, seed)?;
+        Ok((altitude, samples))
+    };
+    altitudes.iter().map(sample).collect()
+}
+
+fn held_out(
+    plan: &Plan,
+    store: &Store,
+    gatherer: &Gatherer,
+    solved: &Solved,
+    altitude: f64,
+    seed: u64,
+) -> Result<Vec<Sample>> {
+    let values = store.unit(&format!("truth-{}-{altitude}", solved.visibility), || {
+        let samples = truth(gatherer, &solved.light, altitude, plan.held_out, seed);
+        Ok(samples.iter().flat_map(Sample::to_values).collect())
+    })?;
+    Ok(Sample::from_values(&values))
 }
 
 /// Tensor and held-out samples of every chunk, visibility-major.
@@ -124,11 +163,8 @@ fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<(Tenso
             })?;
             let shape = tensor_shape(grid);
             let seed = (s.visibility + altitude) as u64;
-            let samples = store.unit(&format!("truth-{name}"), || {
-                let samples = truth(&gatherer, &s.light, *altitude, plan.held_out, seed);
-                Ok(samples.iter().flat_map(Sample::to_values).collect())
-            })?;
-            out.push((Tensor { shape, values }, Sample::from_values(&samples)));
+            let samples = held_out(plan, store, &gatherer, s, *altitude, seed)?;
+            out.push((Tensor { shape, values }, samples));
             progress.inc(1);
         }
     }

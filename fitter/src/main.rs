@@ -16,11 +16,14 @@ struct Cli {
 enum Command {
     /// Trace the atmospheres of a grid and fit a model file to them.
     Build(command::build::Args),
+    /// Compare a model file with freshly traced radiance between its nodes.
+    Assess(command::assess::Args),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Build(args) => command::build::run(&args),
+        Command::Assess(args) => command::assess::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

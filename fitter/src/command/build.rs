@@ -13,6 +13,12 @@ pub struct Args {
     /// Folder for finished work units; an interrupted build goes on from them.
     #[arg(long, default_value = "work")]
     work: PathBuf,
+    /// Only these altitudes, m.
+    #[arg(long, value_delimiter = ',')]
+    altitudes: Option<Vec<f64>>,
+    /// Only these visibilities, km.
+    #[arg(long, value_delimiter = ',')]
+    visibilities: Option<Vec<f64>>,
     /// Components per chunk.
     #[arg(long)]
     rank: Option<usize>,
@@ -24,6 +30,13 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let mut plan = Plan::default();
+    if let Some(altitudes) = &args.altitudes {
+        plan.grid.altitudes = altitudes.clone();
+    }
+    if let Some(visibilities) = &args.visibilities {
+        plan.grid.visibilities = visibilities.iter().map(|v| 1e3 * v).collect();
+    }
+    plan.grid.check()?;
     if let Some(rank) = args.rank {
         anyhow::ensure!((1..=4096).contains(&rank), "--rank must be 1..=4096");
         plan.options.rank = rank;

@@ -1,3 +1,4 @@
 //! The subcommands of `welkin-fit`.
 
+pub mod assess;
 pub mod build;

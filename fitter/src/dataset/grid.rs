@@ -1,6 +1,8 @@
 //! Where the sky is sampled: the axes of the model and the points on them.
 
+use crate::atmosphere::VISIBILITIES;
 use crate::orders::NW;
+use anyhow::{Result, ensure};
 use std::f64::consts::{FRAC_PI_2, PI};
 use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
 use welkin::geometry::{Planet, Side};
@@ -61,13 +63,19 @@ pub struct Grid {
     pub elevation: ElevationAxis,
 }
 
+/// The observer altitudes of the paper's Table 2, m.
+pub const ALTITUDES: [f64; 22] = [
+    0.0, 1.875, 15.0, 50.625, 120.0, 234.38, 405.0, 643.12, 960.0, 1366.9, 1875.0, 2000.0, 2495.6,
+    3240.0, 4119.4, 5145.0, 6328.1, 7680.0, 9211.9, 10_935.0, 12_861.0, 15_000.0,
+];
+
 impl Default for Grid {
-    /// The grid of the embedded default model.
+    /// All of Table 2.
     fn default() -> Self {
         let free = |intervals| Axis { intervals, ends: Ends::Free };
         Self {
-            altitudes: vec![0.0, 30.0, 120.0, 400.0, 1000.0, 1500.0, 2000.0],
-            visibilities: vec![20_000.0, 59_400.0, 131_800.0],
+            altitudes: ALTITUDES.to_vec(),
+            visibilities: VISIBILITIES.to_vec(),
             up: (free(40), 3.0),
             down: (free(24), 3.0),
             phi: Axis { intervals: 12, ends: Ends::Mirrored },
@@ -86,6 +94,18 @@ impl Default for Grid {
 const LOWEST: f64 = 0.5;
 
 impl Grid {
+    /// Refuses nodes that no model can have.
+    pub fn check(&self) -> Result<()> {
+        let rising = |nodes: &[f64]| nodes.windows(2).all(|w| w[0] < w[1]) && !nodes.is_empty();
+        ensure!(rising(&self.altitudes), "altitudes must increase");
+        ensure!(rising(&self.visibilities), "visibilities must increase");
+        ensure!(
+            self.altitudes[0] >= 0.0 && self.altitudes.iter().all(|&h| h <= 50_000.0),
+            "altitudes must lie in 0..50 km"
+        );
+        Ok(())
+    }
+
     /// Altitude at which chunk `a` is traced, m.
     pub fn traced_altitude(&self, a: usize) -> f64 {
         self.altitudes[a].max(LOWEST)

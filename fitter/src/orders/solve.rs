@@ -32,10 +32,10 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            up: 10,
-            down: 7,
-            azimuths: 8,
-            orders: 8,
+            up: 16,
+            down: 10,
+            azimuths: 12,
+            orders: 7,
             fineness: 3.0,
         }
     }

@@ -1,0 +1,42 @@
+//! `welkin-fit assess`: a model file against freshly traced radiance at conditions between its nodes.
+
+use anyhow::{Context, Result};
+use std::path::PathBuf;
+use welkin::Model;
+use welkin_fitter::assess::{self, table};
+use welkin_fitter::build::{Plan, between_nodes};
+
+/// Compares a model with freshly traced radiance at visibilities and altitudes between its nodes.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The model file.
+    #[arg(long, default_value = "models/default.welkin")]
+    model: PathBuf,
+    /// Folder for finished work units.
+    #[arg(long, default_value = "work")]
+    work: PathBuf,
+    /// Visibilities, km.
+    #[arg(long, value_delimiter = ',', default_value = "24,48,75,110")]
+    visibilities: Vec<f64>,
+    /// Altitudes, m; those beyond the model are left out.
+    #[arg(long, value_delimiter = ',', default_value = "8,70,300,800,1620,1940,2800,5700,8400,14000")]
+    altitudes: Vec<f64>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<()> {
+    let model = Model::open(&args.model).with_context(|| format!("{}", args.model.display()))?;
+    let [lowest, highest] = model.altitude_range();
+    let altitudes: Vec<f64> =
+        args.altitudes.iter().copied().filter(|h| (lowest..=highest).contains(h)).collect();
+    let mut all = vec![];
+    for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
+        for (altitude, samples) in between_nodes(&Plan::default(), &args.work, visibility, &altitudes)? {
+            let errors = assess::errors(&model, visibility, &samples)?;
+            println!("visibility {} km, altitude {altitude} m\n{}", visibility / 1e3, table(&errors));
+            all.extend(errors);
+        }
+    }
+    println!("all conditions\n{}", table(&all));
+    Ok(())
+}
