@@ -3,3 +3,4 @@
 //! `atmosphere → tracer → dataset → decompose → file`, each in a module of its own.
 
 pub mod atmosphere;
+pub mod tracer;

@@ -1,0 +1,203 @@
+//! Where along a ray to look for sunlight: a piecewise constant density that follows scattering × transmittance × sunlight.
+
+use super::line::Line;
+use super::medium::Medium;
+use super::sun::{GUIDES, SunGuide};
+use glam::DVec3;
+
+/// Longest piece, m.
+const LONGEST: f64 = 30_000.0;
+/// Optical depth above which a piece is divided.
+const THICK: f64 = 0.7;
+
+struct Piece {
+    from: f64,
+    to: f64,
+    weight: [f64; GUIDES],
+}
+
+/// Scratch space for the density along one ray at a time.
+#[derive(Default)]
+pub struct Segment {
+    pieces: Vec<Piece>,
+}
+
+/// State of the march along the ray, at one end of a piece.
+struct End {
+    t: f64,
+    extinction: [f64; GUIDES],
+    light: [f64; GUIDES],
+}
+
+/// What a density is built from.
+pub struct Scene<'a, const N: usize> {
+    /// The atmosphere.
+    pub medium: &'a Medium<N>,
+    /// Approximate sunlight.
+    pub guide: &'a SunGuide,
+    /// Extinction of each constituent at the guiding lanes.
+    pub extinction: Vec<[f64; GUIDES]>,
+    /// Scattering of each constituent at the guiding lanes.
+    pub scattering: Vec<[f64; GUIDES]>,
+    /// Direction to the sun.
+    pub sun: DVec3,
+}
+
+impl<'a, const N: usize> Scene<'a, N> {
+    /// Gathers the guiding lanes of `medium`.
+    pub fn new(medium: &'a Medium<N>, guide: &'a SunGuide, sun: DVec3) -> Self {
+        let lanes = medium.guides();
+        let pick = |all: &Vec<[f64; N]>| {
+            all.iter()
+                .map(|c| std::array::from_fn(|g| c[lanes[g.min(lanes.len() - 1)]]))
+                .collect()
+        };
+        Self {
+            extinction: pick(&medium.extinction),
+            scattering: pick(&medium.scattering),
+            medium,
+            guide,
+            sun,
+        }
+    }
+
+    /// Extinction, and scattering times sunlight, at distance `t`.
+    fn end(&self, line: &Line, t: f64) -> End {
+        let r = line.radius(line.start + t);
+        let profile = self.medium.profile((r - self.medium.radius).max(0.0));
+        let (mut extinction, mut light) = ([0.0; GUIDES], [0.0; GUIDES]);
+        for (k, (e, s)) in self.extinction.iter().zip(&self.scattering).enumerate() {
+            for g in 0..guides::<N>() {
+                extinction[g] += e[g] * profile[k];
+                light[g] += s[g] * profile[k];
+            }
+        }
+        match self.guide.depth(r, line.at(t).dot(self.sun) / r) {
+            Some(depth) => {
+                for g in 0..guides::<N>() {
+                    light[g] *= (-depth[g]).exp();
+                }
+            }
+            None => light = [0.0; GUIDES],
+        }
+        End {
+            t,
+            extinction,
+            light,
+        }
+    }
+}
+
+/// How many guides tell something new.
+const fn guides<const N: usize>() -> usize {
+    if N == 1 { 1 } else { GUIDES }
+}
+
+impl Segment {
+    /// Builds the density along `line` up to distance `end`.
+    pub fn build<const N: usize>(&mut self, scene: &Scene<N>, line: &Line, end: f64) {
+        self.pieces.clear();
+        let shells = &scene.medium.shells;
+        let mut shell = scene.medium.shell(line.origin.length());
+        let mut at = scene.end(line, 0.0);
+        let mut through = [1.0; GUIDES];
+        while at.t < end {
+            let s = line.start + at.t;
+            let down = (s < 0.0)
+                .then(|| line.crossing(shells[shell].lower))
+                .flatten();
+            let exit = match down {
+                Some(crossing) => -crossing,
+                None => line.crossing(shells[shell].upper).unwrap_or(0.0),
+            };
+            let last = exit - line.start >= end;
+            let to = if last { end } else { exit - line.start };
+            at = self.divide(scene, line, at, to, &mut through);
+            match down {
+                _ if last => break,
+                Some(_) if shell == 0 => break,
+                Some(_) => shell -= 1,
+                None if shell + 1 == shells.len() => break,
+                None => shell += 1,
+            }
+        }
+        self.normalise();
+    }
+
+    /// Adds pieces from `at` to distance `to`.
+    fn divide<const N: usize>(
+        &mut self,
+        scene: &Scene<N>,
+        line: &Line,
+        mut at: End,
+        to: f64,
+        through: &mut [f64; GUIDES],
+    ) -> End {
+        let length = to - at.t;
+        if length <= 0.0 {
+            return at;
+        }
+        let depth = length * at.extinction.iter().fold(0.0_f64, |a, &b| a.max(b));
+        let n = (length / LONGEST).max(depth / THICK).ceil().clamp(1.0, 16.0);
+        let from = at.t;
+        for i in 1..=n as usize {
+            let next = scene.end(line, from + length * i as f64 / n);
+            self.push(guides::<N>(), &at, &next, through);
+            at = next;
+        }
+        at
+    }
+
+    fn push(&mut self, guides: usize, a: &End, b: &End, through: &mut [f64; GUIDES]) {
+        let length = b.t - a.t;
+        let mut weight = [0.0; GUIDES];
+        for g in 0..guides {
+            let next = through[g] * (-0.5 * length * (a.extinction[g] + b.extinction[g])).exp();
+            let (x, y) = (through[g] * a.light[g], next * b.light[g]);
+            weight[g] = length * (0.4 * (x + y) + 0.2 * x.max(y));
+            through[g] = next;
+        }
+        self.pieces.push(Piece {
+            from: a.t,
+            to: b.t,
+            weight,
+        });
+    }
+
+    /// Turns the weights of each guide into shares of its sum.
+    fn normalise(&mut self) {
+        let mut sums = [0.0; GUIDES];
+        for piece in &self.pieces {
+            for g in 0..GUIDES {
+                sums[g] += piece.weight[g];
+            }
+        }
+        let lit = sums.iter().filter(|&&s| s > 0.0).count() as f64;
+        let factors = sums.map(|s| if s > 0.0 { 1.0 / (s * lit) } else { 0.0 });
+        for piece in &mut self.pieces {
+            for g in 0..GUIDES {
+                piece.weight[g] *= factors[g];
+            }
+        }
+    }
+
+    /// A distance and its density (m⁻¹); `None` where no sunlight reaches the ray.
+    pub fn sample(&self, u: f64) -> Option<(f64, f64)> {
+        let mut left = u;
+        let mut chosen = None;
+        for piece in &self.pieces {
+            let share: f64 = piece.weight.iter().sum();
+            if share <= 0.0 {
+                continue;
+            }
+            let length = piece.to - piece.from;
+            let inside = (left / share).min(1.0);
+            chosen = Some((piece.from + inside * length, share / length));
+            if left < share {
+                break;
+            }
+            left -= share;
+        }
+        chosen
+    }
+}

@@ -1,0 +1,372 @@
+//! The random walk from the observer towards the sun.
+//!
+//! Free flights by delta tracking with a majorant per shell. One *hero* wavelength decides; every wavelength is weighted with
+//! the balance heuristic over all heroes: `m` holds f(λ) / p(hero), `pdf` holds p(λ) / p(hero), and light is gathered as
+//! `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see [`Segment`]); that point's
+//! density does not depend on the hero.
+
+use super::line::Line;
+use super::medium::{Columns, Medium};
+use super::phase::Aerosol;
+use super::random::{LATTICE_DIMENSIONS, Stream};
+use super::segment::{Scene, Segment};
+use super::stokes::{Frame, Mueller, Scattering};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
+
+/// Where sunlight is gathered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Gather {
+    /// Once per flight, at a sampled point that sunlight reaches.
+    #[default]
+    Flights,
+    /// At the scattering points of the walk: slower, and so a check.
+    Collisions,
+}
+
+/// What lights the planet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Light {
+    /// The sun.
+    Sun,
+    /// Radiance 1 from every direction, which a planet that absorbs nothing must return everywhere.
+    Furnace,
+}
+
+/// Sums of Stokes vectors by number of ground bounces.
+pub struct Tally<const N: usize> {
+    /// `sums[bounces][component][wavelength]`.
+    pub sums: Vec<[[f64; N]; 3]>,
+}
+
+impl<const N: usize> Tally<N> {
+    fn add(&mut self, bounces: usize, stokes: &[[f64; N]; 3], factor: &[f64; N]) {
+        for (sum, s) in self.sums[bounces].iter_mut().zip(stokes) {
+            for w in 0..N {
+                sum[w] += s[w] * factor[w];
+            }
+        }
+    }
+}
+
+/// A walk under way.
+pub struct Path<const N: usize> {
+    /// Where it is.
+    pub point: DVec3,
+    /// Where it looks.
+    pub frame: Frame,
+    /// Weight to the observer.
+    pub m: Mueller<N>,
+    /// Densities relative to the hero's.
+    pub pdf: [f64; N],
+    /// The wavelength lane that decides.
+    pub hero: usize,
+    /// Ground bounces so far.
+    pub bounces: usize,
+}
+
+/// Walks in one scene.
+pub struct Walker<'a, const N: usize> {
+    /// The scene.
+    pub scene: Scene<'a, N>,
+    /// Treatment of aerosols.
+    pub aerosol: Aerosol,
+    /// Where sunlight is gathered.
+    pub gather: Gather,
+    /// What lights the planet.
+    pub light: Light,
+    /// Scratch space.
+    pub segment: Segment,
+}
+
+enum Flight {
+    Escape,
+    Ground(f64),
+    Collision(f64, Columns),
+}
+
+/// Numbers for one step: the lattice's while they last, then the stream's.
+pub struct Numbers<'a> {
+    /// Point of the lattice.
+    pub lattice: [f64; LATTICE_DIMENSIONS],
+    /// How many of its coordinates are used up.
+    pub used: usize,
+    /// Where the rest come from.
+    pub stream: &'a mut Stream,
+}
+
+impl Numbers<'_> {
+    /// The next uniform number.
+    pub fn draw(&mut self) -> f64 {
+        if self.used < LATTICE_DIMENSIONS {
+            self.used += 1;
+            self.lattice[self.used - 1]
+        } else {
+            self.stream.uniform()
+        }
+    }
+}
+
+impl<const N: usize> Walker<'_, N> {
+    fn medium(&self) -> &Medium<N> {
+        self.scene.medium
+    }
+
+    /// Follows `path`, whose direction has just been chosen, to its end.
+    pub fn follow(&mut self, mut path: Path<N>, numbers: &mut Numbers, tally: &mut Tally<N>) {
+        let reference = path.m.strength() * self.normaliser(&path);
+        loop {
+            let line = Line::new(path.point, path.frame.w);
+            let ground = line.to_ground(self.medium().radius);
+            let end = ground.unwrap_or_else(|| line.to_space(self.medium().top));
+            if self.gather == Gather::Flights && self.light == Light::Sun {
+                self.gather_along(&path, &line, end, numbers.draw(), tally);
+            }
+            match self.fly(&mut path, &line, ground, numbers) {
+                Flight::Escape => {
+                    if self.light == Light::Furnace {
+                        self.gather_escape(&path, tally);
+                    }
+                    return;
+                }
+                Flight::Ground(t) => {
+                    path.point = line.at(t);
+                    path.bounces += 1;
+                    if path.bounces >= tally.sums.len() {
+                        return;
+                    }
+                    self.bounce(&mut path, numbers, tally, true);
+                }
+                Flight::Collision(t, profile) => {
+                    path.point = line.at(t);
+                    if self.gather == Gather::Collisions && self.light == Light::Sun {
+                        self.gather_at(&path, &profile, tally);
+                    }
+                    if !self.scatter(&mut path, &profile, numbers) {
+                        return;
+                    }
+                }
+            }
+            let strength = path.m.strength() * self.normaliser(&path) / reference;
+            if strength < 0.1 {
+                let survival = (strength / 0.1).max(0.05);
+                if numbers.draw() >= survival {
+                    return;
+                }
+                path.m.scale(&[1.0 / survival; N]);
+            }
+        }
+    }
+
+    /// n / Σ pdf: the balance heuristic's weight of what the hero found.
+    fn normaliser(&self, path: &Path<N>) -> f64 {
+        let n = self.medium().active;
+        n as f64 / path.pdf[..n].iter().sum::<f64>()
+    }
+
+    /// Chooses a new direction at a scattering point; false if the walk ends there.
+    pub fn scatter(&self, path: &mut Path<N>, profile: &Columns, numbers: &mut Numbers) -> bool {
+        let lobes = &self.medium().lobes;
+        let total = self.medium().scattering_of(profile);
+        let hero = path.hero;
+        let mut pick = numbers.draw() * total[hero];
+        let (u, turn) = (numbers.draw(), TAU * numbers.draw());
+        let mut chosen = None;
+        for lobe in lobes {
+            let share = profile[lobe.constituent] * lobe.scattering[hero];
+            if share > 0.0 {
+                chosen = Some(lobe);
+                if pick < share {
+                    break;
+                }
+                pick -= share;
+            }
+        }
+        let Some(lobe) = chosen else {
+            return false;
+        };
+        let cosine = lobe.sample(hero, u);
+        let f = self.scattering_at(profile, cosine);
+        let angle = (turn.cos(), turn.sin());
+        path.frame = path.frame.turned(angle).bent(cosine).orthonormalised();
+        path.m.turn(angle);
+        path.m.scatter(&f);
+        let per_density = total[hero] / f.f11[hero];
+        path.m.scale(&[per_density; N]);
+        if N > 1 {
+            for w in 0..N {
+                path.pdf[w] *= if total[w] > 0.0 {
+                    f.f11[w] / total[w] * per_density
+                } else {
+                    0.0
+                };
+            }
+        }
+        true
+    }
+
+    fn scattering_at(&self, profile: &Columns, cosine: f64) -> Scattering<N> {
+        let mut f = Scattering::ZERO;
+        for lobe in &self.medium().lobes {
+            lobe.add(profile[lobe.constituent], cosine, self.aerosol, &mut f);
+        }
+        f
+    }
+
+    /// Leaves the ground at `path.point` in a cosine-distributed direction.
+    pub fn bounce(
+        &self,
+        path: &mut Path<N>,
+        numbers: &mut Numbers,
+        tally: &mut Tally<N>,
+        sunlit: bool,
+    ) {
+        let up = path.point.normalize();
+        path.point = up * self.medium().radius;
+        path.m.depolarise();
+        if sunlit && self.light == Light::Sun {
+            self.gather_ground(path, up, tally);
+        }
+        let (u, turn) = (numbers.draw(), TAU * numbers.draw());
+        let frame = Frame::around(up).turned((turn.cos(), turn.sin()));
+        path.frame = frame.bent((1.0 - u).sqrt()).orthonormalised();
+    }
+
+    /// Delta tracking to the next real collision of the hero.
+    fn fly(
+        &self,
+        path: &mut Path<N>,
+        line: &Line,
+        ground: Option<f64>,
+        numbers: &mut Numbers,
+    ) -> Flight {
+        let medium = self.medium();
+        let mut shell = medium.shell(path.point.length());
+        let mut s = line.start;
+        let mut factor = [1.0; N];
+        let mut depth = -(1.0 - numbers.stream.uniform()).ln();
+        let flight = loop {
+            let Some((exit, down)) = step(medium, line, shell, s) else {
+                break Flight::Escape;
+            };
+            let majorant = medium.shells[shell].majorant;
+            let thickness = majorant * (exit - s).max(0.0);
+            if depth < thickness {
+                s += depth / majorant;
+                let profile = medium.profile((line.radius(s) - medium.radius).max(0.0));
+                let extinction = medium.extinction_of(&profile);
+                let real = extinction[path.hero] / majorant;
+                if numbers.stream.uniform() < real {
+                    collide(path, &extinction);
+                    break Flight::Collision(s - line.start, profile);
+                }
+                if N > 1 {
+                    for w in 0..N {
+                        factor[w] *= (1.0 - extinction[w] / majorant) / (1.0 - real);
+                    }
+                }
+                depth = -(1.0 - numbers.stream.uniform()).ln();
+                continue;
+            }
+            depth -= thickness;
+            s = exit;
+            match (down, shell) {
+                (true, 0) => break Flight::Ground(ground.unwrap_or(0.0)),
+                (true, _) => shell -= 1,
+                (false, i) if i + 1 == medium.shells.len() => break Flight::Escape,
+                (false, _) => shell += 1,
+            }
+        };
+        if N > 1 {
+            path.m.scale(&factor);
+            for w in 0..N {
+                path.pdf[w] *= factor[w];
+            }
+        }
+        flight
+    }
+
+    /// Sunlight scattered towards the walk from one sampled point of its flight.
+    fn gather_along(
+        &mut self,
+        path: &Path<N>,
+        line: &Line,
+        end: f64,
+        u: f64,
+        tally: &mut Tally<N>,
+    ) {
+        self.segment.build(&self.scene, line, end);
+        let Some((t, density)) = self.segment.sample(u) else {
+            return;
+        };
+        let medium = self.medium();
+        let Some(light) = medium.sunlight(line.at(t), self.scene.sun) else {
+            return;
+        };
+        let altitude = (line.radius(line.start + t) - medium.radius).max(0.0);
+        let through = medium.transmittance(&medium.columns(line, 0.0, t));
+        let common = self.normaliser(path) / (4.0 * PI * density);
+        let factor = std::array::from_fn(|w| through[w] * light[w] * common);
+        let stokes = self.from_sun(path, &medium.profile(altitude));
+        tally.add(path.bounces, &stokes, &factor);
+    }
+
+    /// Sunlight scattered at a collision.
+    fn gather_at(&self, path: &Path<N>, profile: &Columns, tally: &mut Tally<N>) {
+        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+            let common = self.normaliser(path) / (4.0 * PI);
+            let factor = light.map(|l| l * common);
+            tally.add(path.bounces, &self.from_sun(path, profile), &factor);
+        }
+    }
+
+    fn from_sun(&self, path: &Path<N>, profile: &Columns) -> [[f64; N]; 3] {
+        let cosine = path.frame.w.dot(self.scene.sun).clamp(-1.0, 1.0);
+        let f = self.scattering_at(profile, cosine);
+        path.m.natural(path.frame.angle_to(self.scene.sun), &f)
+    }
+
+    fn gather_ground(&self, path: &Path<N>, up: DVec3, tally: &mut Tally<N>) {
+        let cosine = up.dot(self.scene.sun);
+        if cosine <= 0.0 {
+            return;
+        }
+        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+            let common = self.normaliser(path) * cosine * FRAC_1_PI;
+            let stokes = path.m.0.map(|row| row[0]);
+            tally.add(path.bounces, &stokes, &light.map(|l| l * common));
+        }
+    }
+
+    fn gather_escape(&self, path: &Path<N>, tally: &mut Tally<N>) {
+        let stokes = path.m.0.map(|row| row[0]);
+        tally.add(path.bounces, &stokes, &[self.normaliser(path); N]);
+    }
+}
+
+/// Weights a real collision: density µ(λ), of which the hero's is divided out.
+fn collide<const N: usize>(path: &mut Path<N>, extinction: &[f64; N]) {
+    let hero = extinction[path.hero];
+    path.m.scale(&[1.0 / hero; N]);
+    if N > 1 {
+        for w in 0..N {
+            path.pdf[w] *= extinction[w] / hero;
+        }
+    }
+}
+
+/// `s` where the line leaves `shell` and whether it does so downwards; `None` beside the atmosphere.
+fn step<const N: usize>(
+    medium: &Medium<N>,
+    line: &Line,
+    shell: usize,
+    s: f64,
+) -> Option<(f64, bool)> {
+    if s < 0.0
+        && let Some(crossing) = line.crossing(medium.shells[shell].lower)
+    {
+        return Some((-crossing, true));
+    }
+    line.crossing(medium.shells[shell].upper)
+        .map(|exit| (exit, false))
+}
