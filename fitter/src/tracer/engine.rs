@@ -2,7 +2,6 @@
 
 use super::estimate::Estimate;
 use super::medium::Medium;
-use super::phase::Aerosol;
 use super::random::{Lattice, Stream};
 use super::segment::{Scene, Segment};
 use super::sight::Sight;
@@ -182,6 +181,7 @@ impl<const N: usize> Engine for Lanes<N> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::phase::Aerosol;
     use super::super::test_atmosphere::{clear, conservative};
     use super::*;
 

@@ -31,6 +31,8 @@ use rayon::prelude::*;
 
 /// Batches per query; standard errors come from their spread.
 pub const BATCHES: usize = 32;
+/// Walks per batch of a pilot run.
+pub const PILOT: usize = 64;
 
 /// Which orders of scattering are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -163,7 +165,6 @@ impl Tracer {
     /// Walks per batch that should bring the standard error of I to `target` times I at `albedo`, from a pilot run whose results
     /// are not used: stopping when the error looks small would bias the result.
     pub fn samples_for(&self, query: &Query, target: f64, albedo: f64, seed: u64) -> Result<usize> {
-        const PILOT: usize = 64;
         if self.options.orders == Orders::Single {
             return Ok(0);
         }

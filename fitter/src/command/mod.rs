@@ -1,0 +1,4 @@
+//! The subcommands of `welkin-fit`.
+
+pub mod trace;
+pub mod validate;
