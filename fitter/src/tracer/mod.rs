@@ -7,6 +7,7 @@
 mod columns;
 mod engine;
 mod estimate;
+mod glow;
 mod line;
 mod medium;
 mod phase;

@@ -88,12 +88,14 @@ impl<const N: usize> Lobe<N> {
     }
 }
 
-fn henyey_greenstein(g: f64, c: f64) -> f64 {
+/// The Henyey-Greenstein function, mean 1.
+pub fn henyey_greenstein(g: f64, c: f64) -> f64 {
     let d = 1.0 + g * g - 2.0 * g * c;
     (1.0 - g * g) / (d * d.sqrt())
 }
 
-fn sample_henyey_greenstein(g: f64, u: f64) -> f64 {
+/// A cosine distributed as the Henyey-Greenstein function.
+pub fn sample_henyey_greenstein(g: f64, u: f64) -> f64 {
     if g.abs() < 1e-4 {
         // To first order in g, exact enough that the density's error is below g².
         let c = 2.0 * u - 1.0;

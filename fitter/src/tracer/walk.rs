@@ -5,6 +5,7 @@
 //! `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see [`Segment`]); that point's
 //! density does not depend on the hero.
 
+use super::glow::Glow;
 use super::line::Line;
 use super::medium::{Columns, Medium};
 use super::phase::Aerosol;
@@ -166,43 +167,53 @@ impl<const N: usize> Walker<'_, N> {
 
     /// Chooses a new direction at a scattering point; false if the walk ends there.
     pub fn scatter(&self, path: &mut Path<N>, profile: &Columns, numbers: &mut Numbers) -> bool {
-        let lobes = &self.medium().lobes;
         let total = self.medium().scattering_of(profile);
-        let hero = path.hero;
-        let mut pick = numbers.draw() * total[hero];
-        let (u, turn) = (numbers.draw(), TAU * numbers.draw());
-        let mut chosen = None;
-        for lobe in lobes {
+        if total[path.hero] <= 0.0 {
+            return false;
+        }
+        let glow = Glow::new(path.point, self.scene.sun);
+        let pick = numbers.draw();
+        let (u, v) = (numbers.draw(), numbers.draw());
+        let (cosine, angle) = if pick < glow.share {
+            let direction = glow.sample(u, v);
+            let cosine = path.frame.w.dot(direction).clamp(-1.0, 1.0);
+            (cosine, path.frame.angle_to(direction))
+        } else {
+            let rest = (pick - glow.share) / (1.0 - glow.share);
+            let cosine = self.sample_phase(path.hero, profile, rest * total[path.hero], u);
+            (cosine, ((TAU * v).cos(), (TAU * v).sin()))
+        };
+        path.frame = path.frame.turned(angle).bent(cosine).orthonormalised();
+        let f = self.scattering_at(profile, cosine);
+        path.m.turn(angle);
+        path.m.scatter(&f);
+        let lobe = 4.0 * PI * glow.share * glow.density(path.frame.w);
+        let density = |w: usize| (1.0 - glow.share) * f.f11[w] / total[w] + lobe;
+        let hero = density(path.hero);
+        path.m.scale(&[1.0 / hero; N]);
+        if N > 1 {
+            for w in 0..N {
+                let here = if total[w] > 0.0 { density(w) } else { 0.0 };
+                path.pdf[w] *= here / hero;
+            }
+        }
+        true
+    }
+
+    /// A scattering cosine from the mixture of all lobes; `pick` is uniform up to the hero's scattering coefficient.
+    fn sample_phase(&self, hero: usize, profile: &Columns, mut pick: f64, u: f64) -> f64 {
+        let mut cosine = 0.0;
+        for lobe in &self.medium().lobes {
             let share = profile[lobe.constituent] * lobe.scattering[hero];
             if share > 0.0 {
-                chosen = Some(lobe);
+                cosine = lobe.sample(hero, u);
                 if pick < share {
                     break;
                 }
                 pick -= share;
             }
         }
-        let Some(lobe) = chosen else {
-            return false;
-        };
-        let cosine = lobe.sample(hero, u);
-        let f = self.scattering_at(profile, cosine);
-        let angle = (turn.cos(), turn.sin());
-        path.frame = path.frame.turned(angle).bent(cosine).orthonormalised();
-        path.m.turn(angle);
-        path.m.scatter(&f);
-        let per_density = total[hero] / f.f11[hero];
-        path.m.scale(&[per_density; N]);
-        if N > 1 {
-            for w in 0..N {
-                path.pdf[w] *= if total[w] > 0.0 {
-                    f.f11[w] / total[w] * per_density
-                } else {
-                    0.0
-                };
-            }
-        }
-        true
+        cosine
     }
 
     fn scattering_at(&self, profile: &Columns, cosine: f64) -> Scattering<N> {
