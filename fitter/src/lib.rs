@@ -3,4 +3,5 @@
 //! `atmosphere → tracer → dataset → decompose → file`, each in a module of its own.
 
 pub mod atmosphere;
+pub mod reference;
 pub mod tracer;

@@ -273,21 +273,61 @@ mod tests {
     fn bad_files_are_refused_by_field() {
         for (from, to, names) in [
             ("\"wavelength_nm\": 550,", "", "wavelength_nm"),
-            ("\"planet_radius_m\": 6371000.0", "\"planet_radius_m\": -1", "planet_radius_m"),
+            (
+                "\"planet_radius_m\": 6371000.0",
+                "\"planet_radius_m\": -1",
+                "planet_radius_m",
+            ),
             ("6371000.0", "NaN", "line 1"),
-            ("\"ground_albedo\": 0.3", "\"ground_albedo\": 1.3", "ground_albedo"),
-            ("[0.0, 1000.0, 2000.0]", "[0.0, 1000.0, 900.0]", "altitude_m[2]"),
-            ("[0.0, 1000.0, 2000.0]", "[10.0, 1000.0, 2000.0]", "altitude_m[0]"),
-            ("\"toa_altitude_m\": 2000.0", "\"toa_altitude_m\": 3000.0", "toa_altitude_m"),
-            ("[2e-5, 1e-5, 0.0]", "[2e-5, -1e-5, 0.0]", "extinction_per_m[1]"),
+            (
+                "\"ground_albedo\": 0.3",
+                "\"ground_albedo\": 1.3",
+                "ground_albedo",
+            ),
+            (
+                "[0.0, 1000.0, 2000.0]",
+                "[0.0, 1000.0, 900.0]",
+                "altitude_m[2]",
+            ),
+            (
+                "[0.0, 1000.0, 2000.0]",
+                "[10.0, 1000.0, 2000.0]",
+                "altitude_m[0]",
+            ),
+            (
+                "\"toa_altitude_m\": 2000.0",
+                "\"toa_altitude_m\": 3000.0",
+                "toa_altitude_m",
+            ),
+            (
+                "[2e-5, 1e-5, 0.0]",
+                "[2e-5, -1e-5, 0.0]",
+                "extinction_per_m[1]",
+            ),
             ("[2e-5, 1e-5, 0.0]", "[2e-5, 1e-5]", "extinction_per_m"),
-            ("[2e-5, 1e-5, 0.0]", "[2e300, 1e-5, 0.0]", "extinction_per_m[0]"),
+            (
+                "[2e-5, 1e-5, 0.0]",
+                "[2e300, 1e-5, 0.0]",
+                "extinction_per_m[0]",
+            ),
             ("\"g\": 0.3", "\"g\": 1.0", "g = 1"),
             (", \"g\": 0.3", "", "g is missing"),
-            ("\"depolarisation\": 0.03", "\"depolarisation\": -0.1", "depolarisation"),
-            ("\"single_scattering_albedo\": 0.2", "\"single_scattering_albedo\": 2", "single_scattering_albedo"),
+            (
+                "\"depolarisation\": 0.03",
+                "\"depolarisation\": -0.1",
+                "depolarisation",
+            ),
+            (
+                "\"single_scattering_albedo\": 0.2",
+                "\"single_scattering_albedo\": 2",
+                "single_scattering_albedo",
+            ),
             ("\"absorber\"", "\"mie\"", "mie"),
-            ("\"absorber\", \"extinction_per_m\"", "\"absorber\", \"extinction_per_km\"", "extinction_per_km"),
+            (
+                "\"absorber\", \"extinction_per_m\"",
+                "\"absorber\", \"extinction_per_km\"",
+                "extinction_per_km",
+            ),
             ("[[0.0, null]]", "[[0.0]]", "rows[0]"),
         ] {
             let bad = GOOD.replace(from, to);

@@ -119,7 +119,11 @@ impl Args {
     }
 }
 
-fn row(case: &Case, cells: Vec<String>, field: impl Fn(&str) -> Result<Option<f64>>) -> Result<Row> {
+fn row(
+    case: &Case,
+    cells: Vec<String>,
+    field: impl Fn(&str) -> Result<Option<f64>>,
+) -> Result<Row> {
     let need = |name: &str| field(name)?.with_context(|| format!("{name} is missing"));
     let query = Query {
         altitude: need("altitude_m")?,

@@ -19,6 +19,8 @@ use rayon::prelude::*;
 pub trait Engine: Send + Sync {
     /// Estimates one query, already checked.
     fn estimate(&self, query: &Query, samples: usize, seed: u64) -> Estimate;
+    /// Optical depth of a line of sight per wavelength.
+    fn optical_depth(&self, query: &Query) -> Vec<f64>;
 }
 
 /// N wavelength lanes.
@@ -39,6 +41,12 @@ impl<const N: usize> Lanes<N> {
             options,
             light: Light::Sun,
         })
+    }
+
+    fn sight(&self, query: &Query) -> Sight<N> {
+        let origin = DVec3::new(0.0, 0.0, self.medium.radius + query.altitude);
+        let frame = Frame::observer(query.view_zenith, query.view_azimuth);
+        Sight::new(&self.medium, origin, frame, query.distance)
     }
 
     fn ground_seen(&self, sight: &Sight<N>) -> bool {
@@ -155,9 +163,7 @@ impl<const N: usize> Lanes<N> {
 
 impl<const N: usize> Engine for Lanes<N> {
     fn estimate(&self, query: &Query, samples: usize, seed: u64) -> Estimate {
-        let origin = DVec3::new(0.0, 0.0, self.medium.radius + query.altitude);
-        let frame = Frame::observer(query.view_zenith, query.view_azimuth);
-        let sight = Sight::new(&self.medium, origin, frame, query.distance);
+        let sight = self.sight(query);
         let (sin, cos) = query.sun_elevation.sin_cos();
         let sun = DVec3::new(cos, 0.0, sin);
         let exact = self.exact(&sight, sun);
@@ -176,6 +182,12 @@ impl<const N: usize> Engine for Lanes<N> {
             &exact,
             batches.iter().map(|tally| tally.sums.as_slice()),
         )
+    }
+
+    fn optical_depth(&self, query: &Query) -> Vec<f64> {
+        let sight = self.sight(query);
+        let columns = sight.columns_to(&self.medium, sight.end);
+        self.medium.extinction_of(&columns)[..self.medium.active].to_vec()
     }
 }
 

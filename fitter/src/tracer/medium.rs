@@ -57,8 +57,9 @@ impl<const N: usize> Medium<N> {
             atmosphere.altitudes.len() < usize::from(u16::MAX),
             "too many altitude nodes"
         );
-        let lane =
-            |values: &[f64]| -> [f64; N] { std::array::from_fn(|i| values[lanes[i.min(lanes.len() - 1)]]) };
+        let lane = |values: &[f64]| -> [f64; N] {
+            std::array::from_fn(|i| values[lanes[i.min(lanes.len() - 1)]])
+        };
         let nodes = atmosphere.altitudes.clone();
         let profiles = node_profiles(atmosphere);
         let mut medium = Self {
@@ -86,7 +87,10 @@ impl<const N: usize> Medium<N> {
             profiles,
         };
         for lobe in &medium.lobes {
-            for (sum, s) in medium.scattering[lobe.constituent].iter_mut().zip(&lobe.scattering) {
+            for (sum, s) in medium.scattering[lobe.constituent]
+                .iter_mut()
+                .zip(&lobe.scattering)
+            {
                 *sum += s;
             }
         }

@@ -109,9 +109,19 @@ impl Query {
         };
         let (right, tolerance) = (std::f64::consts::FRAC_PI_2, 1e-12);
         field("altitude", self.altitude, 0.0, top)?;
-        field("view zenith", self.view_zenith, 0.0, 2.0 * right + tolerance)?;
+        field(
+            "view zenith",
+            self.view_zenith,
+            0.0,
+            2.0 * right + tolerance,
+        )?;
         field("view azimuth", self.view_azimuth, -1e3, 1e3)?;
-        field("sun elevation", self.sun_elevation, -right - tolerance, right + tolerance)?;
+        field(
+            "sun elevation",
+            self.sun_elevation,
+            -right - tolerance,
+            right + tolerance,
+        )?;
         self.distance
             .map_or(Ok(()), |d| field("distance", d, 0.0, 1e12))
     }
@@ -154,8 +164,23 @@ impl Tracer {
         ))
     }
 
+    /// Optical depth along a query's line of sight, per wavelength.
+    pub fn optical_depth(&self, query: &Query) -> Result<Vec<f64>> {
+        query.check(self.top)?;
+        Ok(self
+            .groups
+            .iter()
+            .flat_map(|group| group.optical_depth(query))
+            .collect())
+    }
+
     /// Estimates many queries in parallel; query `i` uses the seed `seed + i`.
-    pub fn estimate_all(&self, queries: &[Query], samples: usize, seed: u64) -> Result<Vec<Estimate>> {
+    pub fn estimate_all(
+        &self,
+        queries: &[Query],
+        samples: usize,
+        seed: u64,
+    ) -> Result<Vec<Estimate>> {
         queries
             .par_iter()
             .enumerate()

@@ -150,9 +150,7 @@ mod tests {
             Lobe::rayleigh(0, [1.0], [0.0]),
             Lobe::rayleigh(0, [1.0], [0.03]),
         ];
-        lobes.extend(
-            [-0.5, 0.0, 1e-5, 0.3, 0.8].map(|g| Lobe::henyey_greenstein(0, [1.0], [g])),
-        );
+        lobes.extend([-0.5, 0.0, 1e-5, 0.3, 0.8].map(|g| Lobe::henyey_greenstein(0, [1.0], [g])));
         for lobe in &lobes {
             // 49 degrees of freedom: mean 1, standard deviation 0.2.
             assert!(chi_square(lobe) < 1.8, "{}", chi_square(lobe));

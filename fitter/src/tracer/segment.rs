@@ -9,6 +9,8 @@ use glam::DVec3;
 const LONGEST: f64 = 30_000.0;
 /// Optical depth above which a piece is divided.
 const THICK: f64 = 0.7;
+/// Transmittance behind which pieces are no longer divided.
+const NOTHING: f64 = 1e-6;
 
 struct Piece {
     from: f64,
@@ -100,7 +102,8 @@ impl Segment {
         let shells = &scene.medium.shells;
         let mut shell = scene.medium.shell(line.origin.length());
         let mut at = scene.end(line, 0.0);
-        let mut through = [1.0; GUIDES];
+        let mut through = [0.0; GUIDES];
+        through[..guides::<N>()].fill(1.0);
         while at.t < end {
             let s = line.start + at.t;
             let down = (s < 0.0)
@@ -133,15 +136,13 @@ impl Segment {
         to: f64,
         through: &mut [f64; GUIDES],
     ) -> End {
-        let length = to - at.t;
-        if length <= 0.0 {
-            return at;
-        }
-        let depth = length * at.extinction.iter().fold(0.0_f64, |a, &b| a.max(b));
-        let n = (length / LONGEST).max(depth / THICK).ceil().clamp(1.0, 16.0);
-        let from = at.t;
-        for i in 1..=n as usize {
-            let next = scene.end(line, from + length * i as f64 / n);
+        while at.t < to {
+            let extinction = at.extinction.iter().fold(1e-300_f64, |a, &b| a.max(b));
+            let mut step = LONGEST.min(THICK / extinction);
+            if at.t + 1.3 * step > to || through.iter().all(|&x| x < NOTHING) {
+                step = to - at.t;
+            }
+            let next = scene.end(line, if at.t + step < to { at.t + step } else { to });
             self.push(guides::<N>(), &at, &next, through);
             at = next;
         }

@@ -106,10 +106,7 @@ impl<const N: usize> Sight<N> {
         let share = self.cumulative[i + 1] - self.cumulative[i];
         let length = self.breaks[i + 1] - self.breaks[i];
         let inside = ((x - self.cumulative[i]) / share).clamp(0.0, 1.0);
-        Some((
-            self.breaks[i] + inside * length,
-            share / (total * length),
-        ))
+        Some((self.breaks[i] + inside * length, share / (total * length)))
     }
 }
 
@@ -135,7 +132,10 @@ fn subdivided<const N: usize>(medium: &Medium<N>, line: &Line, breaks: &[f64]) -
         let length = pair[1] - pair[0];
         let tau = medium.extinction_of(&medium.columns(line, pair[0], pair[1]));
         let depth = tau.iter().fold(0.0_f64, |a, &b| a.max(b));
-        let n = (length / LONGEST).max(depth / THICK).ceil().clamp(1.0, 200.0) as usize;
+        let n = (length / LONGEST)
+            .max(depth / THICK)
+            .ceil()
+            .clamp(1.0, 200.0) as usize;
         fine.extend((1..n).map(|i| pair[0] + length * i as f64 / n as f64));
         fine.push(pair[1]);
     }

@@ -15,11 +15,23 @@ const DEEPEST: usize = 14;
 /// Positive nodes of the 15-point Kronrod rule, their weights, and the weights of the embedded 7-point Gauss rule.
 const KRONROD: [(f64, f64, f64); 8] = [
     (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
-    (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),
+    (
+        0.949_107_912_342_758_5,
+        0.063_092_092_629_978_55,
+        0.129_484_966_168_869_7,
+    ),
     (0.864_864_423_359_769_1, 0.104_790_010_322_250_18, 0.0),
-    (0.741_531_185_599_394_4, 0.140_653_259_715_525_92, 0.279_705_391_489_276_64),
+    (
+        0.741_531_185_599_394_4,
+        0.140_653_259_715_525_92,
+        0.279_705_391_489_276_64,
+    ),
     (0.586_087_235_467_691_1, 0.169_004_726_639_267_9, 0.0),
-    (0.405_845_151_377_397_2, 0.190_350_578_064_785_4, 0.381_830_050_505_118_93),
+    (
+        0.405_845_151_377_397_2,
+        0.190_350_578_064_785_4,
+        0.381_830_050_505_118_93,
+    ),
     (0.207_784_955_007_898_46, 0.204_432_940_075_298_89, 0.0),
     (0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4),
 ];
@@ -59,14 +71,12 @@ pub fn scattered_once<const N: usize>(
 }
 
 /// Radiance of directly sunlit ground at the end of the line of sight, for albedo 1.
-pub fn sunlit_ground<const N: usize>(
-    medium: &Medium<N>,
-    sight: &Sight<N>,
-    sun: DVec3,
-) -> [f64; N] {
+pub fn sunlit_ground<const N: usize>(medium: &Medium<N>, sight: &Sight<N>, sun: DVec3) -> [f64; N] {
     let point = sight.line.at(sight.end);
     let cosine = point.normalize().dot(sun);
-    let light = (cosine > 0.0).then(|| medium.sunlight(point, sun)).flatten();
+    let light = (cosine > 0.0)
+        .then(|| medium.sunlight(point, sun))
+        .flatten();
     light.map_or([0.0; N], |light| {
         std::array::from_fn(|w| sight.transmittance[w] * light[w] * cosine * FRAC_1_PI)
     })
