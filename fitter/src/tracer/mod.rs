@@ -19,6 +19,8 @@ pub mod stokes;
 mod sun;
 #[cfg(test)]
 mod test_atmosphere;
+#[cfg(test)]
+mod tests;
 mod walk;
 
 pub use estimate::{Estimate, Radiance};
