@@ -15,6 +15,13 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
+/// A point of a line: its `s`, its radius and dr/ds there.
+struct Point {
+    s: f64,
+    r: f64,
+    slope: f64,
+}
+
 impl<const N: usize> Medium<N> {
     /// Column densities (m) of all constituents between the distances `from` and `to` along `line`; nothing below the ground.
     pub fn columns(&self, line: &Line, from: f64, to: f64) -> Columns {
@@ -38,21 +45,28 @@ impl<const N: usize> Medium<N> {
     /// Adds the columns between `s = a` and `s = b`, 0 ≤ a ≤ b.
     fn climb(&self, tangent2: f64, a: f64, b: f64, sum: &mut Columns) {
         let radii = self.radii();
-        let mut r = (tangent2 + a * a).sqrt();
-        let mut s = a;
-        let mut i = self.interval(r - self.radius);
-        while s < b {
-            let upper = radii[i + 1];
+        let point = |s: f64| {
+            let r = (tangent2 + s * s).sqrt();
+            Point { s, r, slope: s / r }
+        };
+        let mut at = point(a);
+        let mut i = self.interval(at.r - self.radius);
+        while at.s < b {
+            let (upper, inverse) = (radii[i + 1], self.inverse_radii()[i + 1]);
             let exit = (upper * upper - tangent2).max(0.0).sqrt();
             let last = exit >= b || i + 2 == radii.len();
-            let (next, r_next) = if last {
-                (b, (tangent2 + b * b).sqrt())
+            let next = if last {
+                point(b)
             } else {
-                (exit, upper)
+                Point {
+                    s: exit,
+                    r: upper,
+                    slope: exit * inverse,
+                }
             };
-            let length = next - s;
+            let length = next.s - at.s;
             if length > 0.0 {
-                let mean = self.mean_altitude(tangent2, (s, r), (next, r_next));
+                let mean = self.mean_altitude(tangent2, &at, &next);
                 let p = self.profile_in(i, mean);
                 for k in 0..self.extinction.len() {
                     sum[k] += length * p[k];
@@ -61,18 +75,18 @@ impl<const N: usize> Medium<N> {
             if last {
                 break;
             }
-            (s, r) = (next, r_next);
+            at = next;
             i += 1;
         }
     }
 
-    fn mean_altitude(&self, tangent2: f64, (s0, r0): (f64, f64), (s1, r1): (f64, f64)) -> f64 {
-        let length = s1 - s0;
+    fn mean_altitude(&self, tangent2: f64, a: &Point, b: &Point) -> f64 {
+        let length = b.s - a.s;
         if length < SHORT {
-            let ends = 0.5 * ((r0 - self.radius) + (r1 - self.radius));
-            return ends - length / 12.0 * (s1 / r1 - s0 / r0);
+            let ends = 0.5 * ((a.r - self.radius) + (b.r - self.radius));
+            return ends - length / 12.0 * (b.slope - a.slope);
         }
-        let (middle, half) = (0.5 * (s0 + s1), 0.5 * length);
+        let (middle, half) = (0.5 * (a.s + b.s), 0.5 * length);
         let altitude = |s: f64| (tangent2 + s * s).sqrt() - self.radius;
         GAUSS
             .iter()

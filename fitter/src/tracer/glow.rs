@@ -20,20 +20,18 @@ pub struct Glow {
 }
 
 impl Glow {
-    /// The lobe at `point` under `sun`.
-    pub fn new(point: DVec3, sun: DVec3) -> Self {
+    /// The lobe at `point` under `sun` for a walk that was scattered `scatterings` times before.
+    pub fn new(point: DVec3, sun: DVec3, scatterings: usize) -> Self {
         let up = point.normalize();
         let sine = up.dot(sun);
+        let share = share(sine, scatterings);
         if sine >= LOWEST {
-            return Self {
-                middle: sun,
-                share: 0.25,
-            };
+            return Self { middle: sun, share };
         }
         let level = (sun - sine * up).normalize_or(up.any_orthonormal_vector());
         Self {
             middle: level * (1.0 - LOWEST * LOWEST).sqrt() + up * LOWEST,
-            share: 0.5,
+            share,
         }
     }
 
@@ -48,5 +46,15 @@ impl Glow {
     /// The lobe's density per solid angle.
     pub fn density(&self, direction: DVec3) -> f64 {
         0.25 * FRAC_1_PI * henyey_greenstein(WIDTH, self.middle.dot(direction))
+    }
+}
+
+/// Weights multiply from one scattering to the next, so by day, when the lobe is of little use, only the first two get it.
+fn share(sine: f64, scatterings: usize) -> f64 {
+    match scatterings {
+        _ if sine < -0.02 => 0.5,
+        0 | 1 if sine < 0.1 => 0.3,
+        0 | 1 => 0.1,
+        _ => 0.0,
     }
 }

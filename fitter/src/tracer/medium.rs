@@ -39,6 +39,7 @@ pub struct Medium<const N: usize> {
     pub shells: Vec<Shell>,
     nodes: Vec<f64>,
     radii: Vec<f64>,
+    inverse_radii: Vec<f64>,
     profiles: Vec<Columns>,
     slopes: Vec<Columns>,
     grid: Vec<u16>,
@@ -75,6 +76,10 @@ impl<const N: usize> Medium<N> {
             lobes: lobes(atmosphere, lane),
             shells: vec![],
             radii: nodes.iter().map(|z| atmosphere.planet_radius + z).collect(),
+            inverse_radii: nodes
+                .iter()
+                .map(|z| (atmosphere.planet_radius + z).recip())
+                .collect(),
             slopes: slopes(&nodes, &profiles),
             grid_scale: GRID as f64 / atmosphere.top(),
             grid: (0..=GRID)
@@ -123,6 +128,11 @@ impl<const N: usize> Medium<N> {
     /// Radii of the nodes, m.
     pub fn radii(&self) -> &[f64] {
         &self.radii
+    }
+
+    /// Their reciprocals.
+    pub fn inverse_radii(&self) -> &[f64] {
+        &self.inverse_radii
     }
 
     /// Index of the shell that holds `radius`.

@@ -35,7 +35,7 @@ use rayon::prelude::*;
 /// Batches per query; standard errors come from their spread.
 pub const BATCHES: usize = 32;
 /// Walks per batch of a pilot run.
-pub const PILOT: usize = 64;
+pub const PILOT: usize = 24;
 
 /// Which orders of scattering are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

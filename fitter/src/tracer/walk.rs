@@ -64,6 +64,8 @@ pub struct Path<const N: usize> {
     pub hero: usize,
     /// Ground bounces so far.
     pub bounces: usize,
+    /// Scattering events so far.
+    pub scatterings: usize,
 }
 
 /// Walks in one scene.
@@ -171,7 +173,8 @@ impl<const N: usize> Walker<'_, N> {
         if total[path.hero] <= 0.0 {
             return false;
         }
-        let glow = Glow::new(path.point, self.scene.sun);
+        let glow = Glow::new(path.point, self.scene.sun, path.scatterings);
+        path.scatterings += 1;
         let pick = numbers.draw();
         let (u, v) = (numbers.draw(), numbers.draw());
         let (cosine, angle) = if pick < glow.share {
