@@ -68,7 +68,7 @@ impl<const N: usize> Medium<N> {
             if length > 0.0 {
                 let mean = self.mean_altitude(tangent2, &at, &next);
                 let p = self.profile_in(i, mean);
-                for k in 0..self.extinction.len() {
+                for k in 0..MAX_CONSTITUENTS {
                     sum[k] += length * p[k];
                 }
             }

@@ -37,6 +37,8 @@ pub struct Medium<const N: usize> {
     pub lobes: Vec<Lobe<N>>,
     /// Majorants, from the ground up.
     pub shells: Vec<Shell>,
+    /// Coarser shells, for densities that need not bound anything.
+    pub layers: Vec<Shell>,
     nodes: Vec<f64>,
     radii: Vec<f64>,
     inverse_radii: Vec<f64>,
@@ -75,6 +77,7 @@ impl<const N: usize> Medium<N> {
             scattering: vec![[0.0; N]; k],
             lobes: lobes(atmosphere, lane),
             shells: vec![],
+            layers: vec![],
             radii: nodes.iter().map(|z| atmosphere.planet_radius + z).collect(),
             inverse_radii: nodes
                 .iter()
@@ -99,11 +102,13 @@ impl<const N: usize> Medium<N> {
                 *sum += s;
             }
         }
-        medium.shells = medium.merge_shells();
+        medium.shells = medium.merge_shells(1.6);
+        medium.layers = medium.merge_shells(3.0);
         Ok(medium)
     }
 
     /// The interval between nodes that holds `altitude` (clamped to the atmosphere).
+    #[inline]
     pub fn interval(&self, altitude: f64) -> usize {
         let cell = (altitude * self.grid_scale).clamp(0.0, GRID as f64) as usize;
         let mut i = usize::from(self.grid[cell]);
@@ -119,6 +124,7 @@ impl<const N: usize> Medium<N> {
     }
 
     /// Profile values at `altitude` (or a mean altitude) of interval `i`, continued linearly.
+    #[inline(always)]
     pub fn profile_in(&self, i: usize, altitude: f64) -> Columns {
         let dz = altitude - self.nodes[i];
         let (p, m) = (&self.profiles[i], &self.slopes[i]);
@@ -135,10 +141,10 @@ impl<const N: usize> Medium<N> {
         &self.inverse_radii
     }
 
-    /// Index of the shell that holds `radius`.
-    pub fn shell(&self, radius: f64) -> usize {
-        let n = self.shells.len();
-        self.shells
+    /// Index of the one of `shells` that holds `radius`.
+    pub fn shell(shells: &[Shell], radius: f64) -> usize {
+        let n = shells.len();
+        shells
             .partition_point(|shell| shell.upper <= radius)
             .min(n - 1)
     }
@@ -164,14 +170,14 @@ impl<const N: usize> Medium<N> {
     }
 
     /// Joins node intervals while the bound stays tight or the whole stays thin.
-    fn merge_shells(&self) -> Vec<Shell> {
+    fn merge_shells(&self, ratio: f64) -> Vec<Shell> {
         let mut shells = vec![];
         let (mut first, mut low, mut high) = (0, self.peak(0), self.peak(0));
         for i in 1..self.nodes.len() {
             let e = self.peak(i);
             let (l, h) = (low.min(e), high.max(e));
             let thickness = self.nodes[i] - self.nodes[first];
-            let loose = h > 1.6 * l && h * thickness > 2e-4;
+            let loose = h > ratio * l && h * thickness > 2e-4;
             if loose && i - 1 > first || thickness > 20_000.0 && i - 1 > first {
                 shells.push(self.shell_between(first, i - 1, high));
                 first = i - 1;

@@ -1,4 +1,4 @@
-//! Where along a ray to look for sunlight: a piecewise constant density that follows scattering × transmittance × sunlight.
+//! Where along a ray to look for sunlight: a piecewise linear density that follows scattering × transmittance × sunlight.
 
 use super::line::Line;
 use super::medium::Medium;
@@ -15,13 +15,15 @@ const NOTHING: f64 = 1e-6;
 struct Piece {
     from: f64,
     to: f64,
-    weight: [f64; GUIDES],
+    /// Unnormalised density at both ends, per guide.
+    ends: [[f64; GUIDES]; 2],
 }
 
 /// Scratch space for the density along one ray at a time.
 #[derive(Default)]
 pub struct Segment {
     pieces: Vec<Piece>,
+    factors: [f64; GUIDES],
 }
 
 /// State of the march along the ray, at one end of a piece.
@@ -99,8 +101,8 @@ impl Segment {
     /// Builds the density along `line` up to distance `end`.
     pub fn build<const N: usize>(&mut self, scene: &Scene<N>, line: &Line, end: f64) {
         self.pieces.clear();
-        let shells = &scene.medium.shells;
-        let mut shell = scene.medium.shell(line.origin.length());
+        let shells = &scene.medium.layers;
+        let mut shell = Medium::<N>::shell(shells, line.origin.length());
         let mut at = scene.end(line, 0.0);
         let mut through = [0.0; GUIDES];
         through[..guides::<N>()].fill(1.0);
@@ -151,35 +153,34 @@ impl Segment {
 
     fn push(&mut self, guides: usize, a: &End, b: &End, through: &mut [f64; GUIDES]) {
         let length = b.t - a.t;
-        let mut weight = [0.0; GUIDES];
+        let mut ends = [[0.0; GUIDES]; 2];
         for g in 0..guides {
             let next = through[g] * (-0.5 * length * (a.extinction[g] + b.extinction[g])).exp();
             let (x, y) = (through[g] * a.light[g], next * b.light[g]);
-            weight[g] = length * (0.4 * (x + y) + 0.2 * x.max(y));
+            // The edge of the shadow may lie inside: leave something at a dark end.
+            let floor = 0.1 * x.max(y);
+            ends[0][g] = x + floor;
+            ends[1][g] = y + floor;
             through[g] = next;
         }
         self.pieces.push(Piece {
             from: a.t,
             to: b.t,
-            weight,
+            ends,
         });
     }
 
-    /// Turns the weights of each guide into shares of its sum.
+    /// Scales every guide's density to an equal share of 1.
     fn normalise(&mut self) {
         let mut sums = [0.0; GUIDES];
         for piece in &self.pieces {
+            let half = 0.5 * (piece.to - piece.from);
             for g in 0..GUIDES {
-                sums[g] += piece.weight[g];
+                sums[g] += half * (piece.ends[0][g] + piece.ends[1][g]);
             }
         }
         let lit = sums.iter().filter(|&&s| s > 0.0).count() as f64;
-        let factors = sums.map(|s| if s > 0.0 { 1.0 / (s * lit) } else { 0.0 });
-        for piece in &mut self.pieces {
-            for g in 0..GUIDES {
-                piece.weight[g] *= factors[g];
-            }
-        }
+        self.factors = sums.map(|s| if s > 0.0 { 1.0 / (s * lit) } else { 0.0 });
     }
 
     /// A distance and its density (m⁻¹); `None` where no sunlight reaches the ray.
@@ -187,18 +188,67 @@ impl Segment {
         let mut left = u;
         let mut chosen = None;
         for piece in &self.pieces {
-            let share: f64 = piece.weight.iter().sum();
+            let [a, b] = piece.ends.map(|end| {
+                let terms = end.iter().zip(&self.factors);
+                terms.map(|(x, factor)| x * factor).sum::<f64>()
+            });
+            let length = piece.to - piece.from;
+            let share = 0.5 * length * (a + b);
             if share <= 0.0 {
                 continue;
             }
-            let length = piece.to - piece.from;
-            let inside = (left / share).min(1.0);
-            chosen = Some((piece.from + inside * length, share / length));
+            let inside = linear(a, b, (left / share).min(1.0));
+            chosen = Some((piece.from + inside * length, a + inside * (b - a)));
             if left < share {
                 break;
             }
             left -= share;
         }
         chosen
+    }
+}
+
+/// Where the linear density from `a` to `b` over [0, 1] has the part `u` of its mass before it.
+fn linear(a: f64, b: f64, u: f64) -> f64 {
+    // The root's form that stays exact for a = b and for a = 0.
+    let root = (a * a + u * (b * b - a * a)).sqrt();
+    (u * (a + b) / (a + root)).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_density_is_inverted() {
+        for (a, b) in [(1.0, 1.0), (0.0, 2.0), (3.0, 0.5), (1.0, 0.0)] {
+            for i in 1..=10 {
+                let u = f64::from(i) / 10.0;
+                let x = linear(a, b, u);
+                let mass = (a * x + 0.5 * (b - a) * x * x) / (0.5 * (a + b));
+                assert!((mass - u).abs() < 1e-12, "{a} {b} {u}");
+            }
+        }
+    }
+
+    /// Pieces 0..1 of density 1 and 1..3 falling from 1 to 0: masses 1/2 and 1/2.
+    #[test]
+    fn samples_follow_the_density() {
+        let piece = |from, to, a, b| Piece {
+            from,
+            to,
+            ends: [[a; GUIDES], [b; GUIDES]],
+        };
+        let mut segment = Segment {
+            pieces: vec![piece(0.0, 1.0, 1.0, 1.0), piece(1.0, 3.0, 1.0, 0.0)],
+            factors: [0.0; GUIDES],
+        };
+        segment.normalise();
+        for i in 0..100 {
+            let (t, density) = segment.sample((f64::from(i) + 0.5) / 100.0).unwrap();
+            let expected = if t < 1.0 { 0.5 } else { 0.25 * (3.0 - t) };
+            assert!((density - expected).abs() < 1e-12, "{t} {density}");
+            assert_eq!(t < 1.0, i < 50);
+        }
     }
 }

@@ -46,7 +46,7 @@ impl SunGuide {
             let horizon = horizon_cosine(radius, r);
             for j in 0..ANGLES {
                 let y = j as f64 / (ANGLES - 1) as f64;
-                let mu = (horizon + (1.0 - horizon) * y * y * y).clamp(-1.0, 1.0);
+                let mu = (horizon + (1.0 - horizon) * y.powi(4)).clamp(-1.0, 1.0);
                 let sun = DVec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
                 let line = Line::new(DVec3::new(0.0, 0.0, r), sun);
                 let tau = medium.extinction_of(&medium.columns_to_space(&line));
@@ -71,7 +71,7 @@ impl SunGuide {
         }
         let x = ((r - self.radius) / self.thickness).clamp(0.0, 1.0).sqrt();
         let (i, u) = split(x, HEIGHTS);
-        let (j, v) = split(y.cbrt(), ANGLES);
+        let (j, v) = split(y.sqrt().sqrt(), ANGLES);
         let at = |i: usize, j: usize| &self.depth[i * ANGLES + j];
         let (a, b, c, d) = (at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1));
         Some(std::array::from_fn(|g| {

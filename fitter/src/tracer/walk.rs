@@ -255,7 +255,7 @@ impl<const N: usize> Walker<'_, N> {
         numbers: &mut Numbers,
     ) -> Flight {
         let medium = self.medium();
-        let mut shell = medium.shell(path.point.length());
+        let mut shell = Medium::<N>::shell(&medium.shells, path.point.length());
         let mut s = line.start;
         let mut factor = [1.0; N];
         let mut depth = -(1.0 - numbers.stream.uniform()).ln();
