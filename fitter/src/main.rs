@@ -16,6 +16,8 @@ struct Cli {
 enum Command {
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
+    /// Measure how fast the tracer is.
+    TraceBench(command::bench::Args),
     /// Compare the tracer with outside references.
     Validate(command::validate::Args),
 }
@@ -23,6 +25,7 @@ enum Command {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Trace(args) => command::trace::run(&args),
+        Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),
     };
     match result {

@@ -1,4 +1,5 @@
 //! The subcommands of `welkin-fit`.
 
+pub mod bench;
 pub mod trace;
 pub mod validate;

@@ -39,7 +39,7 @@ impl<const N: usize> Medium<N> {
 
     /// Column densities from `line`'s origin out to space.
     pub fn columns_to_space(&self, line: &Line) -> Columns {
-        self.columns(line, 0.0, line.to_space(self.top))
+        self.columns(line, 0.0, line.space_distance(self.top))
     }
 
     /// Adds the columns between `s = a` and `s = b`, 0 ≤ a ≤ b.

@@ -1,6 +1,7 @@
 //! Queries on up to N wavelengths at once.
 
 use super::estimate::Estimate;
+use super::gather::Tally;
 use super::medium::Medium;
 use super::random::{Lattice, Stream};
 use super::segment::{Scene, Segment};
@@ -8,7 +9,7 @@ use super::sight::Sight;
 use super::single;
 use super::stokes::{Frame, Mueller};
 use super::sun::SunGuide;
-use super::walk::{Light, Numbers, Path, Tally, Walker};
+use super::walk::{Light, Numbers, Path, Walker};
 use super::{BATCHES, Options, Orders, Query, VisibleGround};
 use crate::atmosphere::Atmosphere;
 use anyhow::Result;
@@ -92,10 +93,10 @@ impl<const N: usize> Lanes<N> {
                 used: 0,
                 stream: &mut stream,
             };
-            self.from_air(&mut walker, sight, hero, &mut numbers, &mut tally);
+            self.walk_from_air(&mut walker, sight, hero, &mut numbers, &mut tally);
             if self.ground_seen(sight) {
                 numbers.used = 1;
-                self.from_ground(&mut walker, sight, hero, &mut numbers, &mut tally);
+                self.walk_from_ground(&mut walker, sight, hero, &mut numbers, &mut tally);
             }
         }
         for sum in tally.sums.iter_mut().flatten().flatten() {
@@ -105,7 +106,7 @@ impl<const N: usize> Lanes<N> {
     }
 
     /// A walk whose first event is scattering on the line of sight.
-    fn from_air(
+    fn walk_from_air(
         &self,
         walker: &mut Walker<N>,
         sight: &Sight<N>,
@@ -136,7 +137,7 @@ impl<const N: usize> Lanes<N> {
     }
 
     /// A walk whose first event is the ground at the end of the line of sight.
-    fn from_ground(
+    fn walk_from_ground(
         &self,
         walker: &mut Walker<N>,
         sight: &Sight<N>,

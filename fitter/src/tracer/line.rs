@@ -48,7 +48,7 @@ impl Line {
     }
 
     /// Distance to the ground of a planet of radius `r`, if the ray goes there.
-    pub fn to_ground(&self, r: f64) -> Option<f64> {
+    pub fn ground_distance(&self, r: f64) -> Option<f64> {
         if self.start >= 0.0 {
             return None;
         }
@@ -56,7 +56,7 @@ impl Line {
     }
 
     /// Distance to where the ray leaves a sphere of radius `r` that contains its origin.
-    pub fn to_space(&self, r: f64) -> f64 {
+    pub fn space_distance(&self, r: f64) -> f64 {
         (self.crossing(r).unwrap_or(0.0) - self.start).max(0.0)
     }
 

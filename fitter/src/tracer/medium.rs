@@ -178,7 +178,7 @@ impl<const N: usize> Medium<N> {
             let (l, h) = (low.min(e), high.max(e));
             let thickness = self.nodes[i] - self.nodes[first];
             let loose = h > ratio * l && h * thickness > 2e-4;
-            if loose && i - 1 > first || thickness > 20_000.0 && i - 1 > first {
+            if i - 1 > first && (loose || thickness > 20_000.0) {
                 shells.push(self.shell_between(first, i - 1, high));
                 first = i - 1;
                 low = e.min(self.peak(i - 1));

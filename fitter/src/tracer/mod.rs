@@ -4,9 +4,15 @@
 //! sight. Results are kept apart by the number of ground bounces, so that any ground albedo can be evaluated afterwards, and
 //! by batch, so that standard errors are honest for any of them.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "loops over wavelength lanes index several arrays at once"
+)]
+
 mod columns;
 mod engine;
 mod estimate;
+mod gather;
 mod glow;
 mod line;
 mod medium;

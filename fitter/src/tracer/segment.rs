@@ -175,8 +175,8 @@ impl Segment {
         let mut sums = [0.0; GUIDES];
         for piece in &self.pieces {
             let half = 0.5 * (piece.to - piece.from);
-            for g in 0..GUIDES {
-                sums[g] += half * (piece.ends[0][g] + piece.ends[1][g]);
+            for (g, sum) in sums.iter_mut().enumerate() {
+                *sum += half * (piece.ends[0][g] + piece.ends[1][g]);
             }
         }
         let lit = sums.iter().filter(|&&s| s > 0.0).count() as f64;

@@ -30,8 +30,8 @@ impl<const N: usize> Sight<N> {
     /// The line of sight from `origin` in `frame`, cut at `distance` if given.
     pub fn new(medium: &Medium<N>, origin: DVec3, frame: Frame, distance: Option<f64>) -> Self {
         let line = Line::new(origin, frame.w);
-        let ground = line.to_ground(medium.radius);
-        let natural = ground.unwrap_or_else(|| line.to_space(medium.top));
+        let ground = line.ground_distance(medium.radius);
+        let natural = ground.unwrap_or_else(|| line.space_distance(medium.top));
         let end = distance.unwrap_or(f64::INFINITY).min(natural);
         let mut sight = Self {
             line,

@@ -5,6 +5,7 @@
 //! `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see [`Segment`]); that point's
 //! density does not depend on the hero.
 
+use super::gather::Tally;
 use super::glow::Glow;
 use super::line::Line;
 use super::medium::{Columns, Medium};
@@ -13,7 +14,7 @@ use super::random::{LATTICE_DIMENSIONS, Stream};
 use super::segment::{Scene, Segment};
 use super::stokes::{Frame, Mueller, Scattering};
 use glam::DVec3;
-use std::f64::consts::{FRAC_1_PI, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// Where sunlight is gathered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,22 +33,6 @@ pub enum Light {
     Sun,
     /// Radiance 1 from every direction, which a planet that absorbs nothing must return everywhere.
     Furnace,
-}
-
-/// Sums of Stokes vectors by number of ground bounces.
-pub struct Tally<const N: usize> {
-    /// `sums[bounces][component][wavelength]`.
-    pub sums: Vec<[[f64; N]; 3]>,
-}
-
-impl<const N: usize> Tally<N> {
-    fn add(&mut self, bounces: usize, stokes: &[[f64; N]; 3], factor: &[f64; N]) {
-        for (sum, s) in self.sums[bounces].iter_mut().zip(stokes) {
-            for w in 0..N {
-                sum[w] += s[w] * factor[w];
-            }
-        }
-    }
 }
 
 /// A walk under way.
@@ -111,7 +96,7 @@ impl Numbers<'_> {
 }
 
 impl<const N: usize> Walker<'_, N> {
-    fn medium(&self) -> &Medium<N> {
+    pub(super) fn medium(&self) -> &Medium<N> {
         self.scene.medium
     }
 
@@ -120,8 +105,8 @@ impl<const N: usize> Walker<'_, N> {
         let reference = path.m.strength() * self.normaliser(&path);
         loop {
             let line = Line::new(path.point, path.frame.w);
-            let ground = line.to_ground(self.medium().radius);
-            let end = ground.unwrap_or_else(|| line.to_space(self.medium().top));
+            let ground = line.ground_distance(self.medium().radius);
+            let end = ground.unwrap_or_else(|| line.space_distance(self.medium().top));
             if self.gather == Gather::Flights && self.light == Light::Sun {
                 self.gather_along(&path, &line, end, numbers.draw(), tally);
             }
@@ -162,7 +147,7 @@ impl<const N: usize> Walker<'_, N> {
     }
 
     /// n / Σ pdf: the balance heuristic's weight of what the hero found.
-    fn normaliser(&self, path: &Path<N>) -> f64 {
+    pub(super) fn normaliser(&self, path: &Path<N>) -> f64 {
         let n = self.medium().active;
         n as f64 / path.pdf[..n].iter().sum::<f64>()
     }
@@ -219,7 +204,7 @@ impl<const N: usize> Walker<'_, N> {
         cosine
     }
 
-    fn scattering_at(&self, profile: &Columns, cosine: f64) -> Scattering<N> {
+    pub(super) fn scattering_at(&self, profile: &Columns, cosine: f64) -> Scattering<N> {
         let mut f = Scattering::ZERO;
         for lobe in &self.medium().lobes {
             lobe.add(profile[lobe.constituent], cosine, self.aerosol, &mut f);
@@ -298,63 +283,6 @@ impl<const N: usize> Walker<'_, N> {
             }
         }
         flight
-    }
-
-    /// Sunlight scattered towards the walk from one sampled point of its flight.
-    fn gather_along(
-        &mut self,
-        path: &Path<N>,
-        line: &Line,
-        end: f64,
-        u: f64,
-        tally: &mut Tally<N>,
-    ) {
-        self.segment.build(&self.scene, line, end);
-        let Some((t, density)) = self.segment.sample(u) else {
-            return;
-        };
-        let medium = self.medium();
-        let Some(light) = medium.sunlight(line.at(t), self.scene.sun) else {
-            return;
-        };
-        let altitude = (line.radius(line.start + t) - medium.radius).max(0.0);
-        let through = medium.transmittance(&medium.columns(line, 0.0, t));
-        let common = self.normaliser(path) / (4.0 * PI * density);
-        let factor = std::array::from_fn(|w| through[w] * light[w] * common);
-        let stokes = self.from_sun(path, &medium.profile(altitude));
-        tally.add(path.bounces, &stokes, &factor);
-    }
-
-    /// Sunlight scattered at a collision.
-    fn gather_at(&self, path: &Path<N>, profile: &Columns, tally: &mut Tally<N>) {
-        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
-            let common = self.normaliser(path) / (4.0 * PI);
-            let factor = light.map(|l| l * common);
-            tally.add(path.bounces, &self.from_sun(path, profile), &factor);
-        }
-    }
-
-    fn from_sun(&self, path: &Path<N>, profile: &Columns) -> [[f64; N]; 3] {
-        let cosine = path.frame.w.dot(self.scene.sun).clamp(-1.0, 1.0);
-        let f = self.scattering_at(profile, cosine);
-        path.m.natural(path.frame.angle_to(self.scene.sun), &f)
-    }
-
-    fn gather_ground(&self, path: &Path<N>, up: DVec3, tally: &mut Tally<N>) {
-        let cosine = up.dot(self.scene.sun);
-        if cosine <= 0.0 {
-            return;
-        }
-        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
-            let common = self.normaliser(path) * cosine * FRAC_1_PI;
-            let stokes = path.m.0.map(|row| row[0]);
-            tally.add(path.bounces, &stokes, &light.map(|l| l * common));
-        }
-    }
-
-    fn gather_escape(&self, path: &Path<N>, tally: &mut Tally<N>) {
-        let stokes = path.m.0.map(|row| row[0]);
-        tally.add(path.bounces, &stokes, &[self.normaliser(path); N]);
     }
 }
 
