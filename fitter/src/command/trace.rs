@@ -35,6 +35,9 @@ pub struct Args {
     /// What aerosols do to polarised light.
     #[arg(long, value_enum, default_value = "depolarising")]
     aerosol: AerosolArg,
+    /// Angular radius of the sun, degrees (0.2667 for the real one); 0 for a parallel beam.
+    #[arg(long, default_value_t = 0.0)]
+    sun_radius: f64,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -114,6 +117,7 @@ impl Args {
                 AerosolArg::Depolarising => Aerosol::Depolarising,
                 AerosolArg::Preserving => Aerosol::Preserving,
             },
+            sun_radius: self.sun_radius.to_radians(),
             ..Options::default()
         }
     }

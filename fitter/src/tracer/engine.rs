@@ -1,5 +1,6 @@
 //! Queries on up to N wavelengths at once.
 
+use super::disc::Disc;
 use super::estimate::Estimate;
 use super::gather::Tally;
 use super::medium::Medium;
@@ -55,7 +56,7 @@ impl<const N: usize> Lanes<N> {
     }
 
     /// What needs no walks, by ground bounces.
-    fn exact(&self, sight: &Sight<N>, sun: DVec3) -> Vec<[[f64; N]; 3]> {
+    fn exact(&self, sight: &Sight<N>, disc: &Disc) -> Vec<[[f64; N]; 3]> {
         let mut exact = vec![[[0.0; N]; 3]; self.options.bounces + 1];
         if self.light == Light::Furnace {
             exact[0][0] = if sight.hits_ground {
@@ -65,20 +66,26 @@ impl<const N: usize> Lanes<N> {
             };
             return exact;
         }
-        exact[0] = single::scattered_once(&self.medium, sight, sun, self.options.aerosol);
-        if self.ground_seen(sight) && exact.len() > 1 {
-            exact[1][0] = single::sunlit_ground(&self.medium, sight, sun);
+        let directions = disc.directions();
+        let weight = 1.0 / directions.len() as f64;
+        for &sun in &directions {
+            let once = single::scattered_once(&self.medium, sight, sun, self.options.aerosol);
+            accumulate(&mut exact[0], &once, weight);
+            if self.ground_seen(sight) && exact.len() > 1 {
+                let ground = single::sunlit_ground(&self.medium, sight, sun);
+                accumulate(&mut exact[1], &[ground, [0.0; N], [0.0; N]], weight);
+            }
         }
         exact
     }
 
     /// Mean over `samples` walks, by ground bounces.
-    fn batch(&self, sight: &Sight<N>, sun: DVec3, samples: usize, mut stream: Stream) -> Tally<N> {
+    fn batch(&self, sight: &Sight<N>, disc: &Disc, samples: usize, mut stream: Stream) -> Tally<N> {
         let mut tally = Tally {
             sums: vec![[[0.0; N]; 3]; self.options.bounces + 1],
         };
         let mut walker = Walker {
-            scene: Scene::new(&self.medium, &self.guide, sun),
+            scene: Scene::new(&self.medium, &self.guide, disc.middle()),
             aerosol: self.options.aerosol,
             gather: self.options.gather,
             light: self.light,
@@ -88,6 +95,9 @@ impl<const N: usize> Lanes<N> {
         let first_hero = (stream.uniform() * self.medium.active as f64) as usize;
         for i in 0..samples {
             let hero = (i + first_hero) % self.medium.active;
+            if !disc.is_point() {
+                walker.scene.sun = disc.direction(stream.uniform(), stream.uniform());
+            }
             let mut numbers = Numbers {
                 lattice: lattice.point(i),
                 used: 0,
@@ -164,17 +174,22 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
+fn accumulate<const N: usize>(sum: &mut [[f64; N]; 3], stokes: &[[f64; N]; 3], weight: f64) {
+    for (s, x) in sum.iter_mut().flatten().zip(stokes.iter().flatten()) {
+        *s += weight * x;
+    }
+}
+
 impl<const N: usize> Engine for Lanes<N> {
     fn estimate(&self, query: &Query, samples: usize, seed: u64) -> Estimate {
         let sight = self.sight(query);
-        let (sin, cos) = query.sun_elevation.sin_cos();
-        let sun = DVec3::new(cos, 0.0, sin);
-        let exact = self.exact(&sight, sun);
+        let disc = Disc::new(query.sun_elevation, self.options.sun_radius);
+        let exact = self.exact(&sight, &disc);
         let walks = self.options.orders == Orders::All && samples > 0;
         let batches: Vec<Tally<N>> = if walks {
             (0..BATCHES)
                 .into_par_iter()
-                .map(|b| self.batch(&sight, sun, samples, Stream::new(seed, 0, b as u64)))
+                .map(|b| self.batch(&sight, &disc, samples, Stream::new(seed, 0, b as u64)))
                 .collect()
         } else {
             vec![]

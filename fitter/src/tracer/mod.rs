@@ -10,6 +10,7 @@
 )]
 
 mod columns;
+mod disc;
 mod engine;
 mod estimate;
 mod gather;
@@ -76,6 +77,8 @@ pub struct Options {
     pub gather: Gather,
     /// Ground bounces kept; walks end after that many.
     pub bounces: usize,
+    /// Angular radius of the sun, radians; 0 for a parallel beam, as the outside references have it.
+    pub sun_radius: f64,
 }
 
 impl Default for Options {
@@ -86,6 +89,7 @@ impl Default for Options {
             aerosol: Aerosol::Depolarising,
             gather: Gather::Flights,
             bounces: 15,
+            sun_radius: 0.0,
         }
     }
 }
@@ -148,6 +152,11 @@ impl Tracer {
         ensure!(
             !atmosphere.wavelengths.is_empty(),
             "the atmosphere has no wavelengths"
+        );
+        ensure!(
+            (0.0..=0.1).contains(&options.sun_radius),
+            "sun radius {} is outside 0..0.1 rad",
+            options.sun_radius
         );
         let all: Vec<usize> = (0..atmosphere.wavelengths.len()).collect();
         let groups = all

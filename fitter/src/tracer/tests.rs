@@ -224,3 +224,30 @@ fn impossible_queries_are_refused() {
         assert!(message.contains(field), "{message}");
     }
 }
+
+/// Under a high sun the disc changes nothing. At night light scattered once comes from above the shadow, where the air thins by e
+/// over 8 km; the shadow's edges for the upper and lower rim of the sun are 7 km apart, so the disc brightens by about
+/// (7/2/8)² / 8 = 2.5 %.
+#[test]
+fn the_suns_disc_matters_at_the_shadows_edge_only() {
+    let radius = 0.2667_f64.to_radians();
+    let at = |sun_radius, orders, q: &Query| {
+        let options = Options {
+            sun_radius,
+            orders,
+            ..Options::default()
+        };
+        let r = tracer(1, options).estimate(q, 300, 4);
+        r.unwrap().radiance(0.3, 0)
+    };
+    let day = query(0.0, 50.0, 90.0, 40.0);
+    let (point, disc) = (at(0.0, Orders::All, &day), at(radius, Orders::All, &day));
+    assert!(apart(component(&point, 0), component(&disc, 0)) < 4.0);
+    let night = query(0.0, 0.0, 0.0, -7.0);
+    let (point, disc) = (
+        at(0.0, Orders::Single, &night),
+        at(radius, Orders::Single, &night),
+    );
+    let ratio = disc.stokes[0] / point.stokes[0];
+    assert!((1.01..1.06).contains(&ratio), "{ratio}");
+}
