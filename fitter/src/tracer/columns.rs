@@ -37,13 +37,21 @@ impl<const N: usize> Medium<N> {
         sum
     }
 
+    fn climb(&self, tangent2: f64, a: f64, b: f64, sum: &mut Columns) {
+        if self.extinction.len() <= 4 {
+            self.climb_first::<4>(tangent2, a, b, sum);
+        } else {
+            self.climb_first::<MAX_CONSTITUENTS>(tangent2, a, b, sum);
+        }
+    }
+
     /// Column densities from `line`'s origin out to space.
     pub fn columns_to_space(&self, line: &Line) -> Columns {
         self.columns(line, 0.0, line.space_distance(self.top))
     }
 
-    /// Adds the columns between `s = a` and `s = b`, 0 ≤ a ≤ b.
-    fn climb(&self, tangent2: f64, a: f64, b: f64, sum: &mut Columns) {
+    /// Adds the columns of the first `K` constituents between `s = a` and `s = b`, 0 ≤ a ≤ b.
+    fn climb_first<const K: usize>(&self, tangent2: f64, a: f64, b: f64, sum: &mut Columns) {
         let radii = self.radii();
         let point = |s: f64| {
             let r = (tangent2 + s * s).sqrt();
@@ -67,8 +75,8 @@ impl<const N: usize> Medium<N> {
             let length = next.s - at.s;
             if length > 0.0 {
                 let mean = self.mean_altitude(tangent2, &at, &next);
-                let p = self.profile_in(i, mean);
-                for k in 0..MAX_CONSTITUENTS {
+                let p = self.profile_in::<K>(i, mean);
+                for k in 0..K {
                     sum[k] += length * p[k];
                 }
             }

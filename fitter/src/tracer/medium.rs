@@ -120,12 +120,12 @@ impl<const N: usize> Medium<N> {
 
     /// Profile values at `altitude`.
     pub fn profile(&self, altitude: f64) -> Columns {
-        self.profile_in(self.interval(altitude), altitude)
+        self.profile_in::<MAX_CONSTITUENTS>(self.interval(altitude), altitude)
     }
 
-    /// Profile values at `altitude` (or a mean altitude) of interval `i`, continued linearly.
+    /// Values of the first `K` profiles at `altitude` (or a mean altitude) of interval `i`, continued linearly.
     #[inline(always)]
-    pub fn profile_in(&self, i: usize, altitude: f64) -> Columns {
+    pub fn profile_in<const K: usize>(&self, i: usize, altitude: f64) -> [f64; K] {
         let dz = altitude - self.nodes[i];
         let (p, m) = (&self.profiles[i], &self.slopes[i]);
         std::array::from_fn(|k| p[k] + m[k] * dz)
