@@ -1,6 +1,6 @@
 //! The reference tracer: unbiased, spectral, polarised Monte Carlo in a spherical atmosphere.
 //!
-//! Light that is scattered once comes from quadrature ([`single`]); all else from random walks ([`walk`]) that start on the line of
+//! Light that is scattered once comes from quadrature (`single`); all else from random walks (`walk`) that start on the line of
 //! sight. Results are kept apart by the number of ground bounces, so that any ground albedo can be evaluated afterwards, and
 //! by batch, so that standard errors are honest for any of them.
 
