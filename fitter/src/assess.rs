@@ -50,7 +50,13 @@ impl Quantiles {
         sorted.sort_by(f64::total_cmp);
         let last = sorted.len().checked_sub(1)?;
         let at = |q: f64| sorted[(q * last as f64).round() as usize];
-        Some(Self { count: last + 1, median: at(0.5), p95: at(0.95), p99: at(0.99), max: at(1.0) })
+        Some(Self {
+            count: last + 1,
+            median: at(0.5),
+            p95: at(0.95),
+            p99: at(0.99),
+            max: at(1.0),
+        })
     }
 }
 
@@ -77,7 +83,10 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
         let place = place(model.head().planet, &sky, sample);
         for (got, want) in row.iter().zip(sample.radiance) {
             if want > 0.0 {
-                out.push(Error { relative: (f64::from(*got) / want - 1.0).abs(), ..place });
+                out.push(Error {
+                    relative: (f64::from(*got) / want - 1.0).abs(),
+                    ..place
+                });
             } else {
                 anyhow::ensure!(*got == 0.0, "light where there is none");
             }
@@ -101,7 +110,10 @@ fn place(planet: welkin::geometry::Planet, sky: &welkin::Sky, sample: &Sample) -
 
 /// One line per class with errors in percent.
 pub fn table(errors: &[Error]) -> String {
-    let mut out = format!("{:<26}{:>9}{:>9}{:>9}{:>9}{:>10}\n", "", "values", "median", "p95", "p99", "max");
+    let mut out = format!(
+        "{:<26}{:>9}{:>9}{:>9}{:>9}{:>10}\n",
+        "", "values", "median", "p95", "p99", "max"
+    );
     for (name, belongs) in CLASSES {
         let class = errors.iter().filter(|e| belongs(e)).map(|e| e.relative);
         if let Some(q) = Quantiles::of(class) {

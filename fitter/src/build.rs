@@ -30,7 +30,11 @@ impl Default for Plan {
     fn default() -> Self {
         Self {
             grid: Grid::default(),
-            options: Options { rank: 96, sweeps: 600, seed: 1 },
+            options: Options {
+                rank: 96,
+                sweeps: 600,
+                seed: 1,
+            },
             settings: Settings::default(),
             held_out: [160, 24],
         }
@@ -40,8 +44,15 @@ impl Default for Plan {
 impl Plan {
     /// What the traced data depend on.
     pub fn key(&self) -> String {
-        let axes = Grid { altitudes: vec![], visibilities: vec![], ..self.grid.clone() };
-        format!("{UNIT_VERSION} {axes:?} {:?} {:?} {WAVELENGTHS:?}", self.settings, self.held_out)
+        let axes = Grid {
+            altitudes: vec![],
+            visibilities: vec![],
+            ..self.grid.clone()
+        };
+        format!(
+            "{UNIT_VERSION} {axes:?} {:?} {:?} {WAVELENGTHS:?}",
+            self.settings, self.held_out
+        )
     }
 
     /// Work units in the folder `work`.
@@ -96,11 +107,17 @@ pub fn build(plan: &Plan, work: &Path, out: &Path) -> Result<String> {
 fn bar(length: usize, what: &str) -> ProgressBar {
     let style = ProgressStyle::with_template("{msg:<28} {wide_bar} {pos}/{len} {eta}");
     let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(length as u64).with_style(style).with_message(what.to_owned())
+    ProgressBar::new(length as u64)
+        .with_style(style)
+        .with_message(what.to_owned())
 }
 
 fn solve_all(plan: &Plan, store: &Store) -> Result<Vec<Solved>> {
-    plan.grid.visibilities.iter().map(|&v| solve_one(plan, store, v)).collect()
+    plan.grid
+        .visibilities
+        .iter()
+        .map(|&v| solve_one(plan, store, v))
+        .collect()
 }
 
 fn solve_one(plan: &Plan, store: &Store, visibility: f64) -> Result<Solved> {
@@ -112,7 +129,11 @@ fn solve_one(plan: &Plan, store: &Store, visibility: f64) -> Result<Solved> {
     })?;
     progress.finish();
     let light = LightField::from_values(&values).context("a light field of another size")?;
-    Ok(Solved { visibility, medium, light })
+    Ok(Solved {
+        visibility,
+        medium,
+        light,
+    })
 }
 
 /// Traced radiance for conditions that need not be on the grid: held-out samples for each of `altitudes` (m) at `visibility` (m).
@@ -174,11 +195,20 @@ fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<(Tenso
 
 fn tensor_shape(grid: &Grid) -> [usize; 4] {
     let views = grid.up.0.len() + grid.down.0.len();
-    [views, grid.phi.len(), grid.elevation_axis().len(), FIELDS * NW]
+    [
+        views,
+        grid.phi.len(),
+        grid.elevation_axis().len(),
+        FIELDS * NW,
+    ]
 }
 
 /// S from the lowest altitude of the middle visibility.
-fn reference_scale(plan: &Plan, solved: &[Solved], traced: &[(Tensor, Vec<Sample>)]) -> ElevationScale {
+fn reference_scale(
+    plan: &Plan,
+    solved: &[Solved],
+    traced: &[(Tensor, Vec<Sample>)],
+) -> ElevationScale {
     let v = solved.len() / 2;
     let medium = &solved[v].medium;
     let planet = crate::column::planet(&medium.atmosphere);
@@ -203,9 +233,22 @@ fn fit_all(
             let gatherer = Gatherer::new(&s.medium, &s.light, FINENESS);
             let geometry = chunk_geometry(&s.medium, gatherer.planet(), &plan.grid, altitude);
             let weights = channel_weights(&tensor, &gatherer, &plan.grid, altitude);
-            let fit = fit(&tensor, &geometry, &s.medium, &plan.grid, scale, &weights, plan.options);
+            let fit = fit(
+                &tensor,
+                &geometry,
+                &s.medium,
+                &plan.grid,
+                scale,
+                &weights,
+                plan.options,
+            );
             progress.inc(1);
-            Fitted { altitude, visibility, fit, truth }
+            Fitted {
+                altitude,
+                visibility,
+                fit,
+                truth,
+            }
         })
         .collect();
     progress.finish();
@@ -219,13 +262,20 @@ fn assemble(
     fitted: &[Fitted],
     scale: &ElevationScale,
 ) -> Result<(Vec<u8>, Vec<Vec<Error>>)> {
-    let airs: Vec<Air> = solved.iter().map(|s| Air::new(&s.medium, s.light.spherical_albedo)).collect();
+    let airs: Vec<Air> = solved
+        .iter()
+        .map(|s| Air::new(&s.medium, s.light.spherical_albedo))
+        .collect();
     let gatherer = Gatherer::new(&solved[0].medium, &solved[0].light, FINENESS);
     let mut head = head(&plan.grid, &airs, &gatherer, scale, "{}".into())?;
     let mut chunks = chunks(plan, solved, fitted);
     let model = Model::from_bytes(encode(&head, &chunks)?)?;
     let mut all = vec![];
-    for (chunk, f) in chunks.iter_mut().filter(|c| c.visibility.is_some()).zip(fitted) {
+    for (chunk, f) in chunks
+        .iter_mut()
+        .filter(|c| c.visibility.is_some())
+        .zip(fitted)
+    {
         let errors = assess::errors(&model, solved[f.visibility].visibility, &f.truth)?;
         if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
             chunk.error_median = q.median as f32;

@@ -46,7 +46,12 @@ impl<'a> ColumnIntegrator<'a> {
             self.add(p2, 0.0, -start, &mut sum);
             self.add(p2, 0.0, end, &mut sum);
         } else {
-            self.add(p2, start.abs().min(end.abs()), start.abs().max(end.abs()), &mut sum);
+            self.add(
+                p2,
+                start.abs().min(end.abs()),
+                start.abs().max(end.abs()),
+                &mut sum,
+            );
         }
         sum
     }
@@ -210,7 +215,10 @@ mod tests {
         let r2 = (r * r + 2.0 * r * mu * 3e5 + 9e10).sqrt();
         let rest = integrator.along(r2 - air.planet_radius, (r * mu + 3e5) / r2, 500_000.0);
         for k in 0..air.constituents.len() {
-            assert!((first[k] + rest[k] - whole[k]).abs() <= 1e-7 * whole[k] + 1e-9, "{k}");
+            assert!(
+                (first[k] + rest[k] - whole[k]).abs() <= 1e-7 * whole[k] + 1e-9,
+                "{k}"
+            );
         }
     }
 
@@ -229,7 +237,9 @@ mod tests {
             let exact = integrator.along(h, (angle - dip).sin(), length);
             let tabled = table.at(h, angle, dip);
             let tau = |c: &dyn Fn(usize) -> f64| {
-                (0..4).map(|k| c(k) * air.constituents[k].extinction[0]).sum::<f64>()
+                (0..4)
+                    .map(|k| c(k) * air.constituents[k].extinction[0])
+                    .sum::<f64>()
             };
             let (a, b) = (tau(&|k| exact[k]), tau(&|k| f64::from(tabled[k])));
             worst = worst.max(((-a).exp() - (-b).exp()).abs());

@@ -10,3 +10,5 @@ pub mod dataset;
 pub mod decompose;
 pub mod orders;
 pub mod pack;
+pub mod reference;
+pub mod tracer;

@@ -18,12 +18,21 @@ enum Command {
     Build(command::build::Args),
     /// Compare a model file with freshly traced radiance between its nodes.
     Assess(command::assess::Args),
+    /// Compute the radiance of lines of sight through an atmosphere.
+    Trace(command::trace::Args),
+    /// Measure how fast the tracer is.
+    TraceBench(command::bench::Args),
+    /// Compare the tracer with outside references.
+    Validate(command::validate::Args),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
+        Command::Trace(args) => command::trace::run(&args),
+        Command::TraceBench(args) => command::bench::run(&args),
+        Command::Validate(args) => command::validate::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

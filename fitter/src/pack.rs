@@ -23,7 +23,10 @@ impl Air {
     /// From an atmosphere and its solution.
     pub fn new(medium: &Medium, spherical_albedo: Spectrum) -> Self {
         let extinction = medium.parts.iter().map(|part| part.extinction).collect();
-        Self { extinction, spherical_albedo }
+        Self {
+            extinction,
+            spherical_albedo,
+        }
     }
 }
 
@@ -45,34 +48,60 @@ pub fn head(
     let wide = |s: &Spectrum| s.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
     Ok(Head {
         planet: gatherer.planet(),
-        up: AlphaAxis { intervals: grid.up.0.intervals, exponent: grid.up.1 },
-        down: AlphaAxis { intervals: grid.down.0.intervals, exponent: grid.down.1 },
+        up: AlphaAxis {
+            intervals: grid.up.0.intervals,
+            exponent: grid.up.1,
+        },
+        down: AlphaAxis {
+            intervals: grid.down.0.intervals,
+            exponent: grid.down.1,
+        },
         phi_intervals: grid.phi.intervals,
         elevation: grid.elevation,
         wavelengths: WAVELENGTHS.to_vec(),
         altitudes: grid.altitudes.clone(),
         visibilities: grid.visibilities.clone(),
         constituents: airs[0].extinction.len(),
-        extinction: airs.iter().flat_map(|air| air.extinction.iter().flat_map(wide)).collect(),
-        spherical_albedo: airs.iter().flat_map(|air| wide(&air.spherical_albedo)).collect(),
+        extinction: airs
+            .iter()
+            .flat_map(|air| air.extinction.iter().flat_map(wide))
+            .collect(),
+        spherical_albedo: airs
+            .iter()
+            .flat_map(|air| wide(&air.spherical_albedo))
+            .collect(),
         xyz: xyz(&|nm| sun.at(nm))?,
         solar_start: first,
         solar_step: 1.0,
         elevation_scale: scale.coefficients(grid.elevation_axis()),
-        solar_irradiance: (0..samples).map(|i| sun.at(first + i as f64) as f32).collect(),
+        solar_irradiance: (0..samples)
+            .map(|i| sun.at(first + i as f64) as f32)
+            .collect(),
         fields: fields(gatherer, wide),
         metadata,
     })
 }
 
 fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Field> {
-    let field = |phase, ground, parameter| Field { phase, ground, parameter };
+    let field = |phase, ground, parameter| Field {
+        phase,
+        ground,
+        parameter,
+    };
     // Δ = (1 − ρ)/(1 + ρ/2) solved for ρ.
     let depolarisation = gatherer.polarising().map(|d| (1.0 - d) / (1.0 + d / 2.0));
     vec![
         field(PhaseFunction::Rayleigh, false, wide(&depolarisation)),
-        field(PhaseFunction::HenyeyGreenstein, false, wide(&gatherer.asymmetry(0))),
-        field(PhaseFunction::HenyeyGreenstein, false, wide(&gatherer.asymmetry(1))),
+        field(
+            PhaseFunction::HenyeyGreenstein,
+            false,
+            wide(&gatherer.asymmetry(0)),
+        ),
+        field(
+            PhaseFunction::HenyeyGreenstein,
+            false,
+            wide(&gatherer.asymmetry(1)),
+        ),
         field(PhaseFunction::None, false, vec![0.0; NW]),
         field(PhaseFunction::None, true, vec![0.0; NW]),
     ]
@@ -81,8 +110,10 @@ fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Fiel
 /// XYZ per unit of relative radiance at each wavelength node: sunlight times colour matching functions times the interpolation weight
 /// of the node, over the range of the model.
 fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
-    let observer =
-        Table::parse("cie1931_2deg_1nm.csv", include_str!("../data/cie1931_2deg_1nm.csv"))?;
+    let observer = Table::parse(
+        "cie1931_2deg_1nm.csv",
+        include_str!("../data/cie1931_2deg_1nm.csv"),
+    )?;
     let matching = [
         observer.curve("wavelength_nm", "xbar")?,
         observer.curve("wavelength_nm", "ybar")?,

@@ -4,6 +4,7 @@
 //! boundary layer, say) is one constituent with several [`Scatterer`]s, so that one column density per constituent gives the
 //! optical depth at every wavelength.
 
+pub mod json;
 mod real;
 pub mod table;
 

@@ -19,7 +19,11 @@ pub struct Args {
     #[arg(long, value_delimiter = ',', default_value = "24,48,75,110")]
     visibilities: Vec<f64>,
     /// Altitudes, m; those beyond the model are left out.
-    #[arg(long, value_delimiter = ',', default_value = "8,70,300,800,1620,1940,2800,5700,8400,14000")]
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "8,70,300,800,1620,1940,2800,5700,8400,14000"
+    )]
     altitudes: Vec<f64>,
 }
 
@@ -27,13 +31,23 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<()> {
     let model = Model::open(&args.model).with_context(|| format!("{}", args.model.display()))?;
     let [lowest, highest] = model.altitude_range();
-    let altitudes: Vec<f64> =
-        args.altitudes.iter().copied().filter(|h| (lowest..=highest).contains(h)).collect();
+    let altitudes: Vec<f64> = args
+        .altitudes
+        .iter()
+        .copied()
+        .filter(|h| (lowest..=highest).contains(h))
+        .collect();
     let mut all = vec![];
     for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
-        for (altitude, samples) in between_nodes(&Plan::default(), &args.work, visibility, &altitudes)? {
+        for (altitude, samples) in
+            between_nodes(&Plan::default(), &args.work, visibility, &altitudes)?
+        {
             let errors = assess::errors(&model, visibility, &samples)?;
-            println!("visibility {} km, altitude {altitude} m\n{}", visibility / 1e3, table(&errors));
+            println!(
+                "visibility {} km, altitude {altitude} m\n{}",
+                visibility / 1e3,
+                table(&errors)
+            );
             all.extend(errors);
         }
     }

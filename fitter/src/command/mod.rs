@@ -1,4 +1,7 @@
 //! The subcommands of `welkin-fit`.
 
 pub mod assess;
+pub mod bench;
 pub mod build;
+pub mod trace;
+pub mod validate;

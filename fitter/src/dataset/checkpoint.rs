@@ -16,8 +16,12 @@ impl Store {
     /// Uses `folder`, created if needed, for units made with the settings that `key` describes.
     pub fn open(folder: impl AsRef<Path>, key: impl Into<String>) -> Result<Self> {
         let folder = folder.as_ref().to_owned();
-        fs::create_dir_all(&folder).with_context(|| format!("cannot create {}", folder.display()))?;
-        Ok(Self { folder, key: key.into() })
+        fs::create_dir_all(&folder)
+            .with_context(|| format!("cannot create {}", folder.display()))?;
+        Ok(Self {
+            folder,
+            key: key.into(),
+        })
     }
 
     /// The unit `name`, read from its file or computed and written.
@@ -44,21 +48,32 @@ impl Store {
             Err(e) => return Err(e).with_context(|| format!("cannot read {}", path.display())),
         };
         let header = self.header(&bytes[bytes.len().min(HEADER)..]);
-        if bytes.len() < HEADER || bytes[..HEADER] != header || !(bytes.len() - HEADER).is_multiple_of(4) {
+        if bytes.len() < HEADER
+            || bytes[..HEADER] != header
+            || !(bytes.len() - HEADER).is_multiple_of(4)
+        {
             return Ok(None);
         }
         let words = bytes[HEADER..].chunks_exact(4);
-        Ok(Some(words.map(|w| f32::from_le_bytes([w[0], w[1], w[2], w[3]])).collect()))
+        Ok(Some(
+            words
+                .map(|w| f32::from_le_bytes([w[0], w[1], w[2], w[3]]))
+                .collect(),
+        ))
     }
 
     fn save(&self, name: &str, values: &[f32]) -> Result<()> {
-        ensure!(values.iter().all(|v| v.is_finite()), "unit {name} holds a value that is not finite");
+        ensure!(
+            values.iter().all(|v| v.is_finite()),
+            "unit {name} holds a value that is not finite"
+        );
         let body: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
         let mut file = tempfile::NamedTempFile::new_in(&self.folder)?;
         file.write_all(&self.header(&body))?;
         file.write_all(&body)?;
         file.as_file().sync_all()?;
-        file.persist(self.path(name)).with_context(|| format!("cannot write unit {name}"))?;
+        file.persist(self.path(name))
+            .with_context(|| format!("cannot write unit {name}"))?;
         Ok(())
     }
 
@@ -87,7 +102,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path(), "a").unwrap();
         assert_eq!(store.unit("x", || Ok(vec![1.0, 2.0])).unwrap(), [1.0, 2.0]);
-        assert_eq!(store.unit("x", || panic!("computed twice")).unwrap(), [1.0, 2.0]);
+        assert_eq!(
+            store.unit("x", || panic!("computed twice")).unwrap(),
+            [1.0, 2.0]
+        );
         let other = Store::open(folder.path(), "b").unwrap();
         assert!(!other.has("x").unwrap());
         let path = folder.path().join("x.unit");

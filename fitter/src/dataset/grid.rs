@@ -8,8 +8,9 @@ use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
 use welkin::geometry::{Planet, Side};
 
 /// Wavelength nodes, nm: 320, 360 … 760, so that any wavelength of the paper's 11 bands can be asked.
-pub const WAVELENGTHS: [f64; NW] =
-    [320.0, 360.0, 400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0, 720.0, 760.0];
+pub const WAVELENGTHS: [f64; NW] = [
+    320.0, 360.0, 400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0, 720.0, 760.0,
+];
 
 /// A spline axis with its sample sites.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,13 +73,19 @@ pub const ALTITUDES: [f64; 22] = [
 impl Default for Grid {
     /// All of Table 2.
     fn default() -> Self {
-        let free = |intervals| Axis { intervals, ends: Ends::Free };
+        let free = |intervals| Axis {
+            intervals,
+            ends: Ends::Free,
+        };
         Self {
             altitudes: ALTITUDES.to_vec(),
             visibilities: VISIBILITIES.to_vec(),
             up: (free(40), 3.0),
             down: (free(24), 3.0),
-            phi: Axis { intervals: 12, ends: Ends::Mirrored },
+            phi: Axis {
+                intervals: 12,
+                ends: Ends::Mirrored,
+            },
             elevation: ElevationAxis {
                 min: (-4.2f64).to_radians(),
                 max: FRAC_PI_2,
@@ -136,11 +143,18 @@ impl Grid {
 
     /// The elevation axis as a spline axis.
     pub fn elevation_axis(&self) -> Axis {
-        Axis { intervals: self.elevation.intervals, ends: Ends::Free }
+        Axis {
+            intervals: self.elevation.intervals,
+            ends: Ends::Free,
+        }
     }
 
     /// Solar elevations, rad.
     pub fn elevation_sites(&self) -> Vec<f64> {
-        self.elevation_axis().sites().into_iter().map(|u| self.elevation.elevation(u)).collect()
+        self.elevation_axis()
+            .sites()
+            .into_iter()
+            .map(|u| self.elevation.elevation(u))
+            .collect()
     }
 }

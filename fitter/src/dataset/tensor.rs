@@ -18,7 +18,12 @@ pub struct Tensor {
 }
 
 /// Traces the tensor of altitude `a`; `progress` is called after each view direction.
-pub fn trace_tensor(gatherer: &Gatherer, grid: &Grid, a: usize, progress: &(dyn Fn() + Sync)) -> Tensor {
+pub fn trace_tensor(
+    gatherer: &Gatherer,
+    grid: &Grid,
+    a: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Tensor {
     let altitude = grid.traced_altitude(a);
     let views = grid.view_sites(gatherer.planet(), a);
     let suns = suns(grid);
@@ -32,7 +37,12 @@ pub fn trace_tensor(gatherer: &Gatherer, grid: &Grid, a: usize, progress: &(dyn 
             channels.flatten().collect::<Vec<f32>>()
         })
         .collect();
-    let shape = [views.len(), grid.phi.len(), grid.elevation_axis().len(), CHANNELS];
+    let shape = [
+        views.len(),
+        grid.phi.len(),
+        grid.elevation_axis().len(),
+        CHANNELS,
+    ];
     Tensor { shape, values }
 }
 

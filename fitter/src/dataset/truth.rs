@@ -28,14 +28,29 @@ pub struct Sample {
 /// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns and albedos.
 ///
 /// Half of the solar elevations are uniform in −4.2..90°, the others in −4.2..12°. Sun-major.
-pub fn truth(gatherer: &Gatherer, light: &LightField, altitude: f64, counts: [usize; 2], seed: u64) -> Vec<Sample> {
+pub fn truth(
+    gatherer: &Gatherer,
+    light: &LightField,
+    altitude: f64,
+    counts: [usize; 2],
+    seed: u64,
+) -> Vec<Sample> {
     let [views, suns] = counts;
     let skies = skies(altitude, suns, seed);
     let rows: Vec<Vec<Sample>> = (0..views)
         .into_par_iter()
-        .map(|i| view(gatherer, light, &skies, seed.wrapping_add(7919 * (i as u64 + 1))))
+        .map(|i| {
+            view(
+                gatherer,
+                light,
+                &skies,
+                seed.wrapping_add(7919 * (i as u64 + 1)),
+            )
+        })
         .collect();
-    (0..suns).flat_map(|k| rows.iter().map(move |row| row[k])).collect()
+    (0..suns)
+        .flat_map(|k| rows.iter().map(move |row| row[k]))
+        .collect()
 }
 
 fn uniform(rng: &mut Pcg64Mcg) -> f64 {
@@ -47,7 +62,11 @@ fn skies(altitude: f64, count: usize, seed: u64) -> Vec<Sample> {
     let lowest = (-4.2f64).to_radians();
     (0..count)
         .map(|k| {
-            let highest = if k % 2 == 0 { FRAC_PI_2 } else { 12f64.to_radians() };
+            let highest = if k % 2 == 0 {
+                FRAC_PI_2
+            } else {
+                12f64.to_radians()
+            };
             Sample {
                 altitude,
                 view_elevation: 0.0,
@@ -86,18 +105,30 @@ fn view(gatherer: &Gatherer, light: &LightField, skies: &[Sample], seed: u64) ->
 fn sun(sample: &Sample) -> Sun {
     let (se, ce) = sample.solar_elevation.sin_cos();
     let (sa, ca) = sample.view_azimuth.sin_cos();
-    Sun { elevation: (ce, se), azimuth: (ca, sa) }
+    Sun {
+        elevation: (ce, se),
+        azimuth: (ca, sa),
+    }
 }
 
 /// Radiance from its fields, for a scattering cosine and a ground albedo.
-pub fn total(gatherer: &Gatherer, light: &LightField, fields: &Fields, cosine: f32, albedo: f64) -> [f64; NW] {
+pub fn total(
+    gatherer: &Gatherer,
+    light: &LightField,
+    fields: &Fields,
+    cosine: f32,
+    albedo: f64,
+) -> [f64; NW] {
     let rayleigh = rayleigh_phase(gatherer.polarising(), cosine);
     let fine = gatherer.phase(0, cosine);
     let coarse = gatherer.phase(1, cosine);
     std::array::from_fn(|w| {
         let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));
-        f64::from(fields.rayleigh[w] * rayleigh[w] + fields.fine[w] * fine[w] + fields.coarse[w] * coarse[w])
-            + f64::from(fields.multiple[0][w])
+        f64::from(
+            fields.rayleigh[w] * rayleigh[w]
+                + fields.fine[w] * fine[w]
+                + fields.coarse[w] * coarse[w],
+        ) + f64::from(fields.multiple[0][w])
             + ground * f64::from(fields.ground[0][w])
     })
 }
@@ -108,14 +139,25 @@ const SAMPLE: usize = 5 + NW;
 impl Sample {
     /// As numbers for a file.
     pub fn to_values(&self) -> [f32; SAMPLE] {
-        let head = [self.altitude, self.view_elevation, self.view_azimuth, self.solar_elevation, self.albedo];
+        let head = [
+            self.altitude,
+            self.view_elevation,
+            self.view_azimuth,
+            self.solar_elevation,
+            self.albedo,
+        ];
         let mut values = head.into_iter().chain(self.radiance);
         std::array::from_fn(|_| values.next().unwrap_or(0.0) as f32)
     }
 
     /// The inverse of [`Sample::to_values`] for a row of samples.
     pub fn from_values(values: &[f32]) -> Vec<Self> {
-        values.as_chunks::<SAMPLE>().0.iter().map(|v| Self::from_row(&v.map(f64::from))).collect()
+        values
+            .as_chunks::<SAMPLE>()
+            .0
+            .iter()
+            .map(|v| Self::from_row(&v.map(f64::from)))
+            .collect()
     }
 
     fn from_row(v: &[f64; SAMPLE]) -> Self {

@@ -57,7 +57,10 @@ pub fn decompose(core: &Dense, options: Options) -> Cpd {
             *f = &*f + (&*f - p) * faer::Scale(momentum);
         }
     }
-    Cpd { factors: best, error: least.error }
+    Cpd {
+        factors: best,
+        error: least.error,
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -84,7 +87,11 @@ impl Problem {
         let [a, b, c, d] = core.shape;
         let matrix = Mat::from_fn(a * b, c * d, |i, j| core.values[i * c * d + j]);
         let energy = core.values.iter().map(|v| v * v).sum();
-        Self { matrix, shape: core.shape, energy }
+        Self {
+            matrix,
+            shape: core.shape,
+            energy,
+        }
     }
 
     /// Updates all factors in turn; returns what is left afterwards.
@@ -154,21 +161,31 @@ fn gram_of_others(factors: &[Mat<f64>; 4], mode: usize) -> Mat<f64> {
 /// `[(i, j)][r] = a[i][r] · b[j][r]`.
 fn khatri_rao(a: &Mat<f64>, b: &Mat<f64>) -> Mat<f64> {
     let n = b.nrows();
-    Mat::from_fn(a.nrows() * n, a.ncols(), |i, r| a[(i / n, r)] * b[(i % n, r)])
+    Mat::from_fn(a.nrows() * n, a.ncols(), |i, r| {
+        a[(i / n, r)] * b[(i % n, r)]
+    })
 }
 
 /// Sums `[(i, j)][r]` times `b[j][r]` over j.
 fn contract_second(m: &Mat<f64>, b: &Mat<f64>, first: usize, second: usize) -> Mat<f64> {
-    Mat::from_fn(first, b.ncols(), |i, r| (0..second).map(|j| m[(i * second + j, r)] * b[(j, r)]).sum())
+    Mat::from_fn(first, b.ncols(), |i, r| {
+        (0..second)
+            .map(|j| m[(i * second + j, r)] * b[(j, r)])
+            .sum()
+    })
 }
 
 /// Sums `[(i, j)][r]` times `a[i][r]` over i.
 fn contract_first(m: &Mat<f64>, a: &Mat<f64>, first: usize, second: usize) -> Mat<f64> {
-    Mat::from_fn(second, a.ncols(), |j, r| (0..first).map(|i| m[(i * second + j, r)] * a[(i, r)]).sum())
+    Mat::from_fn(second, a.ncols(), |j, r| {
+        (0..first).map(|i| m[(i * second + j, r)] * a[(i, r)]).sum()
+    })
 }
 
 fn dot(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
-    (0..a.ncols()).map(|j| a.col(j).transpose() * b.col(j)).sum()
+    (0..a.ncols())
+        .map(|j| a.col(j).transpose() * b.col(j))
+        .sum()
 }
 
 fn start(shape: [usize; 4], options: Options) -> [Mat<f64>; 4] {
@@ -189,7 +206,14 @@ mod tests {
     #[test]
     fn recovers_a_sum_of_three_outer_products() {
         let shape = [6, 5, 7, 4];
-        let truth = start(shape, Options { rank: 3, sweeps: 0, seed: 9 });
+        let truth = start(
+            shape,
+            Options {
+                rank: 3,
+                sweeps: 0,
+                seed: 9,
+            },
+        );
         let mut values = vec![];
         for i in 0..6 {
             for j in 0..5 {
@@ -198,7 +222,10 @@ mod tests {
                         values.push(
                             (0..3)
                                 .map(|r| {
-                                    truth[0][(i, r)] * truth[1][(j, r)] * truth[2][(k, r)] * truth[3][(l, r)]
+                                    truth[0][(i, r)]
+                                        * truth[1][(j, r)]
+                                        * truth[2][(k, r)]
+                                        * truth[3][(l, r)]
                                 })
                                 .sum(),
                         );
@@ -206,7 +233,14 @@ mod tests {
                 }
             }
         }
-        let cpd = decompose(&Dense { shape, values }, Options { rank: 3, sweeps: 500, seed: 1 });
+        let cpd = decompose(
+            &Dense { shape, values },
+            Options {
+                rank: 3,
+                sweeps: 500,
+                seed: 1,
+            },
+        );
         assert!(cpd.error < 1e-4, "{}", cpd.error);
     }
 }

@@ -20,7 +20,9 @@ impl Collocation {
                 matrix[(row, i)] += f64::from(w);
             }
         }
-        Self { lu: matrix.partial_piv_lu() }
+        Self {
+            lu: matrix.partial_piv_lu(),
+        }
     }
 
     /// Coefficients `[coefficient][column]` whose splines take `values[site][column]` at the sites.
@@ -37,7 +39,10 @@ mod tests {
     #[test]
     fn a_spline_goes_through_its_sites_and_follows_smooth_functions() {
         for ends in [Ends::Free, Ends::Mirrored] {
-            let axis = Axis { intervals: 12, ends };
+            let axis = Axis {
+                intervals: 12,
+                ends,
+            };
             let f = |u: f64| (u * std::f64::consts::PI / 6.0).cos();
             let sites = axis.sites();
             let values = Mat::from_fn(sites.len(), 1, |i, _| f(sites[i]));
@@ -45,9 +50,17 @@ mod tests {
             for k in 0..=120 {
                 let u = k as f64 / 10.0;
                 let taps = spline(u, 12, ends);
-                let value: f64 =
-                    taps.index.iter().zip(taps.weight).map(|(&i, w)| c[(i, 0)] * f64::from(w)).sum();
-                assert!((value - f(u)).abs() < 2e-3, "{ends:?} {u}: {value} {}", f(u));
+                let value: f64 = taps
+                    .index
+                    .iter()
+                    .zip(taps.weight)
+                    .map(|(&i, w)| c[(i, 0)] * f64::from(w))
+                    .sum();
+                assert!(
+                    (value - f(u)).abs() < 2e-3,
+                    "{ends:?} {u}: {value} {}",
+                    f(u)
+                );
             }
         }
     }

@@ -39,9 +39,16 @@ pub fn fit(
         }
     }
     let norm = values.iter().map(|v| v * v).sum::<f64>().sqrt();
-    let tucker = compress(Dense { shape: tensor.shape, values }, COMPRESSION);
+    let tucker = compress(
+        Dense {
+            shape: tensor.shape,
+            values,
+        },
+        COMPRESSION,
+    );
     let cpd = decompose(&tucker.core, options);
-    let [mut view, phi, elevation, mut channel] = std::array::from_fn(|m| &tucker.bases[m] * &cpd.factors[m]);
+    let [mut view, phi, elevation, mut channel] =
+        std::array::from_fn(|m| &tucker.bases[m] * &cpd.factors[m]);
     let condition = condition(&cpd.factors, norm);
     for (c, weight) in weights.iter().enumerate() {
         for r in 0..options.rank {
@@ -58,7 +65,11 @@ pub fn fit(
         spline(grid.elevation_axis(), &elevation),
         channel,
     ];
-    Fit { factors: pack(matrices), error: cpd.error, condition }
+    Fit {
+        factors: pack(matrices),
+        error: cpd.error,
+        condition,
+    }
 }
 
 trait SplitOff {
@@ -104,6 +115,7 @@ fn pack(mut matrices: [Mat<f64>; 5]) -> RadianceFactors {
 }
 
 fn condition(factors: &[Mat<f64>; 4], norm: f64) -> f64 {
-    let components = (0..factors[0].ncols()).map(|r| factors.iter().map(|f| f.col(r).norm_l2()).product::<f64>());
+    let components = (0..factors[0].ncols())
+        .map(|r| factors.iter().map(|f| f.col(r).norm_l2()).product::<f64>());
     components.sum::<f64>() / norm
 }

@@ -34,7 +34,11 @@ pub fn chunk_geometry(medium: &Medium, planet: Planet, grid: &Grid, a: usize) ->
         }
         length.push(l);
     }
-    ChunkGeometry { log_density, length, up: grid.up.0.len() }
+    ChunkGeometry {
+        log_density,
+        length,
+        up: grid.up.0.len(),
+    }
 }
 
 /// The ray's length; on the horizon itself rounding may put it on the other side.
@@ -64,13 +68,18 @@ impl ChunkGeometry {
             let values = self.log_density.subrows(from, axis.len()).to_owned();
             Collocation::new(axis).solve(&values)
         };
-        [split(0, up), split(self.up, down)].iter().flat_map(row_major).collect()
+        [split(0, up), split(self.up, down)]
+            .iter()
+            .flat_map(row_major)
+            .collect()
     }
 }
 
 /// The rows of a matrix one after the other.
 pub fn row_major(matrix: &Mat<f64>) -> Vec<f32> {
-    (0..matrix.nrows()).flat_map(|i| (0..matrix.ncols()).map(move |j| matrix[(i, j)] as f32)).collect()
+    (0..matrix.nrows())
+        .flat_map(|i| (0..matrix.ncols()).map(move |j| matrix[(i, j)] as f32))
+        .collect()
 }
 
 /// S(e, λ): the typical source function at each elevation site.
@@ -89,10 +98,14 @@ impl ElevationScale {
             let opacity: [f64; NW] = std::array::from_fn(|w| geometry.opacity(medium, v, w));
             for p in 0..phis {
                 for e in 0..elevations {
-                    let cell = &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
+                    let cell =
+                        &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
                     for w in 0..NW {
-                        let sum: f64 = (0..FIELDS).map(|f| f64::from(cell[f * NW + w].max(0.0))).sum();
-                        log_scale[(e, w)] += (sum / opacity[w]).max(1e-20).ln() / (views * phis) as f64;
+                        let sum: f64 = (0..FIELDS)
+                            .map(|f| f64::from(cell[f * NW + w].max(0.0)))
+                            .sum();
+                        log_scale[(e, w)] +=
+                            (sum / opacity[w]).max(1e-20).ln() / (views * phis) as f64;
                     }
                 }
             }
@@ -119,7 +132,8 @@ pub fn normalise(
         let opacity: [f64; NW] = std::array::from_fn(|w| geometry.opacity(medium, v, w));
         for p in 0..phis {
             for e in 0..elevations {
-                let cell = &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
+                let cell =
+                    &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
                 out.extend(cell.iter().enumerate().map(|(c, value)| {
                     let w = c % NW;
                     f64::from(*value) / (opacity[w] * scale.log_scale[(e, w)].exp())

@@ -33,7 +33,9 @@ impl Dense {
     /// Matrix `[mode][all others]`.
     pub fn unfold(&self, mode: usize) -> Mat<f64> {
         let (outer, n, inner) = self.split(mode);
-        Mat::from_fn(n, outer * inner, |i, j| self.values[((j / inner) * n + i) * inner + j % inner])
+        Mat::from_fn(n, outer * inner, |i, j| {
+            self.values[((j / inner) * n + i) * inner + j % inner]
+        })
     }
 
     /// Replaces a mode by its coordinates in an orthonormal basis.
@@ -68,7 +70,9 @@ fn principal_basis(matrix: &Mat<f64>, tolerance: f64) -> Mat<f64> {
         return Mat::identity(matrix.nrows(), matrix.nrows());
     };
     let n = gram.nrows();
-    let values: Vec<f64> = (0..n).map(|i| eigen.S().column_vector()[i].max(0.0)).collect();
+    let values: Vec<f64> = (0..n)
+        .map(|i| eigen.S().column_vector()[i].max(0.0))
+        .collect();
     let total: f64 = values.iter().sum();
     // Ascending order: drop from the front.
     let mut dropped = 0.0;

@@ -14,7 +14,11 @@ pub fn channel_weights(tensor: &Tensor, gatherer: &Gatherer, grid: &Grid, a: usi
     let (phi, elevation) = (grid.phi_sites(), grid.elevation_sites());
     let mut sums = vec![0.0; channels];
     for (i, cell) in tensor.values.chunks_exact(channels).enumerate() {
-        let (e, p, v) = (i % elevations, i / elevations % phis, i / (elevations * phis));
+        let (e, p, v) = (
+            i % elevations,
+            i / elevations % phis,
+            i / (elevations * phis),
+        );
         let sun = Sun {
             elevation: (elevation[e].cos(), elevation[e].sin()),
             azimuth: (phi[p].cos(), phi[p].sin()),
@@ -36,5 +40,7 @@ pub fn channel_weights(tensor: &Tensor, gatherer: &Gatherer, grid: &Grid, a: usi
         }
     }
     let cells = (tensor.values.len() / channels) as f64;
-    sums.into_iter().map(|s| (s / cells).sqrt().max(1e-3)).collect()
+    sums.into_iter()
+        .map(|s| (s / cells).sqrt().max(1e-3))
+        .collect()
 }

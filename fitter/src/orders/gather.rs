@@ -32,7 +32,13 @@ pub struct Fields {
 impl Fields {
     /// The five intensities in the order of the file.
     pub fn intensities(&self) -> [&Spectrum; FIELDS] {
-        [&self.rayleigh, &self.fine, &self.coarse, &self.multiple[0], &self.ground[0]]
+        [
+            &self.rayleigh,
+            &self.fine,
+            &self.coarse,
+            &self.multiple[0],
+            &self.ground[0],
+        ]
     }
 }
 
@@ -51,7 +57,12 @@ pub struct Gatherer<'a> {
 impl<'a> Gatherer<'a> {
     /// With segments `fineness` times the production length.
     pub fn new(medium: &'a Medium, light: &'a LightField, fineness: f64) -> Self {
-        Self { medium, light, planet: planet(&medium.atmosphere), fineness }
+        Self {
+            medium,
+            light,
+            planet: planet(&medium.atmosphere),
+            fineness,
+        }
     }
 
     /// The planet.
@@ -62,8 +73,19 @@ impl<'a> Gatherer<'a> {
     /// The ray from `altitude` (m) at `elevation` (rad) above the local horizontal; on the side of the horizon that `side` says.
     pub fn path(&self, altitude: f64, elevation: f64, side: Side) -> Path {
         let ray = self.planet.ray(altitude, elevation);
-        let length = if ray.side == side { ray.length } else { self.tangent(altitude, side) };
-        trace(self.medium, altitude, elevation.sin(), length, side == Side::Down, self.fineness)
+        let length = if ray.side == side {
+            ray.length
+        } else {
+            self.tangent(altitude, side)
+        };
+        trace(
+            self.medium,
+            altitude,
+            elevation.sin(),
+            length,
+            side == Side::Down,
+            self.fineness,
+        )
     }
 
     /// Length of the ray that touches the ground, counted to the ground or to the top of the atmosphere.
@@ -87,7 +109,12 @@ impl<'a> Gatherer<'a> {
             for (i, sun) in suns.iter().enumerate() {
                 let local = sun.at(node);
                 if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                    single::add(&profiles, &t, &node.weight, &mut sunlit[i * parts..(i + 1) * parts]);
+                    single::add(
+                        &profiles,
+                        &t,
+                        &node.weight,
+                        &mut sunlit[i * parts..(i + 1) * parts],
+                    );
                 }
                 sky.add(self.medium, &local, &node.weight, &mut multiple[i][0]);
                 ground.add(self.medium, &local, &node.weight, &mut multiple[i][1]);
@@ -130,7 +157,11 @@ impl<'a> Gatherer<'a> {
 
     /// Asymmetry parameter of an aerosol species; 0 where the atmosphere has none.
     pub fn asymmetry(&self, species: usize) -> Spectrum {
-        let mut found = self.medium.parts.iter().filter_map(|p| p.aerosols.get(species));
+        let mut found = self
+            .medium
+            .parts
+            .iter()
+            .filter_map(|p| p.aerosols.get(species));
         found.next().map_or([0.0; NW], |a| a.g)
     }
 }
@@ -149,10 +180,26 @@ impl Gatherer<'_> {
         for node in &path.nodes {
             let profiles = self.medium.profiles(node.altitude);
             let local = sun.at(node);
-            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) { single::add(&profiles, &t, &node.weight, &mut sums); }
-            SourceTable::new(self.medium, &self.light.sky, node).add(self.medium, &local, &node.weight, &mut light[0]);
-            SourceTable::new(self.medium, &self.light.ground, node).add(self.medium, &local, &node.weight, &mut light[1]);
+            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
+                single::add(&profiles, &t, &node.weight, &mut sums);
+            }
+            SourceTable::new(self.medium, &self.light.sky, node).add(
+                self.medium,
+                &local,
+                &node.weight,
+                &mut light[0],
+            );
+            SourceTable::new(self.medium, &self.light.ground, node).add(
+                self.medium,
+                &local,
+                &node.weight,
+                &mut light[1],
+            );
         }
-        (single::stokes(self.medium, &sums, mu, &sun), light[0], light[1])
+        (
+            single::stokes(self.medium, &sums, mu, &sun),
+            light[0],
+            light[1],
+        )
     }
 }

@@ -52,8 +52,14 @@ pub struct Medium {
 impl Medium {
     /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is a point).
     pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {
-        ensure!(atmosphere.wavelengths.len() == NW, "the solver needs {NW} wavelengths");
-        ensure!(atmosphere.constituents.len() <= MAX_CONSTITUENTS, "too many constituents");
+        ensure!(
+            atmosphere.wavelengths.len() == NW,
+            "the solver needs {NW} wavelengths"
+        );
+        ensure!(
+            atmosphere.constituents.len() <= MAX_CONSTITUENTS,
+            "too many constituents"
+        );
         let mut polarising = [1.0; NW];
         let mut parts = vec![];
         for constituent in &atmosphere.constituents {
@@ -86,7 +92,13 @@ impl Medium {
             parts.push(part);
         }
         let sun = SunColumns::new(&atmosphere);
-        Ok(Self { atmosphere, parts, polarising, sun, sun_radius })
+        Ok(Self {
+            atmosphere,
+            parts,
+            polarising,
+            sun,
+            sun_radius,
+        })
     }
 
     /// Profiles of all constituents at `altitude`.
@@ -113,7 +125,11 @@ impl Medium {
         if x <= -1.0 {
             return None;
         }
-        let (share, rise) = if x >= 1.0 { (1.0, 0.0) } else { visible_disc(x) };
+        let (share, rise) = if x >= 1.0 {
+            (1.0, 0.0)
+        } else {
+            visible_disc(x)
+        };
         let centre = (angle + rise * self.sun_radius).max(0.0);
         let columns = self.sun.at(altitude, centre, dip);
         Some(self.attenuate(&columns).map(|t| t * share as f32))

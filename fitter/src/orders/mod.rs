@@ -15,6 +15,6 @@ pub mod source;
 
 pub use gather::{FIELDS, Fields, Gatherer};
 pub use medium::{Medium, NW, SUN_RADIUS, Spectrum, rayleigh_phase};
-pub use path::Path;
 pub use moments::Moments;
+pub use path::Path;
 pub use solve::{LightField, Settings, solve};

@@ -8,15 +8,17 @@ pub const ORDERS: usize = 8;
 /// Components of the coherency tensor that symmetry leaves: xx, yy, zz, xz (x towards the sun, z up).
 pub const TENSOR: usize = 4;
 /// Harmonics `(l, m)` with m ≤ min(l, ORDERS).
-pub const HARMONICS: usize = (DEGREE + 1) * (DEGREE + 2) / 2 - (DEGREE - ORDERS) * (DEGREE - ORDERS + 1) / 2;
+pub const HARMONICS: usize =
+    (DEGREE + 1) * (DEGREE + 2) / 2 - (DEGREE - ORDERS) * (DEGREE - ORDERS + 1) / 2;
 /// Moments of one grid node.
 pub const COUNT: usize = TENSOR + HARMONICS;
 
 /// Altitudes of the grid, m.
 pub const ALTITUDES: [f64; 36] = [
-    0.0, 60.0, 150.0, 300.0, 500.0, 750.0, 1000.0, 1250.0, 1500.0, 1700.0, 1850.0, 2000.0, 2150.0, 2300.0,
-    2500.0, 2750.0, 3250.0, 4000.0, 5000.0, 6000.0, 7500.0, 9000.0, 10_500.0, 12_000.0, 14_000.0, 16_500.0,
-    19_000.0, 22_000.0, 26_000.0, 31_000.0, 37_000.0, 44_000.0, 53_000.0, 65_000.0, 80_000.0, 100_000.0,
+    0.0, 60.0, 150.0, 300.0, 500.0, 750.0, 1000.0, 1250.0, 1500.0, 1700.0, 1850.0, 2000.0, 2150.0,
+    2300.0, 2500.0, 2750.0, 3250.0, 4000.0, 5000.0, 6000.0, 7500.0, 9000.0, 10_500.0, 12_000.0,
+    14_000.0, 16_500.0, 19_000.0, 22_000.0, 26_000.0, 31_000.0, 37_000.0, 44_000.0, 53_000.0,
+    65_000.0, 80_000.0, 100_000.0,
 ];
 /// Sun zeniths of the grid.
 pub const SUNS: usize = 72;
@@ -53,7 +55,10 @@ pub fn sun_taps(mu: f64) -> ([usize; 4], [f32; 4]) {
         0.5 * (-3.0 * t3 + 4.0 * t2 + t),
         0.5 * (t3 - t2),
     ];
-    (std::array::from_fn(|k| (i + k).saturating_sub(1).min(SUNS - 1)), weight)
+    (
+        std::array::from_fn(|k| (i + k).saturating_sub(1).min(SUNS - 1)),
+        weight,
+    )
 }
 
 /// Cubic stencil over [`ALTITUDES`], in the cube root of altitude.
@@ -71,12 +76,16 @@ pub struct Moments {
 impl Moments {
     /// All zero.
     pub fn zero() -> Self {
-        Self { values: vec![[[0.0; NW]; COUNT]; ALTITUDES.len() * SUNS] }
+        Self {
+            values: vec![[[0.0; NW]; COUNT]; ALTITUDES.len() * SUNS],
+        }
     }
 
     /// Joins the rows of all altitudes.
     pub fn from_rows(rows: Vec<Vec<[Spectrum; COUNT]>>) -> Self {
-        Self { values: rows.into_iter().flatten().collect() }
+        Self {
+            values: rows.into_iter().flatten().collect(),
+        }
     }
 
     /// From all values in a row.
@@ -165,7 +174,10 @@ mod tests {
                 })
                 .sum();
             let expected = (2 * l + 1) as f64 / (4.0 * std::f64::consts::PI) * p1;
-            assert!((sum - expected).abs() < 1e-5, "degree {l}: {sum} {expected}");
+            assert!(
+                (sum - expected).abs() < 1e-5,
+                "degree {l}: {sum} {expected}"
+            );
             let next = ((2 * l + 1) as f64 * c * p1 - l as f64 * p0) / (l + 1) as f64;
             (p0, p1) = (p1, next);
         }

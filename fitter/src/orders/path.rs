@@ -31,7 +31,14 @@ const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 const LONGEST: f64 = 25_000.0;
 
 /// Divides the ray from `altitude` with zenith cosine `mu` and `length` into segments; `fineness` 1 is for production.
-pub fn trace(medium: &Medium, altitude: f64, mu: f64, length: f64, ground: bool, fineness: f64) -> Path {
+pub fn trace(
+    medium: &Medium,
+    altitude: f64,
+    mu: f64,
+    length: f64,
+    ground: bool,
+    fineness: f64,
+) -> Path {
     let radius = medium.atmosphere.planet_radius;
     let integrator = ColumnIntegrator::new(&medium.atmosphere);
     let r0 = radius + altitude;
@@ -64,23 +71,37 @@ pub fn trace(medium: &Medium, altitude: f64, mu: f64, length: f64, ground: bool,
         }
         s += ds;
         if transmittance(s).iter().all(|&t| t < 1e-6) {
-            return Path { nodes, transmittance: [0.0; NW], ground: None };
+            return Path {
+                nodes,
+                transmittance: [0.0; NW],
+                ground: None,
+            };
         }
     }
-    Path { nodes, transmittance: transmittance(length), ground: ground.then(|| arc(length)) }
+    Path {
+        nodes,
+        transmittance: transmittance(length),
+        ground: ground.then(|| arc(length)),
+    }
 }
 
 /// Segment length at altitude `h` where the ray rises with `cosine`: bounded in optical depth, in height and in arc.
 fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
     let profiles = medium.profiles(h);
-    let extinction: f32 =
-        medium.parts.iter().zip(profiles).map(|(part, p)| part.extinction[2] * p).sum();
+    let extinction: f32 = medium
+        .parts
+        .iter()
+        .zip(profiles)
+        .map(|(part, p)| part.extinction[2] * p)
+        .sum();
     let climb = fineness * height_step(h);
     let r = medium.atmosphere.planet_radius + h;
     // |cosine·ds + ds²/2r| = climb, the curvature of the planet included.
     let slope = cosine.abs();
     let by_height = 2.0 * climb / (slope + (slope * slope + 2.0 * climb / r).sqrt());
-    by_height.min(fineness * 0.5 / f64::from(extinction).max(1e-12)).min(fineness * LONGEST)
+    by_height
+        .min(fineness * 0.5 / f64::from(extinction).max(1e-12))
+        .min(fineness * LONGEST)
 }
 
 /// How far one may climb before the profiles change: finest across the inversion at 2 km.

@@ -56,7 +56,9 @@ pub struct LightField {
 impl LightField {
     /// All numbers in a row, for a file.
     pub fn to_values(&self) -> Vec<f32> {
-        let moments = [&self.sky, &self.ground].into_iter().flat_map(Moments::nodes);
+        let moments = [&self.sky, &self.ground]
+            .into_iter()
+            .flat_map(Moments::nodes);
         let moments = moments.flatten().flatten();
         let rest = self.diffuse.iter().flatten().chain(&self.spherical_albedo);
         moments.chain(rest).copied().collect()
@@ -119,7 +121,12 @@ pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync
     let noon = sun_coordinate(0.5) as usize;
     let spherical_albedo =
         std::array::from_fn(|w| returned[noon][w] / (PI as f32 * emitted[noon][w]));
-    LightField { sky, ground, diffuse, spherical_albedo }
+    LightField {
+        sky,
+        ground,
+        diffuse,
+        spherical_albedo,
+    }
 }
 
 impl<'a> Solver<'a> {
@@ -133,7 +140,12 @@ impl<'a> Solver<'a> {
             .par_iter()
             .map(|&h| directions(medium, planet, h, settings))
             .collect();
-        Self { medium, settings, azimuths, directions }
+        Self {
+            medium,
+            settings,
+            azimuths,
+            directions,
+        }
     }
 
     /// Sums `first` and all orders that follow from it.
@@ -222,14 +234,18 @@ impl<'a> Solver<'a> {
             .flat_map(|j| {
                 let se = sun_node(j);
                 let elevation = (((1.0 - se) * (1.0 + se)).max(0.0).sqrt(), se);
-                self.azimuths.iter().map(move |&azimuth| Sun { elevation, azimuth })
+                self.azimuths
+                    .iter()
+                    .map(move |&azimuth| Sun { elevation, azimuth })
             })
             .collect()
     }
 
     fn project(&self, direction: &Direction, light: &[Stokes], row: &mut [[Spectrum; COUNT]]) {
         let polar = polar_harmonics(direction.mu);
-        let sine = ((1.0 - direction.mu) * (1.0 + direction.mu)).max(0.0).sqrt() as f32;
+        let sine = ((1.0 - direction.mu) * (1.0 + direction.mu))
+            .max(0.0)
+            .sqrt() as f32;
         let weight = (direction.weight * 2.0 * PI / self.azimuths.len() as f64) as f32;
         for (j, moments) in row.iter_mut().enumerate() {
             for (k, &(cp, sp)) in self.azimuths.iter().enumerate() {
@@ -238,7 +254,9 @@ impl<'a> Solver<'a> {
                 for (out, kernel) in moments.iter_mut().zip(&tensor) {
                     for w in 0..NW {
                         out[w] += weight
-                            * (kernel[0] * stokes[0][w] + kernel[1] * stokes[1][w] + kernel[2] * stokes[2][w]);
+                            * (kernel[0] * stokes[0][w]
+                                + kernel[1] * stokes[1][w]
+                                + kernel[2] * stokes[2][w]);
                     }
                 }
                 let cosines = azimuth_harmonics(cp as f32);
@@ -258,10 +276,14 @@ impl<'a> Solver<'a> {
     fn ground_irradiance(&self, moments: &Moments, first: &Source) -> Vec<Spectrum> {
         let sources = [Source::Moments(moments), first_from_above(first)];
         let mut out = vec![[0.0; NW]; SUNS];
-        for direction in self.directions[0].iter().filter(|d| d.path.ground.is_none() && d.mu > 0.0) {
+        for direction in self.directions[0]
+            .iter()
+            .filter(|d| d.path.ground.is_none() && d.mu > 0.0)
+        {
             for source in &sources {
                 let light = self.radiance(direction, source);
-                let weight = (direction.weight * direction.mu * 2.0 * PI / self.azimuths.len() as f64) as f32;
+                let weight = (direction.weight * direction.mu * 2.0 * PI
+                    / self.azimuths.len() as f64) as f32;
                 for (j, sum) in out.iter_mut().enumerate() {
                     for stokes in &light[j * self.azimuths.len()..(j + 1) * self.azimuths.len()] {
                         for w in 0..NW {
@@ -310,7 +332,12 @@ fn tensor_kernel(ct: f32, st: f32, cp: f32, sp: f32) -> [[f32; 3]; TENSOR] {
 }
 
 /// Gauss-Legendre zenith angles on both sides of the geometric horizon, crowded towards it.
-fn directions(medium: &Medium, planet: Planet, altitude: f64, settings: Settings) -> Vec<Direction> {
+fn directions(
+    medium: &Medium,
+    planet: Planet,
+    altitude: f64,
+    settings: Settings,
+) -> Vec<Direction> {
     let horizon = -planet.dip(altitude).sin();
     let mut out = vec![];
     for (count, end) in [(settings.up, 1.0), (settings.down, -1.0)] {
@@ -336,7 +363,10 @@ fn gauss_legendre(n: usize) -> Vec<(f64, f64)> {
             for _ in 0..100 {
                 let (mut p0, mut p1) = (1.0, x);
                 for k in 1..n {
-                    (p0, p1) = (p1, ((2 * k + 1) as f64 * x * p1 - k as f64 * p0) / (k + 1) as f64);
+                    (p0, p1) = (
+                        p1,
+                        ((2 * k + 1) as f64 * x * p1 - k as f64 * p0) / (k + 1) as f64,
+                    );
                 }
                 slope = n as f64 * (x * p1 - p0) / (x * x - 1.0);
                 x -= p1 / slope;
@@ -352,7 +382,11 @@ fn add_tail(last: &mut Moments, before: &Moments) {
         let ratio: Spectrum = std::array::from_fn(|w| {
             let energy = |n: &[Spectrum; COUNT]| n[0][w] + n[1][w] + n[2][w];
             let (a, b) = (energy(node), energy(previous));
-            if b > 0.0 { (a / b).clamp(0.0, 0.95) } else { 0.0 }
+            if b > 0.0 {
+                (a / b).clamp(0.0, 0.95)
+            } else {
+                0.0
+            }
         });
         for moment in node.iter_mut() {
             for w in 0..NW {

@@ -2,8 +2,8 @@
 
 use super::medium::{Medium, NW, PER_SPHERE, Spectrum};
 use super::moments::{
-    COUNT, HARMONICS, Moments, ORDERS, SUNS, TENSOR, altitude_stencil, azimuth_harmonics, order_start,
-    polar_harmonics, sun_taps,
+    COUNT, HARMONICS, Moments, ORDERS, SUNS, TENSOR, altitude_stencil, azimuth_harmonics,
+    order_start, polar_harmonics, sun_taps,
 };
 use super::path::Node;
 
@@ -37,7 +37,11 @@ impl Sun {
         let ahead = arc_cos * ce * ca - arc_sin * se;
         let across = ce * sa;
         let length = (ahead * ahead + across * across).sqrt();
-        let (cos, sin) = if length > 1e-9 { (ahead / length, across / length) } else { (1.0, 0.0) };
+        let (cos, sin) = if length > 1e-9 {
+            (ahead / length, across / length)
+        } else {
+            (1.0, 0.0)
+        };
         LocalSun {
             mu: (arc_sin * ce * ca + arc_cos * se).clamp(-1.0, 1.0),
             cos_azimuth: cos as f32,
@@ -93,7 +97,12 @@ impl SourceTable {
         let row = self.at_sun(sun.mu);
         let (ct, st) = (self.cos_zenith, self.sin_zenith);
         let (cp, sp) = (sun.cos_azimuth, sun.sin_azimuth);
-        let along = [ct * ct * cp * cp, ct * ct * sp * sp, st * st, -2.0 * st * ct * cp];
+        let along = [
+            ct * ct * cp * cp,
+            ct * ct * sp * sp,
+            st * st,
+            -2.0 * st * ct * cp,
+        ];
         let across = [sp * sp, cp * cp, 0.0, 0.0];
         let mixed = [-2.0 * ct * sp * cp, 2.0 * ct * sp * cp, 0.0, 2.0 * st * sp];
         let cosines = azimuth_harmonics(cp);

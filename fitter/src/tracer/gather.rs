@@ -1,0 +1,82 @@
+//! What walks bring home: sunlight at sampled points, at collisions and on the ground.
+
+use super::line::Line;
+use super::medium::Columns;
+use super::walk::{Path, Walker};
+use glam::DVec3;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// Sums of Stokes vectors by number of ground bounces.
+pub struct Tally<const N: usize> {
+    /// `sums[bounces][component][wavelength]`.
+    pub sums: Vec<[[f64; N]; 3]>,
+}
+
+impl<const N: usize> Tally<N> {
+    fn add(&mut self, bounces: usize, stokes: &[[f64; N]; 3], factor: &[f64; N]) {
+        for (sum, s) in self.sums[bounces].iter_mut().zip(stokes) {
+            for w in 0..N {
+                sum[w] += s[w] * factor[w];
+            }
+        }
+    }
+}
+
+impl<const N: usize> Walker<'_, N> {
+    /// Sunlight scattered towards the walk from one sampled point of its flight.
+    pub(super) fn gather_along(
+        &mut self,
+        path: &Path<N>,
+        line: &Line,
+        end: f64,
+        u: f64,
+        tally: &mut Tally<N>,
+    ) {
+        self.segment.build(&self.scene, line, end);
+        let Some((t, density)) = self.segment.sample(u) else {
+            return;
+        };
+        let medium = self.medium();
+        let Some(light) = medium.sunlight(line.at(t), self.scene.sun) else {
+            return;
+        };
+        let altitude = (line.radius(line.start + t) - medium.radius).max(0.0);
+        let through = medium.transmittance(&medium.columns(line, 0.0, t));
+        let common = self.normaliser(path) / (4.0 * PI * density);
+        let factor = std::array::from_fn(|w| through[w] * light[w] * common);
+        let stokes = self.sunlight_towards(path, &medium.profile(altitude));
+        tally.add(path.bounces, &stokes, &factor);
+    }
+
+    /// Sunlight scattered at a collision.
+    pub(super) fn gather_at(&self, path: &Path<N>, profile: &Columns, tally: &mut Tally<N>) {
+        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+            let common = self.normaliser(path) / (4.0 * PI);
+            let factor = light.map(|l| l * common);
+            tally.add(path.bounces, &self.sunlight_towards(path, profile), &factor);
+        }
+    }
+
+    fn sunlight_towards(&self, path: &Path<N>, profile: &Columns) -> [[f64; N]; 3] {
+        let cosine = path.frame.w.dot(self.scene.sun).clamp(-1.0, 1.0);
+        let f = self.scattering_at(profile, cosine);
+        path.m.natural(path.frame.angle_to(self.scene.sun), &f)
+    }
+
+    pub(super) fn gather_ground(&self, path: &Path<N>, up: DVec3, tally: &mut Tally<N>) {
+        let cosine = up.dot(self.scene.sun);
+        if cosine <= 0.0 {
+            return;
+        }
+        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+            let common = self.normaliser(path) * cosine * FRAC_1_PI;
+            let stokes = path.m.0.map(|row| row[0]);
+            tally.add(path.bounces, &stokes, &light.map(|l| l * common));
+        }
+    }
+
+    pub(super) fn gather_escape(&self, path: &Path<N>, tally: &mut Tally<N>) {
+        let stokes = path.m.0.map(|row| row[0]);
+        tally.add(path.bounces, &stokes, &[self.normaliser(path); N]);
+    }
+}

@@ -1,0 +1,99 @@
+//! `welkin-fit trace` as its users meet it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn atmosphere() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference/sky_O1.json")
+}
+
+fn trace(directory: &Path, queries: &str, more: &[&str]) -> Output {
+    let file = directory.join("queries.csv");
+    std::fs::write(&file, queries).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .args(["trace", "--target-error", "5%", "--atmosphere"])
+        .arg(atmosphere())
+        .arg("--queries")
+        .arg(file)
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+fn column(csv: &str, name: &str) -> Vec<f64> {
+    let mut lines = csv.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let i = header.iter().position(|h| *h == name).unwrap();
+    lines
+        .map(|line| line.split(',').nth(i).unwrap().parse().unwrap())
+        .collect()
+}
+
+#[test]
+fn rows_come_back_with_answers() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("out.csv");
+    let queries = "name,altitude_m,view_zenith_deg,view_azimuth_deg,distance_m,albedo,solar_elevation_deg\n\
+                   a,0,45,0,,,\n\
+                   b,0,45,0,1000,,\n\
+                   c,0,45,0,,0.9,\n\
+                   d,0,45,0,,,5\n";
+    let output = trace(
+        directory.path(),
+        queries,
+        &["--out", out.to_str().unwrap(), "--seed", "3"],
+    );
+    assert!(output.status.success(), "{output:?}");
+    let csv = std::fs::read_to_string(&out).unwrap();
+    assert!(csv.starts_with("name,altitude_m,"), "{csv}");
+    assert!(csv.contains("\na,0,45,0,,,,"), "{csv}");
+    let i = column(&csv, "I");
+    assert!(
+        i[1] < 0.2 * i[0] && i[2] > 1.1 * i[0] && i[3] < 0.5 * i[0],
+        "{i:?}"
+    );
+    let t = column(&csv, "transmittance");
+    assert!(t[1] > t[0] && t[0] > 0.7, "{t:?}");
+    assert!(column(&csv, "I_se").iter().all(|&e| e > 0.0));
+}
+
+#[test]
+fn the_atmosphere_files_own_lines_are_used_without_queries() {
+    let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .args(["trace", "--orders", "single", "--visible-ground", "black"])
+        .arg("--atmosphere")
+        .arg(atmosphere())
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    let csv = String::from_utf8(output.stdout).unwrap();
+    let i = column(&csv, "I");
+    assert_eq!(i.len(), 60);
+    assert!((i[0] / 0.0182834993 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn bad_input_is_one_line_and_exit_code_2() {
+    let directory = tempfile::tempdir().unwrap();
+    let head = "altitude_m,view_zenith_deg,view_azimuth_deg,albedo\n";
+    for (rows, what) in [
+        ("0,10,0,\n-5,10,0,\n", "row 2: altitude"),
+        ("1e6,10,0,\n", "row 1: altitude"),
+        ("0,200,0,\n", "row 1: view zenith"),
+        ("0,10,x,\n", "row 1: view_azimuth_deg"),
+        ("0,10,NaN,\n", "row 1: view_azimuth_deg"),
+        ("0,,0,\n", "row 1: view_zenith_deg is missing"),
+        ("0,10,0,1.5\n", "row 1: albedo"),
+        ("0,10,0\n", "row 1"),
+        ("", "no rows"),
+    ] {
+        let output = trace(directory.path(), &format!("{head}{rows}"), &[]);
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{rows}");
+        assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+        assert!(message.contains(what), "{what}: {message}");
+    }
+    let output = trace(directory.path(), "altitude_m,view_azimuth_deg\n0,0\n", &[]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("no column view_zenith_deg"), "{message}");
+}
