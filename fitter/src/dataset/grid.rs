@@ -83,7 +83,7 @@ impl Default for Grid {
             up: (free(40), 3.0),
             down: (free(24), 3.0),
             phi: Axis {
-                intervals: 12,
+                intervals: 18,
                 ends: Ends::Mirrored,
             },
             elevation: ElevationAxis {
@@ -91,7 +91,7 @@ impl Default for Grid {
                 max: FRAC_PI_2,
                 centre: (-1.0f64).to_radians(),
                 width: 4f64.to_radians(),
-                intervals: 40,
+                intervals: 44,
             },
         }
     }
