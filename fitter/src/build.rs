@@ -1,7 +1,7 @@
 //! From atmospheres to a model file, in work units that resume.
 
 use crate::assess::{self, Error, Quantiles};
-use crate::atmosphere::real;
+use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
 use crate::decompose::{ElevationScale, Fit, Options, channel_weights, chunk_geometry, fit};
 use crate::orders::{FIELDS, Gatherer, LightField, Medium, NW, SUN_RADIUS, Settings, solve};
@@ -64,7 +64,7 @@ impl Plan {
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
 /// Changes whenever the physics or the layout of the units does.
-const UNIT_VERSION: u32 = 1;
+const UNIT_VERSION: u32 = 2;
 
 /// A visibility, solved.
 struct Solved {
@@ -152,6 +152,24 @@ pub fn between_nodes(
         Ok((altitude, samples))
     };
     altitudes.iter().map(sample).collect()
+}
+
+/// The atmosphere of a visibility (m) and traced samples for the judge: every direction has two suns of its own.
+pub fn judged_samples(
+    plan: &Plan,
+    work: &Path,
+    visibility: f64,
+    altitudes: &[f64],
+    directions: usize,
+) -> Result<(Atmosphere, Vec<Sample>)> {
+    let solved = solve_one(plan, &plan.store(work)?, visibility)?;
+    let gatherer = Gatherer::new(&solved.medium, &solved.light, FINENESS);
+    let one = |altitude: f64, seed: u64| truth(&gatherer, &solved.light, altitude, [1, 2], seed);
+    let samples = altitudes
+        .iter()
+        .flat_map(|&h| (0..directions as u64).flat_map(move |i| one(h, 1000 * i + h as u64)))
+        .collect();
+    Ok((real(visibility, &WAVELENGTHS)?, samples))
 }
 
 fn held_out(

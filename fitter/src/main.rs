@@ -18,6 +18,8 @@ enum Command {
     Build(command::build::Args),
     /// Compare a model file with freshly traced radiance between its nodes.
     Assess(command::assess::Args),
+    /// Compare traced data with the unbiased tracer.
+    Judge(command::judge::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
     /// Measure how fast the tracer is.
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
+        Command::Judge(args) => command::judge::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),

@@ -3,5 +3,6 @@
 pub mod assess;
 pub mod bench;
 pub mod build;
+pub mod judge;
 pub mod trace;
 pub mod validate;

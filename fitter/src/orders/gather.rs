@@ -127,6 +127,38 @@ impl<'a> Gatherer<'a> {
         out
     }
 
+    /// All light along `path`, polarised, for one sun and ground albedo; for an atmosphere of any make.
+    pub fn stokes(&self, path: &Path, mu: f64, sun: &Sun, albedo: f32) -> Stokes {
+        let mut sums = vec![[0.0; NW]; self.medium.parts.len()];
+        let mut light = [DARK; 2];
+        for node in &path.nodes {
+            let local = sun.at(node);
+            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
+                single::add(
+                    &self.medium.profiles(node.altitude),
+                    &t,
+                    &node.weight,
+                    &mut sums,
+                );
+            }
+            for (moments, out) in [&self.light.sky, &self.light.ground]
+                .into_iter()
+                .zip(&mut light)
+            {
+                let table = SourceTable::new(self.medium, moments, node);
+                table.add(self.medium, &local, &node.weight, out);
+            }
+        }
+        let mut out = single::stokes(self.medium, &sums, mu, sun);
+        for (s, total) in out.iter_mut().enumerate() {
+            for w in 0..NW {
+                let ground = albedo / (1.0 - albedo * self.light.spherical_albedo[w]);
+                total[w] += light[0][s][w] + ground * light[1][s][w];
+            }
+        }
+        out
+    }
+
     fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
         let [mut multiple, ground] = light;
         let waso = single::aerosol(self.medium, WASO, sums);
@@ -170,36 +202,4 @@ impl<'a> Gatherer<'a> {
 pub fn scattering_cosine(mu: f64, sun: &Sun) -> f32 {
     let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
     (sine * sun.elevation.0 * sun.azimuth.0 + mu * sun.elevation.1).clamp(-1.0, 1.0) as f32
-}
-impl Gatherer<'_> {
-    #[doc(hidden)]
-    pub fn parts_for_test(&self, path: &Path, mu: f64, sun: Sun) -> (Stokes, Stokes, Stokes) {
-        let parts = self.medium.parts.len();
-        let mut sums = vec![[0.0; NW]; parts];
-        let mut light = [DARK; 2];
-        for node in &path.nodes {
-            let profiles = self.medium.profiles(node.altitude);
-            let local = sun.at(node);
-            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                single::add(&profiles, &t, &node.weight, &mut sums);
-            }
-            SourceTable::new(self.medium, &self.light.sky, node).add(
-                self.medium,
-                &local,
-                &node.weight,
-                &mut light[0],
-            );
-            SourceTable::new(self.medium, &self.light.ground, node).add(
-                self.medium,
-                &local,
-                &node.weight,
-                &mut light[1],
-            );
-        }
-        (
-            single::stokes(self.medium, &sums, mu, &sun),
-            light[0],
-            light[1],
-        )
-    }
 }

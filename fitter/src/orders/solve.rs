@@ -23,6 +23,8 @@ pub struct Settings {
     pub down: usize,
     /// Azimuths over half a turn.
     pub azimuths: usize,
+    /// How many times finer the angles are for light that was scattered once: it has the aureole.
+    pub first: usize,
     /// Orders of scattering that are followed.
     pub orders: usize,
     /// Length of ray segments relative to the production value.
@@ -32,9 +34,10 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            up: 16,
-            down: 10,
-            azimuths: 12,
+            up: 14,
+            down: 9,
+            azimuths: 10,
+            first: 3,
             orders: 7,
             fineness: 3.0,
         }
@@ -92,11 +95,18 @@ struct Direction {
     path: Path,
 }
 
+/// Directions of integration at every altitude of the grid.
+struct Sphere {
+    /// Cosine and sine, over half a turn.
+    azimuths: Vec<(f64, f64)>,
+    /// Zenith angles per altitude.
+    directions: Vec<Vec<Direction>>,
+}
+
 struct Solver<'a> {
     medium: &'a Medium,
     settings: Settings,
-    azimuths: Vec<(f64, f64)>,
-    directions: Vec<Vec<Direction>>,
+    sphere: Sphere,
 }
 
 /// Solves for the light field; `progress` is told the share that is done.
@@ -105,9 +115,12 @@ pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync
     let applications = (2 * settings.orders) as f64;
     let done = AtomicUsize::new(0);
     let tick = || progress(done.fetch_add(1, Ordering::Relaxed) as f64 / applications);
-    let first = solver.apply(&Source::Sun);
+    let fine = Sphere::new(medium, settings, settings.first);
+    let first = solver.apply(&fine, &Source::Sun);
     let sky = solver.all_orders(first, &tick);
-    let diffuse = solver.ground_irradiance(&sky, &Source::Sun);
+    let mut diffuse = vec![[0.0; NW]; SUNS];
+    solver.add_irradiance(&fine, &Source::Sun, &mut diffuse);
+    solver.add_irradiance(&solver.sphere, &Source::Moments(&sky), &mut diffuse);
     let emitted: Vec<Spectrum> = (0..SUNS)
         .map(|j| {
             let direct = medium.sunlight(0.0, sun_node(j)).unwrap_or([0.0; NW]);
@@ -115,9 +128,10 @@ pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync
             std::array::from_fn(|w| (diffuse[j][w] + cosine * direct[w]) / PI as f32)
         })
         .collect();
-    let lit = solver.apply(&Source::Ground(&emitted));
+    let lit = solver.apply(&solver.sphere, &Source::Ground(&emitted));
     let ground = solver.all_orders(lit, &tick);
-    let returned = solver.ground_irradiance(&ground, &Source::Ground(&emitted));
+    let mut returned = vec![[0.0; NW]; SUNS];
+    solver.add_irradiance(&solver.sphere, &Source::Moments(&ground), &mut returned);
     let noon = sun_coordinate(0.5) as usize;
     let spherical_albedo =
         std::array::from_fn(|w| returned[noon][w] / (PI as f32 * emitted[noon][w]));
@@ -129,22 +143,45 @@ pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync
     }
 }
 
-impl<'a> Solver<'a> {
-    fn new(medium: &'a Medium, settings: Settings) -> Self {
+impl Sphere {
+    /// With angles `finer` times as dense as `settings` says.
+    fn new(medium: &Medium, settings: Settings, finer: usize) -> Self {
         let planet = planet(&medium.atmosphere);
-        let azimuths = (0..settings.azimuths)
-            .map(|k| ((k as f64 + 0.5) / settings.azimuths as f64 * PI).sin_cos())
+        let count = settings.azimuths * finer;
+        let azimuths = (0..count)
+            .map(|k| ((k as f64 + 0.5) / count as f64 * PI).sin_cos())
             .map(|(s, c)| (c, s))
             .collect();
         let directions = ALTITUDES
             .par_iter()
-            .map(|&h| directions(medium, planet, h, settings))
+            .map(|&h| directions(medium, planet, h, settings, finer))
             .collect();
+        Self {
+            azimuths,
+            directions,
+        }
+    }
+
+    /// Every sun node at every azimuth, sun-major.
+    fn suns(&self) -> Vec<Sun> {
+        (0..SUNS)
+            .flat_map(|j| {
+                let se = sun_node(j);
+                let elevation = (((1.0 - se) * (1.0 + se)).max(0.0).sqrt(), se);
+                let at = move |&azimuth| Sun { elevation, azimuth };
+                self.azimuths.iter().map(at)
+            })
+            .collect()
+    }
+}
+
+impl<'a> Solver<'a> {
+    fn new(medium: &'a Medium, settings: Settings) -> Self {
+        let sphere = Sphere::new(medium, settings, 1);
         Self {
             medium,
             settings,
-            azimuths,
-            directions,
+            sphere,
         }
     }
 
@@ -154,7 +191,7 @@ impl<'a> Solver<'a> {
         let mut previous = first;
         for order in 1..self.settings.orders {
             tick();
-            let mut next = self.apply(&Source::Moments(&previous));
+            let mut next = self.apply(&self.sphere, &Source::Moments(&previous));
             if order + 1 == self.settings.orders {
                 add_tail(&mut next, &previous);
             }
@@ -168,14 +205,16 @@ impl<'a> Solver<'a> {
     }
 
     /// Moments of the light that reaches every grid node from `source` without being scattered again.
-    fn apply(&self, source: &Source) -> Moments {
-        let rows = (0..ALTITUDES.len())
-            .into_par_iter()
-            .map(|i| {
+    fn apply(&self, sphere: &Sphere, source: &Source) -> Moments {
+        let suns = sphere.suns();
+        let rows = sphere
+            .directions
+            .par_iter()
+            .map(|directions| {
                 let mut row = vec![[[0.0; NW]; COUNT]; SUNS];
-                for direction in &self.directions[i] {
-                    let light = self.radiance(direction, source);
-                    self.project(direction, &light, &mut row);
+                for direction in directions {
+                    let light = self.radiance(direction, &suns, source);
+                    project(direction, &sphere.azimuths, &light, &mut row);
                 }
                 row
             })
@@ -184,11 +223,10 @@ impl<'a> Solver<'a> {
     }
 
     /// Radiance in `direction` for every sun node and azimuth.
-    fn radiance(&self, direction: &Direction, source: &Source) -> Vec<Stokes> {
-        let suns = self.suns();
+    fn radiance(&self, direction: &Direction, suns: &[Sun], source: &Source) -> Vec<Stokes> {
         let mut light = vec![DARK; suns.len()];
         match source {
-            Source::Sun => self.single(direction, &suns, &mut light),
+            Source::Sun => self.single(direction, suns, &mut light),
             Source::Moments(moments) => {
                 for node in &direction.path.nodes {
                     let table = SourceTable::new(self.medium, moments, node);
@@ -228,90 +266,64 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Every sun node at every azimuth, sun-major.
-    fn suns(&self) -> Vec<Sun> {
-        (0..SUNS)
-            .flat_map(|j| {
-                let se = sun_node(j);
-                let elevation = (((1.0 - se) * (1.0 + se)).max(0.0).sqrt(), se);
-                self.azimuths
-                    .iter()
-                    .map(move |&azimuth| Sun { elevation, azimuth })
-            })
-            .collect()
-    }
-
-    fn project(&self, direction: &Direction, light: &[Stokes], row: &mut [[Spectrum; COUNT]]) {
-        let polar = polar_harmonics(direction.mu);
-        let sine = ((1.0 - direction.mu) * (1.0 + direction.mu))
-            .max(0.0)
-            .sqrt() as f32;
-        let weight = (direction.weight * 2.0 * PI / self.azimuths.len() as f64) as f32;
-        for (j, moments) in row.iter_mut().enumerate() {
-            for (k, &(cp, sp)) in self.azimuths.iter().enumerate() {
-                let stokes = &light[j * self.azimuths.len() + k];
-                let tensor = tensor_kernel(direction.mu as f32, sine, cp as f32, sp as f32);
-                for (out, kernel) in moments.iter_mut().zip(&tensor) {
+    /// Adds the irradiance of the ground per sun node by light from `source`.
+    fn add_irradiance(&self, sphere: &Sphere, source: &Source, out: &mut [Spectrum]) {
+        let (suns, count) = (sphere.suns(), sphere.azimuths.len());
+        let above = sphere.directions[0].iter().filter(|d| d.mu > 0.0);
+        for direction in above {
+            let light = self.radiance(direction, &suns, source);
+            let weight = (direction.weight * direction.mu * 2.0 * PI / count as f64) as f32;
+            for (sum, light) in out.iter_mut().zip(light.chunks_exact(count)) {
+                for stokes in light {
                     for w in 0..NW {
-                        out[w] += weight
-                            * (kernel[0] * stokes[0][w]
-                                + kernel[1] * stokes[1][w]
-                                + kernel[2] * stokes[2][w]);
-                    }
-                }
-                let cosines = azimuth_harmonics(cp as f32);
-                for (m, c) in cosines.into_iter().enumerate() {
-                    for i in order_start(m)..order_start(m + 1).min(HARMONICS) {
-                        let y = weight * polar[i] * c;
-                        for w in 0..NW {
-                            moments[TENSOR + i][w] += y * stokes[0][w];
-                        }
+                        sum[w] += weight * stokes[0][w];
                     }
                 }
             }
         }
-    }
-
-    /// Irradiance of the ground per sun node, by `first` and by what `moments` scatter.
-    fn ground_irradiance(&self, moments: &Moments, first: &Source) -> Vec<Spectrum> {
-        let sources = [Source::Moments(moments), first_from_above(first)];
-        let mut out = vec![[0.0; NW]; SUNS];
-        for direction in self.directions[0]
-            .iter()
-            .filter(|d| d.path.ground.is_none() && d.mu > 0.0)
-        {
-            for source in &sources {
-                let light = self.radiance(direction, source);
-                let weight = (direction.weight * direction.mu * 2.0 * PI
-                    / self.azimuths.len() as f64) as f32;
-                for (j, sum) in out.iter_mut().enumerate() {
-                    for stokes in &light[j * self.azimuths.len()..(j + 1) * self.azimuths.len()] {
-                        for w in 0..NW {
-                            sum[w] += weight * stokes[0][w];
-                        }
-                    }
-                }
-            }
-        }
-        out
     }
 }
 
-/// The same source as far as it lights the ground: the ground does not light itself directly.
-fn first_from_above<'s>(source: &Source<'s>) -> Source<'s> {
-    match source {
-        Source::Sun => Source::Sun,
-        Source::Moments(m) => Source::Moments(m),
-        Source::Ground(_) => Source::Ground(&[]),
+/// Adds the moments of the light from one zenith angle.
+fn project(
+    direction: &Direction,
+    azimuths: &[(f64, f64)],
+    light: &[Stokes],
+    row: &mut [[Spectrum; COUNT]],
+) {
+    let polar = polar_harmonics(direction.mu);
+    let sine = ((1.0 - direction.mu) * (1.0 + direction.mu))
+        .max(0.0)
+        .sqrt() as f32;
+    let weight = (direction.weight * 2.0 * PI / azimuths.len() as f64) as f32;
+    for (j, moments) in row.iter_mut().enumerate() {
+        for (k, &(cp, sp)) in azimuths.iter().enumerate() {
+            let stokes = &light[j * azimuths.len() + k];
+            let tensor = tensor_kernel(direction.mu as f32, sine, cp as f32, sp as f32);
+            for (out, kernel) in moments.iter_mut().zip(&tensor) {
+                for w in 0..NW {
+                    out[w] += weight
+                        * (kernel[0] * stokes[0][w]
+                            + kernel[1] * stokes[1][w]
+                            + kernel[2] * stokes[2][w]);
+                }
+            }
+            let cosines = azimuth_harmonics(cp as f32);
+            for (m, c) in cosines.into_iter().enumerate() {
+                for i in order_start(m)..order_start(m + 1).min(HARMONICS) {
+                    let y = weight * polar[i] * c;
+                    for w in 0..NW {
+                        moments[TENSOR + i][w] += y * stokes[0][w];
+                    }
+                }
+            }
+        }
     }
 }
 
 fn at_sun(values: &[Spectrum], mu: f64) -> Spectrum {
     let (index, weight) = super::moments::sun_taps(mu);
     let mut out = [0.0; NW];
-    if values.is_empty() {
-        return out;
-    }
     for (j, share) in index.into_iter().zip(weight) {
         for w in 0..NW {
             out[w] += share * values[j][w];
@@ -337,11 +349,12 @@ fn directions(
     planet: Planet,
     altitude: f64,
     settings: Settings,
+    finer: usize,
 ) -> Vec<Direction> {
     let horizon = -planet.dip(altitude).sin();
     let mut out = vec![];
     for (count, end) in [(settings.up, 1.0), (settings.down, -1.0)] {
-        for (x, weight) in gauss_legendre(count) {
+        for (x, weight) in gauss_legendre(finer * count) {
             let t = 0.5 * (1.0 + x);
             let mu = horizon + (end - horizon) * t * t;
             let weight = weight * t * (end - horizon).abs();
