@@ -31,8 +31,8 @@ impl Default for Plan {
         Self {
             grid: Grid::default(),
             options: Options {
-                rank: 96,
-                sweeps: 600,
+                rank: 64,
+                sweeps: 1500,
                 seed: 1,
             },
             settings: Settings::default(),

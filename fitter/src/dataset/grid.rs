@@ -64,21 +64,15 @@ pub struct Grid {
     pub elevation: ElevationAxis,
 }
 
-/// The observer altitudes of the paper's Table 2, m.
-pub const ALTITUDES: [f64; 22] = [
-    0.0, 1.875, 15.0, 50.625, 120.0, 234.38, 405.0, 643.12, 960.0, 1366.9, 1875.0, 2000.0, 2495.6,
-    3240.0, 4119.4, 5145.0, 6328.1, 7680.0, 9211.9, 10_935.0, 12_861.0, 15_000.0,
-];
-
 impl Default for Grid {
-    /// All of Table 2.
+    /// The grid of the embedded default model.
     fn default() -> Self {
         let free = |intervals| Axis {
             intervals,
             ends: Ends::Free,
         };
         Self {
-            altitudes: ALTITUDES.to_vec(),
+            altitudes: vec![0.0, 40.0, 120.0, 1000.0, 1500.0, 2000.0],
             visibilities: VISIBILITIES.to_vec(),
             up: (free(40), 3.0),
             down: (free(24), 3.0),
