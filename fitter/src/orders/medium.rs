@@ -2,7 +2,7 @@
 
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 
 /// Wavelengths that are treated together.
 pub const NW: usize = 12;
@@ -87,6 +87,10 @@ impl Medium {
                         }
                         part.aerosols.push(Aerosol { scattering, g });
                     }
+                    Phase::Tabulated(_) => bail!(
+                        "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
+                        scatterer.name
+                    ),
                 }
             }
             parts.push(part);

@@ -75,7 +75,7 @@ impl<const N: usize> Medium<N> {
                 .map(|c| lane(&c.extinction))
                 .collect(),
             scattering: vec![[0.0; N]; k],
-            lobes: lobes(atmosphere, lane),
+            lobes: lobes(atmosphere, lanes, lane),
             shells: vec![],
             layers: vec![],
             radii: nodes.iter().map(|z| atmosphere.planet_radius + z).collect(),
@@ -232,6 +232,7 @@ fn slopes(nodes: &[f64], profiles: &[Columns]) -> Vec<Columns> {
 
 fn lobes<const N: usize>(
     atmosphere: &Atmosphere,
+    lanes: &[usize],
     lane: impl Fn(&[f64]) -> [f64; N],
 ) -> Vec<Lobe<N>> {
     let constituents = atmosphere.constituents.iter().enumerate();
@@ -246,6 +247,7 @@ fn lobes<const N: usize>(
                 Phase::HenyeyGreenstein { g } => {
                     Lobe::henyey_greenstein(constituent, scattering, lane(g))
                 }
+                Phase::Tabulated(matrix) => Lobe::tabulated(constituent, scattering, matrix, lanes),
             }
         })
         .collect()

@@ -24,6 +24,7 @@ mod sight;
 mod single;
 pub mod stokes;
 mod sun;
+mod tabulated;
 #[cfg(test)]
 mod test_atmosphere;
 #[cfg(test)]
