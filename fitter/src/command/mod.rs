@@ -3,5 +3,6 @@
 pub mod assess;
 pub mod bench;
 pub mod build;
+mod output;
 pub mod trace;
 pub mod validate;

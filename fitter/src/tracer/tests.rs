@@ -299,3 +299,18 @@ fn both_ways_of_gathering_sunlight_agree_for_mie_particles() {
         assert!(a.error[0] < 0.02 * a.stokes[0], "{a:?}");
     }
 }
+
+#[test]
+fn there_is_no_air_under_the_ground_or_over_the_top() {
+    let tracer = tracer(1, Options::default());
+    for q in [
+        query(0.0, 180.0, 0.0, 30.0),
+        query(0.0, 91.0, 20.0, 30.0),
+        query(80_000.0, 0.0, 0.0, 30.0),
+        query(80_000.0, 80.0, 0.0, 30.0),
+    ] {
+        let estimate = tracer.estimate(&q, 4, 1).unwrap();
+        assert_eq!(estimate.radiance(0.5, 0).stokes, [0.0; 3], "{q:?}");
+        assert_eq!(estimate.transmittance(0), 1.0);
+    }
+}
