@@ -29,6 +29,8 @@ pub struct Medium<const N: usize> {
     pub top: f64,
     /// Number of wavelengths in use; the other lanes repeat the last one.
     pub active: usize,
+    /// Wavelengths, nm.
+    pub wavelengths: [f64; N],
     /// Extinction per unit profile of each constituent, m⁻¹.
     pub extinction: Vec<[f64; N]>,
     /// Scattering per unit profile of each constituent, m⁻¹.
@@ -69,6 +71,7 @@ impl<const N: usize> Medium<N> {
             radius: atmosphere.planet_radius,
             top: atmosphere.planet_radius + atmosphere.top(),
             active: lanes.len(),
+            wavelengths: lane(&atmosphere.wavelengths),
             extinction: atmosphere
                 .constituents
                 .iter()
