@@ -10,5 +10,6 @@ pub mod dataset;
 pub mod decompose;
 pub mod orders;
 pub mod pack;
+pub mod picture;
 pub mod reference;
 pub mod tracer;

@@ -20,6 +20,8 @@ enum Command {
     Assess(command::assess::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
+    /// Path-trace a picture of sky, ground and simple things on it.
+    Picture(command::picture::Args),
     /// Measure how fast the tracer is.
     TraceBench(command::bench::Args),
     /// Compare the tracer with outside references.
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
         Command::Trace(args) => command::trace::run(&args),
+        Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),
     };

@@ -4,5 +4,6 @@ pub mod assess;
 pub mod bench;
 pub mod build;
 mod output;
+pub mod picture;
 pub mod trace;
 pub mod validate;

@@ -14,8 +14,10 @@ use glam::DVec3;
 pub struct View<'a> {
     /// Altitude of the camera, m.
     pub altitude: f64,
-    /// Elevation of the sun above the camera's horizontal plane, radians; its azimuth is that of x.
+    /// Elevation of the sun above the camera's horizontal plane, radians.
     pub sun_elevation: f64,
+    /// Azimuth of the sun, counter-clockwise from x, radians.
+    pub sun_azimuth: f64,
     /// What stands on the ground, and the ground itself.
     pub solids: &'a dyn Solids,
 }
@@ -38,7 +40,11 @@ impl<const N: usize> Lanes<N> {
         samples: usize,
         mut stream: Stream,
     ) -> Pixel {
-        let disc = Disc::new(view.sun_elevation, self.options.sun_radius);
+        let disc = Disc::towards(
+            view.sun_elevation,
+            view.sun_azimuth,
+            self.options.sun_radius,
+        );
         let mut walker = Walker {
             scene: Scene::new(&self.medium, &self.guide, disc.middle()),
             aerosol: self.options.aerosol,
@@ -132,6 +138,7 @@ mod tests {
         let view = View {
             altitude: 100.0,
             sun_elevation: 0.5,
+            sun_azimuth: 0.0,
             solids: wall,
         };
         let (sin, cos) = elevation.sin_cos();
@@ -212,6 +219,7 @@ mod tests {
         let view = View {
             altitude: 100.0,
             sun_elevation: 0.5,
+            sun_azimuth: 0.0,
             solids: &away,
         };
         let towards = DVec3::new(-0.98, 0.0, 0.199);
