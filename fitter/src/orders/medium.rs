@@ -142,8 +142,8 @@ impl Medium {
     fn attenuate(&self, columns: &[f32; MAX_CONSTITUENTS]) -> Spectrum {
         let mut tau = [0.0f32; NW];
         for (part, c) in self.parts.iter().zip(columns) {
-            for w in 0..NW {
-                tau[w] += part.extinction[w] * c;
+            for (sum, extinction) in tau.iter_mut().zip(&part.extinction) {
+                *sum += extinction * c;
             }
         }
         tau.map(|t| (-t).exp())
