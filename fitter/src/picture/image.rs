@@ -22,22 +22,29 @@ pub fn exr(picture: &Picture, wavelengths: Option<&[f64]>) -> Result<Vec<u8>> {
         comments: Some("R, G, B: linear sRGB, cd m^-2 at white; S0: W m^-2 sr^-1 nm^-1".into()),
         ..LayerAttributes::default()
     };
+    let text = |text: &str| AttributeValue::Text(text.into());
     if wavelengths.is_some() {
-        let version = AttributeValue::Text("1.0".into());
-        attributes
-            .other
-            .insert("spectralLayoutVersion".into(), version);
-        let units = AttributeValue::Text("W.m^-2.sr^-1.nm^-1".into());
+        let units = text("W.m^-2.sr^-1.nm^-1");
         attributes.other.insert("emissiveUnits".into(), units);
     }
     let layer = Layer::new(
         (picture.size[0], picture.size[1]),
         attributes,
-        Encoding::FAST_LOSSLESS,
+        // In order, so that the same picture is the same file.
+        Encoding {
+            line_order: LineOrder::Increasing,
+            ..Encoding::FAST_LOSSLESS
+        },
         AnyChannels::sort(channels.into_iter().collect()),
     );
     let mut bytes = Cursor::new(Vec::new());
-    let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
+    let mut image = Image::from_layer(layer);
+    if wavelengths.is_some() {
+        // Two in one place would be written in an order of their own every time.
+        let other = &mut image.attributes.other;
+        other.insert("spectralLayoutVersion".into(), text("1.0"));
+    }
+    let written = image.write().to_buffered(&mut bytes);
     written.context("cannot encode the EXR")?;
     Ok(bytes.into_inner())
 }
