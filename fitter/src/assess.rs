@@ -33,8 +33,11 @@ pub struct Error {
     pub to_sun: f64,
 }
 
+/// A name, and what belongs under it.
+pub type Class = (&'static str, fn(&Error) -> bool);
+
 /// Directions of the sphere and suns that are reported apart.
-pub const CLASSES: [(&str, fn(&Error) -> bool); 6] = [
+pub const CLASSES: [Class; 6] = [
     ("all", |_| true),
     ("day (sun > 0°)", |e| e.solar_elevation > 0.0),
     ("twilight", |e| e.solar_elevation <= 0.0),

@@ -11,5 +11,6 @@ pub mod decompose;
 pub mod judge;
 pub mod orders;
 pub mod pack;
+pub mod picture;
 pub mod reference;
 pub mod tracer;

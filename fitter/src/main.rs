@@ -22,6 +22,8 @@ enum Command {
     Judge(command::judge::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
+    /// Path-trace a picture of sky, ground and simple things on it.
+    Picture(command::picture::Args),
     /// Measure how fast the tracer is.
     TraceBench(command::bench::Args),
     /// Compare the tracer with outside references.
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Command::Assess(args) => command::assess::run(&args),
         Command::Judge(args) => command::judge::run(&args),
         Command::Trace(args) => command::trace::run(&args),
+        Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),
     };

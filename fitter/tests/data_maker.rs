@@ -190,6 +190,7 @@ fn repeated(air: &Atmosphere) -> Atmosphere {
             match &mut scatterer.phase {
                 Phase::Rayleigh { depolarisation } => repeat(depolarisation),
                 Phase::HenyeyGreenstein { g } => repeat(g),
+                Phase::Tabulated(_) => unreachable!("the references have none"),
             }
         }
     }

@@ -97,3 +97,92 @@ fn bad_input_is_one_line_and_exit_code_2() {
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(message.contains("no column view_zenith_deg"), "{message}");
 }
+
+fn real(directory: &Path, more: &[&str]) -> Output {
+    let file = directory.join("queries.csv");
+    std::fs::write(
+        &file,
+        "altitude_m,view_zenith_deg,view_azimuth_deg\n0,45,90\n0,60,40\n2000,30,120\n",
+    )
+    .unwrap();
+    Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .args(["trace", "--visibility", "40", "--target-error", "5%"])
+        .args(["--wavelengths", "440,550", "--queries"])
+        .arg(file)
+        .args(more)
+        .output()
+        .unwrap()
+}
+
+const SCENE: [&str; 4] = ["--solar-elevation", "30", "--albedo", "0.2"];
+
+#[test]
+fn the_real_atmosphere_answers_at_several_wavelengths() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |aerosol: &str| {
+        let output = real(
+            directory.path(),
+            &[&SCENE[..], &["--aerosol", aerosol]].concat(),
+        );
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (natural, mie) = (run("depolarising"), run("mie"));
+    assert_eq!(column(&mie, "wavelength_nm")[..2], [440.0, 550.0]);
+    let pairs = column(&natural, "I").into_iter().zip(column(&mie, "I"));
+    for (a, b) in pairs {
+        assert!((b / a - 1.0).abs() < 0.5 && a != b, "{a} {b}");
+    }
+    let bad = real(directory.path(), &["--aerosol", "mie"]);
+    let message = String::from_utf8(bad.stderr).unwrap();
+    assert!(
+        message.contains("solar_elevation_deg is missing"),
+        "{message}"
+    );
+    let directory = directory.path();
+    let bad = trace(directory, "altitude_m\n", &["--aerosol", "mie"]);
+    let message = String::from_utf8(bad.stderr).unwrap();
+    assert!(message.contains("--visibility"), "{message}");
+}
+
+/// What an interrupted run leaves behind is used if, and only if, it belongs to the same settings.
+#[test]
+fn an_interrupted_run_goes_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("out.csv");
+    let folder = directory.path().join("out.csv.unfinished");
+    let run = |seed: &str| {
+        let more = ["--seed", seed, "--out", out.to_str().unwrap()];
+        real(directory.path(), &[&SCENE[..], &more].concat())
+    };
+    // A folder in the output's place lets all the work be done and the last step fail.
+    std::fs::create_dir(&out).unwrap();
+    assert!(!run("1").status.success());
+    let kept = folder.join("row-1.unit");
+    let whole = std::fs::read(&kept).unwrap();
+    assert_eq!(whole.len(), 16 + 2 * 7 * 8);
+    std::fs::remove_dir(&out).unwrap();
+    // Rows 0 and 2 are lost; row 1 is marked, with its checksum, to be known again.
+    std::fs::remove_file(folder.join("row-0.unit")).unwrap();
+    std::fs::write(folder.join("row-2.unit"), &whole[..20]).unwrap();
+    let mut marked = whole.clone();
+    marked[16..24].copy_from_slice(&42.0_f64.to_le_bytes());
+    let checksum = crc32fast::hash(&marked[16..]).to_le_bytes();
+    marked[12..16].copy_from_slice(&checksum);
+    std::fs::write(&kept, &marked).unwrap();
+    assert!(run("1").status.success());
+    let resumed = column(&std::fs::read_to_string(&out).unwrap(), "I");
+    assert!(!folder.exists());
+    assert!(run("1").status.success());
+    let fresh = column(&std::fs::read_to_string(&out).unwrap(), "I");
+    assert_eq!(resumed[2], 42.0);
+    for i in [0, 1, 3, 4, 5] {
+        assert_eq!(resumed[i], fresh[i]);
+    }
+    // Other settings do not trust it.
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::write(&kept, &marked).unwrap();
+    assert!(run("2").status.success());
+    let other = column(&std::fs::read_to_string(&out).unwrap(), "I");
+    assert!(other[2] < 1.0);
+}

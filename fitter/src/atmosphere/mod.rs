@@ -5,10 +5,15 @@
 //! optical depth at every wavelength.
 
 pub mod json;
+pub mod matrix;
+pub mod mie;
 mod real;
 pub mod table;
 
-pub use real::{VISIBILITIES, real};
+pub use real::{Particles, VISIBILITIES, real, real_with};
+
+use matrix::Matrix;
+use std::sync::Arc;
 
 /// How a scatterer distributes light. Parameters are per wavelength; phase functions have mean 1 over the sphere.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +28,8 @@ pub enum Phase {
         /// Asymmetry parameter per wavelength.
         g: Vec<f64>,
     },
+    /// A scattering matrix at tabulated angles.
+    Tabulated(Arc<Matrix>),
 }
 
 /// A scattering part of a constituent.

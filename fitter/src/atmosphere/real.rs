@@ -5,8 +5,9 @@
 //! Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km separates smoothly.
 
 use super::table::{Curve, Table};
-use super::{Atmosphere, Constituent, Phase, Scatterer};
+use super::{Atmosphere, Constituent, Phase, Scatterer, mie};
 use anyhow::{Result, ensure};
+use std::sync::Arc;
 
 /// Radius of the planet, m (the value of the published model).
 pub const PLANET_RADIUS: f64 = 6_378_000.0;
@@ -24,8 +25,23 @@ macro_rules! table {
     };
 }
 
-/// The real atmosphere with the given visibility (m, 20..131.8 km) at the given wavelengths (nm, 300..1000).
+/// How the aerosol scatters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Particles {
+    /// By Henyey-Greenstein functions, as the paper has it.
+    #[default]
+    HenyeyGreenstein,
+    /// By the Mie matrices of its spheres (320..760 nm).
+    Mie,
+}
+
+/// The real atmosphere with Henyey-Greenstein aerosols; see [`real_with`].
 pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
+    real_with(visibility, wavelengths, Particles::HenyeyGreenstein)
+}
+
+/// The real atmosphere with the given visibility (m, 20..131.8 km) at the given wavelengths (nm, 300..1000).
+pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> Result<Atmosphere> {
     ensure!(
         (VISIBILITIES[0]..=VISIBILITIES[5]).contains(&visibility),
         "visibility {visibility} m is outside 20..131.8 km"
@@ -36,7 +52,7 @@ pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
     );
     let altitudes = altitude_nodes();
     let mut constituents = gases(&altitudes, wavelengths)?;
-    constituents.extend(aerosols(visibility, &altitudes, wavelengths)?);
+    constituents.extend(aerosols(visibility, &altitudes, wavelengths, particles)?);
     Ok(Atmosphere {
         planet_radius: PLANET_RADIUS,
         altitudes,
@@ -113,7 +129,12 @@ fn density(per_cm3: &Curve, altitudes: &[f64]) -> (Vec<f64>, f64) {
     (n.iter().map(|v| v / max).collect(), max * 100.0)
 }
 
-fn aerosols(visibility: f64, altitudes: &[f64], wavelengths: &[f64]) -> Result<Vec<Constituent>> {
+fn aerosols(
+    visibility: f64,
+    altitudes: &[f64],
+    wavelengths: &[f64],
+    particles: Particles,
+) -> Result<Vec<Constituent>> {
     let (boundary, free) = concentrations(visibility)?;
     let shape = |below: bool| {
         altitudes
@@ -121,9 +142,15 @@ fn aerosols(visibility: f64, altitudes: &[f64], wavelengths: &[f64]) -> Result<V
             .map(|z| profile_shape(z / 1000.0, below))
             .collect::<Vec<f64>>()
     };
+    let phases = SPECIES
+        .iter()
+        .map(|species| phase(species, wavelengths, particles))
+        .collect::<Result<Vec<_>>>()?;
+    let part =
+        |name: &str, below, per_cm3| aerosol(name, shape(below), per_cm3, wavelengths, &phases);
     Ok(vec![
-        aerosol("boundary layer aerosol", shape(true), boundary, wavelengths)?,
-        aerosol("free troposphere aerosol", shape(false), free, wavelengths)?,
+        part("boundary layer aerosol", true, boundary)?,
+        part("free troposphere aerosol", false, free)?,
     ])
 }
 
@@ -156,18 +183,32 @@ fn concentrations(visibility: f64) -> Result<([f64; 3], [f64; 3])> {
     Ok((mix("A")?, mix("F")?))
 }
 
+fn phase(species: &str, wavelengths: &[f64], particles: Particles) -> Result<Phase> {
+    Ok(match particles {
+        Particles::HenyeyGreenstein => {
+            let optics = table!("opac_channels.csv")?;
+            let g = optics.curve("wavelength_nm", &format!("{species}_g_use"))?;
+            Phase::HenyeyGreenstein {
+                g: wavelengths.iter().map(|&w| g.at(w)).collect(),
+            }
+        }
+        Particles::Mie => Phase::Tabulated(Arc::new(mie::matrix(species, wavelengths)?)),
+    })
+}
+
 fn aerosol(
     name: &str,
     profile: Vec<f64>,
     per_cm3: [f64; 3],
     wavelengths: &[f64],
+    phases: &[Phase],
 ) -> Result<Constituent> {
     let optics = table!("opac_channels.csv")?;
     let mut extinction = vec![0.0; wavelengths.len()];
     let mut scatterers = vec![];
-    for (species, n) in SPECIES.into_iter().zip(per_cm3) {
+    for ((species, n), phase) in SPECIES.into_iter().zip(per_cm3).zip(phases) {
         let curve = |column: &str| optics.curve("wavelength_nm", &format!("{species}_{column}"));
-        let (cross_section, albedo, g) = (curve("ext_m2")?, curve("ssa")?, curve("g_use")?);
+        let (cross_section, albedo) = (curve("ext_m2")?, curve("ssa")?);
         let ext: Vec<f64> = wavelengths
             .iter()
             .map(|&w| n * 1e6 * cross_section.log_at(w))
@@ -177,9 +218,7 @@ fn aerosol(
         }
         scatterers.push(Scatterer {
             name: species.into(),
-            phase: Phase::HenyeyGreenstein {
-                g: wavelengths.iter().map(|&w| g.at(w)).collect(),
-            },
+            phase: phase.clone(),
             scattering: ext
                 .iter()
                 .zip(wavelengths)
@@ -262,5 +301,6 @@ mod tests {
         assert!(real(10_000.0, &[550.0]).is_err());
         assert!(real(f64::NAN, &[550.0]).is_err());
         assert!(real(40_000.0, &[200.0]).is_err());
+        assert!(real_with(40_000.0, &[800.0], Particles::Mie).is_err());
     }
 }

@@ -4,5 +4,7 @@ pub mod assess;
 pub mod bench;
 pub mod build;
 pub mod judge;
+mod output;
+pub mod picture;
 pub mod trace;
 pub mod validate;

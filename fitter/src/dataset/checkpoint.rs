@@ -34,13 +34,59 @@ impl Store {
         Ok(values)
     }
 
+    /// As [`Store::unit`], for numbers that must come back exactly.
+    pub fn unit_f64(
+        &self,
+        name: &str,
+        compute: impl FnOnce() -> Result<Vec<f64>>,
+    ) -> Result<Vec<f64>> {
+        if let Some(bytes) = self.read(name)?
+            && let (words, []) = bytes.as_chunks::<8>()
+        {
+            return Ok(words.iter().map(|w| f64::from_le_bytes(*w)).collect());
+        }
+        let values = compute()?;
+        ensure!(
+            values.iter().all(|v| v.is_finite()),
+            "unit {name} holds a value that is not finite"
+        );
+        let body: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        self.write(name, &body)?;
+        Ok(values)
+    }
+
+    /// Removes all units, and the folder if nothing else is in it.
+    pub fn clear(self) -> Result<()> {
+        let context = || format!("cannot clear {}", self.folder.display());
+        for entry in fs::read_dir(&self.folder).with_context(context)? {
+            let path = entry.with_context(context)?.path();
+            if path.extension().is_some_and(|e| e == "unit") {
+                fs::remove_file(&path).with_context(context)?;
+            }
+        }
+        match fs::remove_dir(&self.folder) {
+            Err(e) if e.kind() != std::io::ErrorKind::DirectoryNotEmpty => {
+                Err(e).with_context(context)
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Whether the unit `name` is there and valid.
     pub fn has(&self, name: &str) -> Result<bool> {
         Ok(self.load(name)?.is_some())
     }
 
-    /// The unit `name` if its file exists, belongs to these settings and is intact.
     fn load(&self, name: &str) -> Result<Option<Vec<f32>>> {
+        let bytes = self.read(name)?;
+        Ok(bytes.and_then(|bytes| match bytes.as_chunks::<4>() {
+            (words, []) => Some(words.iter().map(|w| f32::from_le_bytes(*w)).collect()),
+            _ => None,
+        }))
+    }
+
+    /// The body of the unit `name` if its file exists, belongs to these settings and is intact.
+    fn read(&self, name: &str) -> Result<Option<Vec<u8>>> {
         let path = self.path(name);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -48,18 +94,10 @@ impl Store {
             Err(e) => return Err(e).with_context(|| format!("cannot read {}", path.display())),
         };
         let header = self.header(&bytes[bytes.len().min(HEADER)..]);
-        if bytes.len() < HEADER
-            || bytes[..HEADER] != header
-            || !(bytes.len() - HEADER).is_multiple_of(4)
-        {
+        if bytes.len() < HEADER || bytes[..HEADER] != header {
             return Ok(None);
         }
-        let words = bytes[HEADER..].chunks_exact(4);
-        Ok(Some(
-            words
-                .map(|w| f32::from_le_bytes([w[0], w[1], w[2], w[3]]))
-                .collect(),
-        ))
+        Ok(Some(bytes[HEADER..].to_vec()))
     }
 
     fn save(&self, name: &str, values: &[f32]) -> Result<()> {
@@ -68,9 +106,13 @@ impl Store {
             "unit {name} holds a value that is not finite"
         );
         let body: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        self.write(name, &body)
+    }
+
+    fn write(&self, name: &str, body: &[u8]) -> Result<()> {
         let mut file = tempfile::NamedTempFile::new_in(&self.folder)?;
-        file.write_all(&self.header(&body))?;
-        file.write_all(&body)?;
+        file.write_all(&self.header(body))?;
+        file.write_all(body)?;
         file.as_file().sync_all()?;
         file.persist(self.path(name))
             .with_context(|| format!("cannot write unit {name}"))?;
@@ -116,5 +158,20 @@ mod tests {
         fs::write(&path, &bytes[..5]).unwrap();
         assert!(!store.has("x").unwrap());
         assert!(store.unit("y", || Ok(vec![f32::NAN])).is_err());
+    }
+
+    #[test]
+    fn doubles_come_back_exactly_until_the_store_is_cleared() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path().join("parts");
+        let store = Store::open(&folder, "a").unwrap();
+        let values = vec![std::f64::consts::PI, -1e-300];
+        assert_eq!(store.unit_f64("x", || Ok(values.clone())).unwrap(), values);
+        let again = store.unit_f64("x", || panic!("computed twice"));
+        assert_eq!(again.unwrap(), values);
+        fs::write(folder.join("foreign"), "").unwrap();
+        store.clear().unwrap();
+        assert!(folder.join("foreign").exists() && !folder.join("x.unit").exists());
+        Store::open(&folder, "a").unwrap().clear().unwrap();
     }
 }

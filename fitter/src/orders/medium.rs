@@ -2,7 +2,7 @@
 
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 
 /// Wavelengths that are treated together.
 pub const NW: usize = 12;
@@ -87,6 +87,10 @@ impl Medium {
                         }
                         part.aerosols.push(Aerosol { scattering, g });
                     }
+                    Phase::Tabulated(_) => bail!(
+                        "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
+                        scatterer.name
+                    ),
                 }
             }
             parts.push(part);
@@ -138,8 +142,8 @@ impl Medium {
     fn attenuate(&self, columns: &[f32; MAX_CONSTITUENTS]) -> Spectrum {
         let mut tau = [0.0f32; NW];
         for (part, c) in self.parts.iter().zip(columns) {
-            for w in 0..NW {
-                tau[w] += part.extinction[w] * c;
+            for (sum, extinction) in tau.iter_mut().zip(&part.extinction) {
+                *sum += extinction * c;
             }
         }
         tau.map(|t| (-t).exp())

@@ -1,7 +1,7 @@
 //! The data maker: the whole light field of an atmosphere by successive orders of scattering, without noise.
 //!
 //! Single scattering is integrated along each ray. Multiple scattering is smooth, so it is kept as angular moments of the light
-//! field on a grid of altitudes and sun zeniths ([`moments`]), filled order by order ([`solve`]) and gathered along each view ray
+//! field on a grid of altitudes and sun zeniths (`moments`), filled order by order ([`fn@solve`]) and gathered along each view ray
 //! ([`gather`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency tensor of the incoming light; aerosols
 //! scatter spherical harmonics of the intensity and depolarise. The Monte Carlo tracer is the judge of all this.
 

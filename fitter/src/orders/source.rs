@@ -178,8 +178,8 @@ fn local_coefficients(medium: &Medium, profiles: &[f32]) -> (Spectrum, Vec<Spect
     let mut rayleigh = [0.0; NW];
     let mut legendre = vec![[0.0; NW]; super::medium::DEGREE + 1];
     for (part, p) in medium.parts.iter().zip(profiles) {
-        for w in 0..NW {
-            rayleigh[w] += p * part.rayleigh[w] * PER_SPHERE;
+        for (sum, scattering) in rayleigh.iter_mut().zip(&part.rayleigh) {
+            *sum += p * scattering * PER_SPHERE;
         }
         for (sum, term) in legendre.iter_mut().zip(&part.legendre) {
             for w in 0..NW {

@@ -19,9 +19,14 @@ pub struct Disc {
 impl Disc {
     /// The sun at `elevation` over x, both angles in radians.
     pub fn new(elevation: f64, radius: f64) -> Self {
-        let (sin, cos) = elevation.sin_cos();
+        Self::towards(elevation, 0.0, radius)
+    }
+
+    /// The sun at `elevation` and `azimuth` (counter-clockwise from x).
+    pub fn towards(elevation: f64, azimuth: f64, radius: f64) -> Self {
+        let ((sin, cos), (side, ahead)) = (elevation.sin_cos(), azimuth.sin_cos());
         Self {
-            frame: Frame::around(DVec3::new(cos, 0.0, sin)),
+            frame: Frame::around(DVec3::new(cos * ahead, cos * side, sin)),
             radius,
         }
     }

@@ -3,6 +3,7 @@
 use super::disc::Disc;
 use super::estimate::Estimate;
 use super::gather::Tally;
+use super::look::{Pixel, View};
 use super::medium::Medium;
 use super::random::{Lattice, Stream};
 use super::segment::{Scene, Segment};
@@ -23,14 +24,22 @@ pub trait Engine: Send + Sync {
     fn estimate(&self, query: &Query, samples: usize, seed: u64) -> Estimate;
     /// Optical depth of a line of sight per wavelength.
     fn optical_depth(&self, query: &Query) -> Vec<f64>;
+    /// Estimates one pixel, already checked.
+    fn pixel(
+        &self,
+        view: &View,
+        direction: &dyn Fn(f64, f64) -> DVec3,
+        samples: usize,
+        counters: (u64, u64),
+    ) -> Pixel;
 }
 
 /// N wavelength lanes.
 pub struct Lanes<const N: usize> {
-    medium: Medium<N>,
-    guide: SunGuide,
-    options: Options,
-    light: Light,
+    pub(super) medium: Medium<N>,
+    pub(super) guide: SunGuide,
+    pub(super) options: Options,
+    pub(super) light: Light,
 }
 
 impl<const N: usize> Lanes<N> {
@@ -90,6 +99,7 @@ impl<const N: usize> Lanes<N> {
             gather: self.options.gather,
             light: self.light,
             segment: Segment::default(),
+            solids: None,
         };
         let lattice = Lattice::new(&mut stream);
         let first_hero = (stream.uniform() * self.medium.active as f64) as usize;
@@ -206,6 +216,16 @@ impl<const N: usize> Engine for Lanes<N> {
         let sight = self.sight(query);
         let columns = sight.columns_to(&self.medium, sight.end);
         self.medium.extinction_of(&columns)[..self.medium.active].to_vec()
+    }
+
+    fn pixel(
+        &self,
+        view: &View,
+        direction: &dyn Fn(f64, f64) -> DVec3,
+        samples: usize,
+        (seed, index): (u64, u64),
+    ) -> Pixel {
+        Lanes::pixel(self, view, direction, samples, Stream::new(seed, index, 0))
     }
 }
 

@@ -37,7 +37,7 @@ impl<const N: usize> Walker<'_, N> {
             return;
         };
         let medium = self.medium();
-        let Some(light) = medium.sunlight(line.at(t), self.scene.sun) else {
+        let Some(light) = self.sunlight(line.at(t)) else {
             return;
         };
         let altitude = (line.radius(line.start + t) - medium.radius).max(0.0);
@@ -50,7 +50,7 @@ impl<const N: usize> Walker<'_, N> {
 
     /// Sunlight scattered at a collision.
     pub(super) fn gather_at(&self, path: &Path<N>, profile: &Columns, tally: &mut Tally<N>) {
-        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+        if let Some(light) = self.sunlight(path.point) {
             let common = self.normaliser(path) / (4.0 * PI);
             let factor = light.map(|l| l * common);
             tally.add(path.bounces, &self.sunlight_towards(path, profile), &factor);
@@ -63,12 +63,21 @@ impl<const N: usize> Walker<'_, N> {
         path.m.natural(path.frame.angle_to(self.scene.sun), &f)
     }
 
-    pub(super) fn gather_ground(&self, path: &Path<N>, up: DVec3, tally: &mut Tally<N>) {
-        let cosine = up.dot(self.scene.sun);
+    /// Transmittance from `point` to the sun; `None` in the shadow of the planet or of solids.
+    fn sunlight(&self, point: DVec3) -> Option<[f64; N]> {
+        let sun = self.scene.sun;
+        let light = self.medium().sunlight(point, sun)?;
+        let shaded = self.solids.is_some_and(|solids| solids.blocks(point, sun));
+        (!shaded).then_some(light)
+    }
+
+    /// Sunlight on a surface with the given normal.
+    pub(super) fn gather_surface(&self, path: &Path<N>, normal: DVec3, tally: &mut Tally<N>) {
+        let cosine = normal.dot(self.scene.sun);
         if cosine <= 0.0 {
             return;
         }
-        if let Some(light) = self.medium().sunlight(path.point, self.scene.sun) {
+        if let Some(light) = self.sunlight(path.point) {
             let common = self.normaliser(path) * cosine * FRAC_1_PI;
             let stokes = path.m.0.map(|row| row[0]);
             tally.add(path.bounces, &stokes, &light.map(|l| l * common));

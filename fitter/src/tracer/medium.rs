@@ -29,6 +29,8 @@ pub struct Medium<const N: usize> {
     pub top: f64,
     /// Number of wavelengths in use; the other lanes repeat the last one.
     pub active: usize,
+    /// Wavelengths, nm.
+    pub wavelengths: [f64; N],
     /// Extinction per unit profile of each constituent, m⁻¹.
     pub extinction: Vec<[f64; N]>,
     /// Scattering per unit profile of each constituent, m⁻¹.
@@ -69,13 +71,14 @@ impl<const N: usize> Medium<N> {
             radius: atmosphere.planet_radius,
             top: atmosphere.planet_radius + atmosphere.top(),
             active: lanes.len(),
+            wavelengths: lane(&atmosphere.wavelengths),
             extinction: atmosphere
                 .constituents
                 .iter()
                 .map(|c| lane(&c.extinction))
                 .collect(),
             scattering: vec![[0.0; N]; k],
-            lobes: lobes(atmosphere, lane),
+            lobes: lobes(atmosphere, lanes, lane),
             shells: vec![],
             layers: vec![],
             radii: nodes.iter().map(|z| atmosphere.planet_radius + z).collect(),
@@ -232,6 +235,7 @@ fn slopes(nodes: &[f64], profiles: &[Columns]) -> Vec<Columns> {
 
 fn lobes<const N: usize>(
     atmosphere: &Atmosphere,
+    lanes: &[usize],
     lane: impl Fn(&[f64]) -> [f64; N],
 ) -> Vec<Lobe<N>> {
     let constituents = atmosphere.constituents.iter().enumerate();
@@ -246,6 +250,7 @@ fn lobes<const N: usize>(
                 Phase::HenyeyGreenstein { g } => {
                     Lobe::henyey_greenstein(constituent, scattering, lane(g))
                 }
+                Phase::Tabulated(matrix) => Lobe::tabulated(constituent, scattering, matrix, lanes),
             }
         })
         .collect()

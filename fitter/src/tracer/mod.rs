@@ -16,14 +16,17 @@ mod estimate;
 mod gather;
 mod glow;
 mod line;
+mod look;
 mod medium;
 mod phase;
 mod random;
 mod segment;
 mod sight;
 mod single;
+pub mod solids;
 pub mod stokes;
 mod sun;
+mod tabulated;
 #[cfg(test)]
 mod test_atmosphere;
 #[cfg(test)]
@@ -31,12 +34,14 @@ mod tests;
 mod walk;
 
 pub use estimate::{Estimate, Radiance};
+pub use look::{Pixel, View};
 pub use phase::Aerosol;
 pub use walk::Gather;
 
 use crate::atmosphere::Atmosphere;
 use anyhow::{Result, ensure};
 use engine::{Engine, Lanes};
+use glam::DVec3;
 use rayon::prelude::*;
 
 /// Batches per query; standard errors come from their spread.
@@ -203,6 +208,31 @@ impl Tracer {
             .enumerate()
             .map(|(i, query)| self.estimate(query, samples, seed.wrapping_add(i as u64)))
             .collect()
+    }
+
+    /// What a camera sees in one pixel: the mean over `samples` walks in directions that `direction` makes of two numbers in 0..1.
+    /// The result depends on the arguments only. Ground and solids reflect what `view` says.
+    pub fn pixel(
+        &self,
+        view: &View,
+        direction: &dyn Fn(f64, f64) -> DVec3,
+        samples: usize,
+        (seed, index): (u64, u64),
+    ) -> Result<Pixel> {
+        ensure!(samples > 0, "a pixel needs at least one sample");
+        ensure!(
+            (0.0..=self.top).contains(&view.altitude),
+            "altitude {} is outside 0..{}",
+            view.altitude,
+            self.top
+        );
+        let mut all = Pixel::default();
+        for group in &self.groups {
+            let part = group.pixel(view, direction, samples, (seed, index));
+            all.radiance.extend(part.radiance);
+            all.error.extend(part.error);
+        }
+        Ok(all)
     }
 
     /// Walks per batch that should bring the standard error of I to `target` times I at `albedo`, from a pilot run whose results

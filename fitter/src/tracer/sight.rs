@@ -8,6 +8,8 @@ use glam::DVec3;
 /// Longest piece, m, and largest optical depth of a piece.
 const LONGEST: f64 = 10_000.0;
 const THICK: f64 = 0.1;
+/// Length of a line of sight that counts as none, m.
+const NOTHING: f64 = 1e-6;
 
 /// See the module's documentation.
 pub struct Sight<const N: usize> {
@@ -32,6 +34,8 @@ impl<const N: usize> Sight<N> {
         let line = Line::new(origin, frame.w);
         let ground = line.ground_distance(medium.radius);
         let natural = ground.unwrap_or_else(|| line.space_distance(medium.top));
+        // Rounding leaves nanometres of air to who looks down from the ground, or up from the top.
+        let natural = if natural < NOTHING { 0.0 } else { natural };
         let end = distance.unwrap_or(f64::INFINITY).min(natural);
         let mut sight = Self {
             line,

@@ -1,6 +1,6 @@
 //! Stokes vectors, Mueller matrices and their frames. All conventions of polarisation are stated here and nowhere else.
 //!
-//! Light is *I, Q, U*: circular polarisation never couples to these for the scatterers treated.
+//! Light is *I, Q, U*: circular polarisation is not followed.
 //!
 //! A [`Frame`] belongs to a direction `w` in which one **looks** (the light travels along −`w`). It has a reference axis `e1` ⟂ `w`
 //! and `e2 = w × e1`. A polariser turned by ψ from `e1` towards `e2` passes ½(I + Q cos 2ψ + U sin 2ψ): Q is what passes along `e1`
@@ -12,6 +12,9 @@
 //! **Scattering** from the looked-at direction `w'` into `w` (as seen backwards) uses the scattering plane's normal
 //! `n = w × w' / |w × w'|` as `e2` of both frames, so Q is parallel minus perpendicular to the scattering plane, and the matrix is
 //! `F11 F12 0 / F12 F22 0 / 0 0 F33` with mean F11 over the sphere 1.
+//!
+//! Particles as large as the wavelength turn some U into V and back (F34). That takes two such scatterings of light already polarised,
+//! so V is left out for them, too.
 //!
 //! The walk runs from the observer to the sun and so keeps the *product* of all Mueller matrices met so far ([`Mueller`]), which
 //! maps Stokes vectors in the walk's present frame to Stokes vectors in the observer's frame.

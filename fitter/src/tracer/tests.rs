@@ -2,6 +2,7 @@
 
 use super::test_atmosphere::{clear, conservative};
 use super::*;
+use crate::atmosphere::{Particles, real_with};
 use std::f64::consts::PI;
 
 fn query(altitude: f64, zenith: f64, azimuth: f64, sun: f64) -> Query {
@@ -250,4 +251,66 @@ fn the_suns_disc_matters_at_the_shadows_edge_only() {
     );
     let ratio = disc.stokes[0] / point.stokes[0];
     assert!((1.01..1.06).contains(&ratio), "{ratio}");
+}
+
+/// Thin air with one species of spheres: Q/I at each scattering angle is the table's P12/P11 (550 nm).
+#[test]
+fn spheres_polarise_as_their_table_says() {
+    let mut air = real_with(59_400.0, &[550.0], Particles::Mie).unwrap();
+    air.constituents.swap_remove(0);
+    for c in &mut air.constituents {
+        c.scatterers.retain(|s| s.name == "inso");
+        c.extinction[0] = 1e-12;
+    }
+    let options = Options {
+        orders: Orders::Single,
+        ..Options::default()
+    };
+    let tracer = Tracer::new(&air, options).unwrap();
+    for (angle, ratio) in [(60.0, 0.0424), (90.0, 0.0705), (150.0, 0.2121)] {
+        let r = tracer.estimate(&query(3000.0, angle - 10.0, 180.0, 80.0), 0, 1);
+        let r = r.unwrap().radiance(0.0, 0);
+        let ours = r.stokes[1] / r.stokes[0];
+        assert!((ours - ratio).abs() < 1e-4, "{angle}°: {ours}");
+    }
+}
+
+#[test]
+fn both_ways_of_gathering_sunlight_agree_for_mie_particles() {
+    let air = real_with(20_000.0, &[450.0, 650.0], Particles::Mie).unwrap();
+    let with = |gather| {
+        let options = Options {
+            gather,
+            ..Options::default()
+        };
+        Tracer::new(&air, options).unwrap()
+    };
+    let q = query(0.0, 60.0, 45.0, 30.0);
+    let a = with(Gather::Flights).estimate(&q, 500, 1).unwrap();
+    let b = with(Gather::Collisions).estimate(&q, 1500, 2).unwrap();
+    for w in 0..2 {
+        let (a, b) = (a.radiance(0.5, w), b.radiance(0.5, w));
+        for c in 0..3 {
+            assert!(
+                apart(component(&a, c), component(&b, c)) < 4.5,
+                "{a:?} {b:?}"
+            );
+        }
+        assert!(a.error[0] < 0.02 * a.stokes[0], "{a:?}");
+    }
+}
+
+#[test]
+fn there_is_no_air_under_the_ground_or_over_the_top() {
+    let tracer = tracer(1, Options::default());
+    for q in [
+        query(0.0, 180.0, 0.0, 30.0),
+        query(0.0, 91.0, 20.0, 30.0),
+        query(80_000.0, 0.0, 0.0, 30.0),
+        query(80_000.0, 80.0, 0.0, 30.0),
+    ] {
+        let estimate = tracer.estimate(&q, 4, 1).unwrap();
+        assert_eq!(estimate.radiance(0.5, 0).stokes, [0.0; 3], "{q:?}");
+        assert_eq!(estimate.transmittance(0), 1.0);
+    }
 }

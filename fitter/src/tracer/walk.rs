@@ -12,6 +12,7 @@ use super::medium::{Columns, Medium};
 use super::phase::Aerosol;
 use super::random::{LATTICE_DIMENSIONS, Stream};
 use super::segment::{Scene, Segment};
+use super::solids::{Hit, Reflectance, Solids};
 use super::stokes::{Frame, Mueller, Scattering};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -65,11 +66,17 @@ pub struct Walker<'a, const N: usize> {
     pub light: Light,
     /// Scratch space.
     pub segment: Segment,
+    /// What stands in the way. With solids, reflectance is part of the weights, and bounces are not told apart.
+    pub solids: Option<&'a dyn Solids>,
 }
+
+/// How far from a surface walks go on, m: their own surface must not stop them.
+const CLEARANCE: f64 = 1e-3;
 
 enum Flight {
     Escape,
     Ground(f64),
+    Solid(Hit),
     Collision(f64, Columns),
 }
 
@@ -107,33 +114,16 @@ impl<const N: usize> Walker<'_, N> {
             let line = Line::new(path.point, path.frame.w);
             let ground = line.ground_distance(self.medium().radius);
             let end = ground.unwrap_or_else(|| line.space_distance(self.medium().top));
+            let hit = self
+                .solids
+                .and_then(|solids| solids.hit(path.point, path.frame.w, end));
+            let end = hit.map_or(end, |hit| hit.distance);
             if self.gather == Gather::Flights && self.light == Light::Sun {
                 self.gather_along(&path, &line, end, numbers.draw(), tally);
             }
-            match self.fly(&mut path, &line, ground, numbers) {
-                Flight::Escape => {
-                    if self.light == Light::Furnace {
-                        self.gather_escape(&path, tally);
-                    }
-                    return;
-                }
-                Flight::Ground(t) => {
-                    path.point = line.at(t);
-                    path.bounces += 1;
-                    if path.bounces >= tally.sums.len() {
-                        return;
-                    }
-                    self.bounce(&mut path, numbers, tally, true);
-                }
-                Flight::Collision(t, profile) => {
-                    path.point = line.at(t);
-                    if self.gather == Gather::Collisions && self.light == Light::Sun {
-                        self.gather_at(&path, &profile, tally);
-                    }
-                    if !self.scatter(&mut path, &profile, numbers) {
-                        return;
-                    }
-                }
+            let flight = self.fly(&mut path, &line, ground, hit, numbers);
+            if !self.arrive(&mut path, &line, flight, numbers, tally) {
+                return;
             }
             let strength = path.m.strength() * self.normaliser(&path) / reference;
             if strength < 0.1 {
@@ -144,6 +134,69 @@ impl<const N: usize> Walker<'_, N> {
                 path.m.scale(&[1.0 / survival; N]);
             }
         }
+    }
+
+    /// What happens at the end of a flight; false if the walk ends there.
+    fn arrive(
+        &self,
+        path: &mut Path<N>,
+        line: &Line,
+        flight: Flight,
+        numbers: &mut Numbers,
+        tally: &mut Tally<N>,
+    ) -> bool {
+        match flight {
+            Flight::Escape => {
+                if self.light == Light::Furnace {
+                    self.gather_escape(path, tally);
+                }
+                false
+            }
+            Flight::Ground(t) => {
+                path.point = line.at(t);
+                if let Some(solids) = self.solids {
+                    let up = path.point.normalize();
+                    path.point = up * self.medium().radius;
+                    return self.reflect(path, up, solids.ground(path.point), numbers, tally);
+                }
+                path.bounces += 1;
+                if path.bounces >= tally.sums.len() {
+                    return false;
+                }
+                self.bounce(path, numbers, tally, true);
+                true
+            }
+            Flight::Solid(hit) => {
+                path.point = line.at(hit.distance) + CLEARANCE * hit.normal;
+                self.reflect(path, hit.normal, hit.reflectance, numbers, tally)
+            }
+            Flight::Collision(t, profile) => {
+                path.point = line.at(t);
+                if self.gather == Gather::Collisions && self.light == Light::Sun {
+                    self.gather_at(path, &profile, tally);
+                }
+                self.scatter(path, &profile, numbers)
+            }
+        }
+    }
+
+    /// Leaves a surface whose reflectance is known; false if it reflects nothing.
+    fn reflect(
+        &self,
+        path: &mut Path<N>,
+        normal: DVec3,
+        reflectance: Reflectance,
+        numbers: &mut Numbers,
+        tally: &mut Tally<N>,
+    ) -> bool {
+        let medium = self.medium();
+        path.m
+            .scale(&medium.wavelengths.map(|nm| reflectance.at(nm)));
+        if path.m.strength() <= 0.0 {
+            return false;
+        }
+        self.leave(path, normal, numbers, tally, true);
+        true
     }
 
     /// n / Σ pdf: the balance heuristic's weight of what the hero found.
@@ -222,12 +275,24 @@ impl<const N: usize> Walker<'_, N> {
     ) {
         let up = path.point.normalize();
         path.point = up * self.medium().radius;
+        self.leave(path, up, numbers, tally, sunlit);
+    }
+
+    /// Leaves a Lambertian surface at `path.point` in a cosine-distributed direction.
+    fn leave(
+        &self,
+        path: &mut Path<N>,
+        normal: DVec3,
+        numbers: &mut Numbers,
+        tally: &mut Tally<N>,
+        sunlit: bool,
+    ) {
         path.m.depolarise();
         if sunlit && self.light == Light::Sun {
-            self.gather_ground(path, up, tally);
+            self.gather_surface(path, normal, tally);
         }
         let (u, turn) = (numbers.draw(), TAU * numbers.draw());
-        let frame = Frame::around(up).turned((turn.cos(), turn.sin()));
+        let frame = Frame::around(normal).turned((turn.cos(), turn.sin()));
         path.frame = frame.bent((1.0 - u).sqrt()).orthonormalised();
     }
 
@@ -237,9 +302,11 @@ impl<const N: usize> Walker<'_, N> {
         path: &mut Path<N>,
         line: &Line,
         ground: Option<f64>,
+        hit: Option<Hit>,
         numbers: &mut Numbers,
     ) -> Flight {
         let medium = self.medium();
+        let limit = hit.map_or(f64::INFINITY, |hit| line.start + hit.distance);
         let mut shell = Medium::<N>::shell(&medium.shells, path.point.length());
         let mut s = line.start;
         let mut factor = [1.0; N];
@@ -252,6 +319,9 @@ impl<const N: usize> Walker<'_, N> {
             let thickness = majorant * (exit - s).max(0.0);
             if depth < thickness {
                 s += depth / majorant;
+                if let Some(hit) = hit.filter(|_| s >= limit) {
+                    break Flight::Solid(hit);
+                }
                 let profile = medium.profile((line.radius(s) - medium.radius).max(0.0));
                 let extinction = medium.extinction_of(&profile);
                 let real = extinction[path.hero] / majorant;
@@ -269,6 +339,9 @@ impl<const N: usize> Walker<'_, N> {
             }
             depth -= thickness;
             s = exit;
+            if let Some(hit) = hit.filter(|_| s >= limit) {
+                break Flight::Solid(hit);
+            }
             match (down, shell) {
                 (true, 0) => break Flight::Ground(ground.unwrap_or(0.0)),
                 (true, _) => shell -= 1,
