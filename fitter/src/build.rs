@@ -89,7 +89,7 @@ pub fn build(plan: &Plan, work: &Path, out: &Path) -> Result<String> {
     let traced = trace_all(plan, &store, &solved)?;
     let tracing = started.elapsed();
     let scale = reference_scale(plan, &solved, &traced);
-    let fitted = fit_all(plan, &solved, traced, &scale);
+    let fitted = fit_all(plan, &store, &solved, traced, &scale)?;
     let fitting = started.elapsed() - tracing;
     let (bytes, errors) = assemble(plan, &solved, &fitted, &scale)?;
     replace_file(out, &bytes).with_context(|| format!("cannot write {}", out.display()))?;
@@ -236,11 +236,14 @@ fn reference_scale(
 
 fn fit_all(
     plan: &Plan,
+    store: &Store,
     solved: &[Solved],
     traced: Vec<(Tensor, Vec<Sample>)>,
     scale: &ElevationScale,
-) -> Vec<Fitted> {
+) -> Result<Vec<Fitted>> {
     let progress = bar(traced.len(), "fitting");
+    let settings = format!("{:?} {scale:?}", plan.options);
+    let settings = crc32fast::hash(settings.as_bytes());
     let altitudes = plan.grid.altitudes.len();
     let out = traced
         .into_par_iter()
@@ -248,29 +251,47 @@ fn fit_all(
         .map(|(i, (tensor, truth))| {
             let (visibility, altitude) = (i / altitudes, i % altitudes);
             let s = &solved[visibility];
-            let gatherer = Gatherer::new(&s.medium, &s.light, FINENESS);
-            let geometry = chunk_geometry(&s.medium, gatherer.planet(), &plan.grid, altitude);
-            let weights = channel_weights(&tensor, &gatherer, &plan.grid, altitude);
-            let fit = fit(
-                &tensor,
-                &geometry,
-                &s.medium,
-                &plan.grid,
-                scale,
-                &weights,
-                plan.options,
+            let name = format!(
+                "fit-{}-{}-{settings:08x}",
+                s.visibility, plan.grid.altitudes[altitude]
             );
+            let values = store.unit(&name, || {
+                Ok(fit_one(plan, s, &tensor, altitude, scale).to_values())
+            })?;
+            let fit = Fit::from_values(&values, &plan.grid, plan.options.rank, FIELDS * NW)
+                .context("a fit of another size")?;
             progress.inc(1);
-            Fitted {
+            Ok(Fitted {
                 altitude,
                 visibility,
                 fit,
                 truth,
-            }
+            })
         })
         .collect();
     progress.finish();
     out
+}
+
+fn fit_one(
+    plan: &Plan,
+    s: &Solved,
+    tensor: &Tensor,
+    altitude: usize,
+    scale: &ElevationScale,
+) -> Fit {
+    let gatherer = Gatherer::new(&s.medium, &s.light, FINENESS);
+    let geometry = chunk_geometry(&s.medium, gatherer.planet(), &plan.grid, altitude);
+    let weights = channel_weights(tensor, &gatherer, &plan.grid, altitude);
+    fit(
+        tensor,
+        &geometry,
+        &s.medium,
+        &plan.grid,
+        scale,
+        &weights,
+        plan.options,
+    )
 }
 
 /// Encodes the file twice: once to measure the errors of its chunks, once with them.

@@ -22,6 +22,60 @@ pub struct Fit {
     pub condition: f64,
 }
 
+impl Fit {
+    /// All numbers in a row, for a file.
+    pub fn to_values(&self) -> Vec<f32> {
+        let f = &self.factors;
+        let mut out = vec![self.error as f32, self.condition as f32];
+        for part in [
+            &f.scale,
+            &f.alpha_up,
+            &f.alpha_down,
+            &f.phi,
+            &f.elevation,
+            &f.channel,
+        ] {
+            out.extend(part);
+        }
+        out
+    }
+
+    /// The inverse of [`Fit::to_values`] for a grid and a rank; `None` for another number of values.
+    pub fn from_values(values: &[f32], grid: &Grid, rank: usize, channels: usize) -> Option<Self> {
+        let (&[error, condition], mut rest) = values.split_first_chunk::<2>()?;
+        let rows = [
+            1,
+            grid.up.0.len(),
+            grid.down.0.len(),
+            grid.phi.len(),
+            grid.elevation_axis().len(),
+            channels,
+        ];
+        if rest.len() != rank * rows.iter().sum::<usize>() {
+            return None;
+        }
+        let mut take = |rows: usize| {
+            let (part, tail) = rest.split_at(rows * rank);
+            rest = tail;
+            part.to_vec()
+        };
+        let [scale, alpha_up, alpha_down, phi, elevation, channel] = rows.map(&mut take);
+        Some(Self {
+            factors: RadianceFactors {
+                rank,
+                scale,
+                alpha_up,
+                alpha_down,
+                phi,
+                elevation,
+                channel,
+            },
+            error: f64::from(error),
+            condition: f64::from(condition),
+        })
+    }
+}
+
 /// Fits the tensor of one (altitude, visibility). `weights` says how much each channel counts.
 pub fn fit(
     tensor: &Tensor,
@@ -118,4 +172,37 @@ fn condition(factors: &[Mat<f64>; 4], norm: f64) -> f64 {
     let components = (0..factors[0].ncols())
         .map(|r| factors.iter().map(|f| f.col(r).norm_l2()).product::<f64>());
     components.sum::<f64>() / norm
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fit_survives_its_file() {
+        let grid = Grid::default();
+        let rank = 3;
+        let part = |rows: usize, start: f32| -> Vec<f32> {
+            (0..rows * rank).map(|i| start + i as f32).collect()
+        };
+        let factors = RadianceFactors {
+            rank,
+            scale: part(1, 0.5),
+            alpha_up: part(grid.up.0.len(), 1.0),
+            alpha_down: part(grid.down.0.len(), 2.0),
+            phi: part(grid.phi.len(), 3.0),
+            elevation: part(grid.elevation_axis().len(), 4.0),
+            channel: part(60, 5.0),
+        };
+        let fit = Fit {
+            factors,
+            error: 0.25,
+            condition: 8.0,
+        };
+        let values = fit.to_values();
+        let read = Fit::from_values(&values, &grid, rank, 60).unwrap();
+        assert_eq!(read.factors, fit.factors);
+        assert_eq!((read.error, read.condition), (0.25, 8.0));
+        assert!(Fit::from_values(&values[1..], &grid, rank, 60).is_none());
+    }
 }
