@@ -198,7 +198,7 @@ fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<(Tenso
         for (a, altitude) in grid.altitudes.iter().enumerate() {
             let name = format!("{}-{altitude}", s.visibility);
             let values = store.unit(&format!("tensor-{name}"), || {
-                Ok(trace_tensor(&gatherer, grid, a, &|| ()).values)
+                Ok(trace_tensor(&gatherer, grid, a).values)
             })?;
             let shape = tensor_shape(grid);
             let seed = (s.visibility + altitude) as u64;
@@ -379,16 +379,17 @@ fn metadata(plan: &Plan, head: &Head, errors: &[Vec<Error>]) -> String {
 
 fn chunk_table(plan: &Plan, fitted: &[Fitted], errors: &[Vec<Error>]) -> String {
     let mut out = format!(
-        "{:>10} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9}\n",
-        "visibility", "altitude", "condition", "median", "p95", "p99", "max"
+        "{:>10} {:>9} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+        "visibility", "altitude", "condition", "residual", "median", "p95", "p99", "max"
     );
     for (f, errors) in fitted.iter().zip(errors) {
         if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
             out += &format!(
-                "{:>7.1} km {:>7} m {:>10.1} {:>8.3}% {:>8.3}% {:>8.3}% {:>8.2}%\n",
+                "{:>7.1} km {:>7} m {:>10.1} {:>8.3}% {:>8.3}% {:>8.3}% {:>8.3}% {:>8.2}%\n",
                 plan.grid.visibilities[f.visibility] / 1e3,
                 plan.grid.altitudes[f.altitude],
                 f.fit.condition,
+                100.0 * f.fit.error,
                 100.0 * q.median,
                 100.0 * q.p95,
                 100.0 * q.p99,

@@ -17,13 +17,8 @@ pub struct Tensor {
     pub values: Vec<f32>,
 }
 
-/// Traces the tensor of altitude `a`; `progress` is called after each view direction.
-pub fn trace_tensor(
-    gatherer: &Gatherer,
-    grid: &Grid,
-    a: usize,
-    progress: &(dyn Fn() + Sync),
-) -> Tensor {
+/// Traces the tensor of altitude `a`.
+pub fn trace_tensor(gatherer: &Gatherer, grid: &Grid, a: usize) -> Tensor {
     let altitude = grid.traced_altitude(a);
     let views = grid.view_sites(gatherer.planet(), a);
     let suns = suns(grid);
@@ -32,7 +27,6 @@ pub fn trace_tensor(
         .flat_map_iter(|&(side, elevation)| {
             let path = gatherer.path(altitude, elevation, side);
             let fields = gatherer.fields(&path, elevation.sin(), &suns);
-            progress();
             let channels = fields.into_iter().flat_map(|f| f.intensities().map(|s| *s));
             channels.flatten().collect::<Vec<f32>>()
         })
