@@ -17,6 +17,13 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The source of a streamed model failed.
+    Read {
+        /// First byte of the request.
+        offset: u64,
+        /// What the source said.
+        source: std::io::Error,
+    },
     /// The bytes do not start like a welkin file.
     NotWelkin,
     /// The file has a major version that this reader does not know.
@@ -105,6 +112,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Io { path, source } => write!(f, "{}: {source}", path.display()),
+            Error::Read { offset, source } => write!(f, "cannot read at byte {offset}: {source}"),
             Error::NotWelkin => write!(
                 f,
                 "not a welkin file: the magic bytes are missing (is it another format, or was it sent in text mode?)"
@@ -119,7 +127,7 @@ impl fmt::Display for Error {
             ),
             Error::Encoding { chunk, got } => write!(
                 f,
-                "chunk {chunk} has encoding {got}, this reader decodes only 0 (raw): use a newer welkin or a raw file"
+                "chunk {chunk} has encoding {got}, which this reader cannot decode: use a welkin with zstd, a newer one, or a raw file"
             ),
             Error::Length {
                 what,
@@ -174,7 +182,7 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
-            Error::Io { source, .. } => Some(source),
+            Error::Io { source, .. } | Error::Read { source, .. } => Some(source),
             _ => None,
         }
     }

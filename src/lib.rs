@@ -43,7 +43,9 @@ mod model;
 mod phase;
 mod prepare;
 mod sky;
+mod source;
 mod spectrum;
+mod store;
 mod tables;
 
 pub use colour::xyz_to_linear_srgb;
@@ -51,3 +53,5 @@ pub use conditions::Conditions;
 pub use error::{Error, Result};
 pub use model::Model;
 pub use sky::Sky;
+pub use source::ReadAt;
+pub use store::Traffic;

@@ -3,40 +3,24 @@
 use std::collections::HashMap;
 use std::fmt;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::format::{ColumnView, Contents, Entry, Head, Kind, RadianceView, parse};
+use crate::format::{ColumnView, Contents, Entry, Head, Kind, RadianceView};
 use crate::sky::Sky;
+use crate::source::ReadAt;
+use crate::store::{Bytes, Store, Traffic};
 
-/// A clear-sky model over a mapped file, owned bytes or static bytes. `Send + Sync`.
+/// Kind, altitude and visibility of a chunk.
+pub(crate) type Key = (Kind, Option<usize>, Option<usize>);
+
+/// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
 ///
 /// Opening reads the head of the file only; [`Model::sky`] touches the chunks that its conditions need.
 pub struct Model {
-    bytes: Bytes,
+    store: Store,
     contents: Contents,
-    index: HashMap<(Kind, Option<usize>, Option<usize>), usize>,
-    /// Chunks whose checksum and values were found right.
-    verified: Box<[AtomicBool]>,
-}
-
-enum Bytes {
-    Static(&'static [u8]),
-    Owned(Vec<u8>),
-    #[cfg(feature = "mmap")]
-    Mapped(memmap2::Mmap),
-}
-
-impl Bytes {
-    fn as_slice(&self) -> &[u8] {
-        match self {
-            Bytes::Static(bytes) => bytes,
-            Bytes::Owned(bytes) => bytes,
-            #[cfg(feature = "mmap")]
-            Bytes::Mapped(map) => map,
-        }
-    }
+    index: HashMap<Key, usize>,
 }
 
 impl Model {
@@ -81,6 +65,17 @@ impl Model {
         Self::new(Bytes::Static(bytes))
     }
 
+    /// Opens a file that is read in pieces, from a slow disk or over a network.
+    ///
+    /// Costs one request, or two if the head is longer than 32 KiB. Each sky asks for the chunks that no sky before
+    /// needed, chunks that are neighbours in the file by one request; they stay in memory.
+    ///
+    /// # Errors
+    /// [`Error::Read`] if the source fails, or as [`Model::from_bytes`].
+    pub fn stream(source: impl ReadAt + 'static) -> Result<Self> {
+        Ok(Self::assemble(Store::stream(Box::new(source))?))
+    }
+
     /// The model that is embedded in this library.
     ///
     /// # Errors
@@ -91,19 +86,20 @@ impl Model {
     }
 
     fn new(bytes: Bytes) -> Result<Self> {
-        let contents = parse(bytes.as_slice())?;
+        Ok(Self::assemble(Store::new(bytes)?))
+    }
+
+    fn assemble((store, contents): (Store, Contents)) -> Self {
         let directory = contents.directory.iter().enumerate();
         let index = directory
             .filter(|(_, entry)| !matches!(entry.kind, Kind::Unknown(_)))
             .map(|(i, entry)| ((entry.kind, entry.altitude, entry.visibility), i))
             .collect();
-        let verified = contents.directory.iter().map(|_| AtomicBool::new(false));
-        Ok(Self {
-            verified: verified.collect(),
-            index,
+        Self {
+            store,
             contents,
-            bytes,
-        })
+            index,
+        }
     }
 
     /// Prepares a sky: after this, queries cost no allocation and no system call.
@@ -113,7 +109,8 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for conditions outside the model (see [`Conditions::clamped`]), [`Error::MissingChunk`] if
-    /// the file lacks a needed chunk, [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] if one is damaged.
+    /// the file lacks a needed chunk, [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] if one is damaged,
+    /// [`Error::Read`] if the source of a streamed model fails.
     pub fn sky(&self, conditions: &Conditions) -> Result<Sky> {
         Sky::prepare(self, conditions)
     }
@@ -121,9 +118,11 @@ impl Model {
     /// Verifies all chunks at once instead of at their first touch.
     ///
     /// # Errors
-    /// [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] for the first damaged chunk.
+    /// [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] for the first damaged chunk; [`Error::Read`].
     pub fn verify(&self) -> Result<()> {
-        (0..self.contents.directory.len()).try_for_each(|i| self.touch(i).map(drop))
+        let all = 0..self.contents.directory.len();
+        self.store.fetch(&self.contents, all.clone().collect())?;
+        all.into_iter().try_for_each(|i| self.chunk(i).map(drop))
     }
 
     /// Axes, tables and provenance.
@@ -163,7 +162,7 @@ impl Model {
 
     /// Length of the file, bytes.
     pub fn file_bytes(&self) -> usize {
-        self.bytes.as_slice().len()
+        self.contents.file_length
     }
 
     /// Length of the head, bytes: all that opening reads.
@@ -171,14 +170,22 @@ impl Model {
         self.contents.head_length
     }
 
-    /// Bytes of the file that were read so far: the head and the touched chunks.
+    /// Bytes of the file that were needed so far: the head and the touched chunks.
     pub fn touched_bytes(&self) -> usize {
-        let touched = self.verified.iter().zip(self.directory());
-        let chunks: usize = touched
-            .filter(|(verified, _)| verified.load(Ordering::Relaxed))
-            .map(|(_, entry)| entry.length)
-            .sum();
-        self.contents.head_length + chunks
+        let directory = self.directory().iter().enumerate();
+        let touched = directory.filter(|&(i, _)| self.store.is_loaded(i));
+        self.contents.head_length + touched.map(|(_, entry)| entry.length).sum::<usize>()
+    }
+
+    /// What a streamed model has asked of its source so far; nothing for models in memory.
+    pub fn traffic(&self) -> Traffic {
+        self.store.traffic()
+    }
+
+    /// Gets the chunks with these keys with as few requests as possible. Absent ones are no error here.
+    pub(crate) fn prefetch(&self, keys: impl IntoIterator<Item = Key>) -> Result<()> {
+        let present = keys.into_iter().filter_map(|key| self.index.get(&key));
+        self.store.fetch(&self.contents, present.copied().collect())
     }
 
     pub(crate) fn radiance_chunk(
@@ -188,12 +195,12 @@ impl Model {
     ) -> Result<RadianceView<'_>> {
         let i = self.find(Kind::Radiance, altitude, Some(visibility))?;
         let rank = self.contents.directory[i].rank;
-        RadianceView::new(self.touch(i)?, &self.head().shape(), rank)
+        RadianceView::new(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn column_chunk(&self, altitude: usize) -> Result<ColumnView<'_>> {
         let i = self.find(Kind::Column, altitude, None)?;
-        ColumnView::new(self.touch(i)?, &self.head().shape())
+        ColumnView::new(self.chunk(i)?, &self.head().shape())
     }
 
     fn find(&self, kind: Kind, altitude: usize, visibility: Option<usize>) -> Result<usize> {
@@ -205,44 +212,9 @@ impl Model {
         })
     }
 
-    /// The bytes of a chunk, verified now or earlier.
-    fn touch(&self, i: usize) -> Result<&[u8]> {
-        let entry = &self.contents.directory[i];
-        let bytes = &self.bytes.as_slice()[entry.offset..entry.offset + entry.length];
-        if !self.verified[i].load(Ordering::Relaxed) {
-            self.check_chunk(i, entry, bytes)?;
-            // Nothing else is published through the flag, so relaxed order is enough.
-            self.verified[i].store(true, Ordering::Relaxed);
-        }
-        Ok(bytes)
-    }
-
-    fn check_chunk(&self, i: usize, entry: &Entry, bytes: &[u8]) -> Result<()> {
-        let got = crc32fast::hash(bytes);
-        if got != entry.crc32 {
-            return Err(Error::Checksum {
-                chunk: Some(i),
-                expected: entry.crc32,
-                got,
-            });
-        }
-        let shape = self.head().shape();
-        let finite = match entry.kind {
-            Kind::Unknown(_) => return Ok(()),
-            _ if entry.encoding != 0 => {
-                return Err(Error::Encoding {
-                    chunk: i,
-                    got: entry.encoding,
-                });
-            }
-            Kind::Radiance => RadianceView::new(bytes, &shape, entry.rank)?.is_finite(),
-            Kind::Column => ColumnView::new(bytes, &shape)?.is_finite(),
-        };
-        if finite {
-            return Ok(());
-        }
-        let detail = format!("chunk {i} holds NaN or infinity");
-        Err(Error::invalid("chunk", detail))
+    /// The payload of a chunk, verified now or earlier.
+    fn chunk(&self, i: usize) -> Result<&[u8]> {
+        self.store.chunk(&self.contents, i)
     }
 }
 

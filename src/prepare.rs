@@ -4,10 +4,11 @@ use crate::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    Field, Head, Payload16, PhaseFunction, RadianceView, altitude_node, visibility_node, widen,
+    Field, Head, Kind, Payload16, PhaseFunction, RadianceView, altitude_node, visibility_node,
+    widen,
 };
 use crate::math::LANES;
-use crate::model::Model;
+use crate::model::{Key, Model};
 use crate::phase::PhaseTable;
 use crate::sky::Sky;
 use crate::tables::{Cell, Layout, SideTable, Tables};
@@ -17,6 +18,7 @@ impl Sky {
         let conditions = conditions.checked(model)?;
         let head = model.head();
         let place = Place::new(head, &conditions);
+        model.prefetch(place.keys())?;
         let groups = Groups::new(head);
         let baker = Baker {
             model,
@@ -62,6 +64,18 @@ impl Place {
             visibilities_linear: linear(&visibilities, x),
             elevation: head.elevation.coordinate(conditions.solar_elevation),
         }
+    }
+
+    /// The chunks that the baker asks for.
+    fn keys(&self) -> Vec<Key> {
+        let altitudes = self.altitudes.taps().map(|(a, _)| Some(a));
+        altitudes
+            .flat_map(|a| {
+                let visibilities = self.visibilities.taps().map(|(v, _)| Some(v));
+                let radiance = visibilities.map(move |v| (Kind::Radiance, a, v));
+                radiance.chain([(Kind::Column, a, None)])
+            })
+            .collect()
     }
 
     /// A table `[visibility][n]` at the visibility of the sky, linear in 1/V.

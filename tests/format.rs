@@ -135,6 +135,67 @@ fn foreign_newer_and_short_files_get_errors_of_their_own() {
     assert!(matches!(parse(&featured), Err(Error::Feature { bits: 4 })));
 }
 
+#[cfg(feature = "zstd")]
+#[test]
+fn compressed_files_hold_the_same_numbers() {
+    use welkin::format::{ENCODING_RAW, ENCODING_ZSTD, recode};
+    use welkin::{Conditions, Model};
+    let raw = common::model_bytes();
+    let packed = recode(&raw, ENCODING_ZSTD).unwrap();
+    assert!(packed.len() < raw.len() * 3 / 4, "{}", packed.len());
+    assert_eq!(recode(&packed, ENCODING_RAW).unwrap(), raw);
+    let answer = |bytes: Vec<u8>| {
+        let model = Model::from_bytes(bytes).unwrap();
+        let sky = model.sky(&Conditions::default()).unwrap();
+        sky.xyz([0.1, 0.2, 0.3]).unwrap().map(f32::to_bits)
+    };
+    assert_eq!(answer(packed), answer(raw));
+}
+
+#[cfg(feature = "zstd")]
+#[test]
+fn frames_that_lie_about_their_length_are_refused() {
+    use welkin::Model;
+    use welkin::format::{ENCODING_ZSTD, recode};
+    let packed = recode(&common::model_bytes(), ENCODING_ZSTD).unwrap();
+    let contents = parse(&packed).unwrap();
+    let entry = &contents.directory[1];
+    assert_eq!(entry.encoding, ENCODING_ZSTD);
+    let frame = payload(&packed, entry);
+    for other in [
+        zstd::bulk::compress(&vec![0; entry.raw_length - 1], 1).unwrap(),
+        zstd::bulk::compress(&vec![0; 1 << 24], 1).unwrap(),
+        [frame, &[0][..]].concat(),
+        [frame, frame].concat(),
+        frame[..frame.len() - 1].to_vec(),
+        b"no frame".repeat(10),
+    ] {
+        let error = Model::from_bytes(common::with_chunk(&packed, 1, &other))
+            .unwrap()
+            .verify()
+            .unwrap_err();
+        assert!(
+            matches!(
+                error,
+                Error::Invalid {
+                    what: "zstd frame",
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+    // A few bytes cannot stand for a large payload.
+    let bomb = common::with_chunk(&packed, 1, &[0; 4]);
+    assert!(matches!(
+        parse(&bomb),
+        Err(Error::Invalid {
+            what: "directory",
+            ..
+        })
+    ));
+}
+
 proptest! {
     #[test]
     fn any_valid_head_survives_a_round_trip(

@@ -163,7 +163,9 @@ pub struct Entry {
     pub offset: usize,
     /// Bytes in the file.
     pub length: usize,
-    /// 0 = raw.
+    /// Bytes after decoding; equal to `length` for raw chunks.
+    pub raw_length: usize,
+    /// How the bytes are stored: [`ENCODING_RAW`](super::ENCODING_RAW) or [`ENCODING_ZSTD`](super::ENCODING_ZSTD).
     pub encoding: u32,
     /// CRC-32 of the bytes in the file.
     pub crc32: u32,

@@ -15,6 +15,12 @@ pub const CHUNK_ALIGNMENT: u64 = 64;
 pub const KIND_RADIANCE: u32 = 1;
 /// `kind` of a column chunk.
 pub const KIND_COLUMN: u32 = 2;
+/// `encoding` of a chunk that is stored as it is.
+pub const ENCODING_RAW: u32 = 0;
+/// `encoding` of a chunk that is stored as one zstd frame.
+pub const ENCODING_ZSTD: u32 = 1;
+/// `raw_length` may be at most this many times `stored_length`.
+pub const MOST_EXPANSION: usize = 256;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a radiance chunk.

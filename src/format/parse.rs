@@ -20,6 +20,8 @@ pub struct Contents {
     pub directory: Vec<Entry>,
     /// Length of header, head arrays and directory, bytes.
     pub head_length: usize,
+    /// Length of the file, bytes.
+    pub file_length: usize,
 }
 
 /// Parses the head of a complete file; chunk payloads are not touched.
@@ -29,8 +31,26 @@ pub struct Contents {
 /// # Errors
 /// A typed error for everything that section 8 of the specification tells a reader to reject at open.
 pub fn parse(bytes: &[u8]) -> Result<Contents> {
+    let declared = header(bytes)?.file_length.get();
+    if declared != bytes.len() as u64 {
+        return Err(truncated(declared, bytes.len()));
+    }
+    parse_head(bytes)
+}
+
+/// Length of the head of a file that starts with `bytes`, compared with its counts.
+pub(crate) fn head_length(bytes: &[u8]) -> Result<u64> {
+    declared_head_length(&header(bytes)?)
+}
+
+/// Parses the head of a file of which `bytes` has at least the head.
+pub(crate) fn parse_head(bytes: &[u8]) -> Result<Contents> {
     let header = header(bytes)?;
-    let head_length = check_lengths(&header, bytes.len())?;
+    let file_length = fits(header.file_length.get())?;
+    let head_length = fits(declared_head_length(&header)?)?;
+    if head_length > bytes.len().min(file_length) {
+        return Err(truncated(head_length as u64, bytes.len().min(file_length)));
+    }
     check_crc(&header, &bytes[..head_length])?;
     let mut cursor = Cursor(&bytes[HEADER_LENGTH..head_length]);
     let head = head(&header, &mut cursor)?;
@@ -41,12 +61,26 @@ pub fn parse(bytes: &[u8]) -> Result<Contents> {
         return Err(Error::invalid("padding", "expected zeros after metadata"));
     }
     let entries = cursor.take(header.chunk_count.get() as usize * ENTRY_LENGTH)?;
-    let directory = directory(&head, entries, head_length, bytes.len())?;
+    let directory = directory(&head, entries, head_length, file_length)?;
     Ok(Contents {
         head,
         directory,
         head_length,
+        file_length,
     })
+}
+
+/// A length as this machine counts bytes.
+fn fits(length: u64) -> Result<usize> {
+    usize::try_from(length).map_err(|_| truncated(length, usize::MAX))
+}
+
+fn truncated(expected: u64, got: usize) -> Error {
+    Error::Length {
+        what: "file (is it truncated?)",
+        expected,
+        got: got as u64,
+    }
 }
 
 fn header(bytes: &[u8]) -> Result<Header> {
@@ -54,11 +88,8 @@ fn header(bytes: &[u8]) -> Result<Header> {
     if bytes.is_empty() || bytes[..known] != MAGIC[..known] {
         return Err(Error::NotWelkin);
     }
-    let (header, _) = Header::read_from_prefix(bytes).map_err(|_| Error::Length {
-        what: "file (is it truncated?)",
-        expected: HEADER_LENGTH as u64,
-        got: bytes.len() as u64,
-    })?;
+    let (header, _) = Header::read_from_prefix(bytes)
+        .map_err(|_| truncated(HEADER_LENGTH as u64, bytes.len()))?;
     let got = header.version_major.get();
     if got != VERSION_MAJOR {
         let expected = VERSION_MAJOR;
@@ -70,37 +101,22 @@ fn header(bytes: &[u8]) -> Result<Header> {
     }
 }
 
-/// Length of the head, after comparing it with the counts and with the length of the file.
-fn check_lengths(header: &Header, file: usize) -> Result<usize> {
-    let file_length = header.file_length.get();
-    if file_length != file as u64 {
-        return Err(Error::Length {
-            what: "file (is it truncated?)",
-            expected: file_length,
-            got: file as u64,
-        });
-    }
-    let expected = head_length(header);
+/// Length of the head, after comparing it with the counts.
+fn declared_head_length(header: &Header) -> Result<u64> {
+    let expected = counted_head_length(header);
     let got = header.head_length.get();
-    if got != expected {
-        return Err(Error::Length {
-            what: "head_length",
-            expected,
-            got,
-        });
+    if got == expected {
+        return Ok(got);
     }
-    usize::try_from(got)
-        .ok()
-        .filter(|&length| length <= file)
-        .ok_or(Error::Length {
-            what: "file",
-            expected: got,
-            got: file as u64,
-        })
+    Err(Error::Length {
+        what: "head_length",
+        expected,
+        got,
+    })
 }
 
 /// Length that follows from the counts; at most about 2^39, so it cannot overflow.
-fn head_length(header: &Header) -> u64 {
+fn counted_head_length(header: &Header) -> u64 {
     let n = |count: zerocopy::little_endian::U16| u64::from(count.get());
     let (nw, nv, nf) = (
         n(header.wavelengths),
@@ -302,6 +318,7 @@ fn entry(raw: &RawEntry) -> Entry {
         visibility: index(raw.visibility.get()),
         offset: raw.offset.get() as usize,
         length: raw.stored_length.get() as usize,
+        raw_length: usize::try_from(raw.raw_length.get()).unwrap_or(usize::MAX),
         encoding: raw.encoding.get(),
         crc32: raw.crc32.get(),
         rank: raw.rank.get() as usize,
@@ -341,20 +358,22 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
     check_chunk_length(head, raw, entry)
 }
 
+/// The payload has as many bytes as rank and counts give, and the stored bytes can hold that.
 fn check_chunk_length(
     head: &Head,
     raw: &RawEntry,
     entry: &Entry,
 ) -> core::result::Result<(), String> {
-    if entry.encoding != 0 {
-        return Ok(());
-    }
     let expected = match entry.kind {
         Kind::Radiance => head.shape().radiance_bytes(entry.rank),
         _ => head.shape().column_bytes(),
     } as u64;
     let (stored, decoded) = (raw.stored_length.get(), raw.raw_length.get());
-    if stored == expected && decoded == expected {
+    let possible = match entry.encoding {
+        ENCODING_RAW => stored == expected,
+        _ => expected <= stored.saturating_mul(MOST_EXPANSION as u64),
+    };
+    if decoded == expected && possible {
         return Ok(());
     }
     Err(format!(

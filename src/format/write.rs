@@ -1,10 +1,6 @@
 //! Writes model files. Format specification, sections 3 to 6.
 
-use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::path::Path;
 
 use half::f16;
 use zerocopy::IntoBytes;
@@ -13,6 +9,7 @@ use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
 use super::parse::head_crc;
+use super::replace::replace_file;
 use crate::error::{Error, Result};
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
@@ -287,37 +284,4 @@ fn check(what: &'static str, values: &[f32], expected: usize) -> Result<()> {
             format!("expected finite values, got {v}"),
         )),
     }
-}
-
-/// Writes `bytes` to a temporary file beside `path` and renames it: readers see the old file or the new one, never a part.
-///
-/// # Errors
-/// [`Error::Io`] with `path`; the temporary file is removed.
-pub fn replace_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
-    let path = path.as_ref();
-    let temporary = temporary_beside(path);
-    let written = write_synced(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|source| {
-        // Best effort: the error that matters is the first one.
-        let _ = fs::remove_file(&temporary);
-        Error::Io {
-            path: path.to_owned(),
-            source,
-        }
-    })
-}
-
-fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create_new(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-fn temporary_beside(path: &Path) -> PathBuf {
-    static COUNTER: AtomicU32 = AtomicU32::new(0);
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    let unique = COUNTER.fetch_add(1, Ordering::Relaxed);
-    name.push(format!(".{}-{unique}.tmp", std::process::id()));
-    path.with_file_name(name)
 }

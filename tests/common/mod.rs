@@ -1,6 +1,7 @@
 //! A small model with smooth analytic factors, for tests that need a file but not real air.
 #![allow(dead_code)]
 
+pub mod http;
 pub mod oracle;
 
 use welkin::axis::ElevationAxis;
@@ -178,4 +179,45 @@ pub fn tiny_bytes() -> Vec<u8> {
     head.elevation.intervals = 1;
     head.elevation_scale.truncate(4 * head.wavelengths.len());
     encode(&head, &chunks(&head)).expect("the tiny model is valid")
+}
+
+/// The file with the stored bytes of a chunk replaced, and everything that depends on them made right.
+pub fn with_chunk(file: &[u8], index: usize, stored: &[u8]) -> Vec<u8> {
+    let contents = welkin::format::parse(file).unwrap();
+    let directory = contents.head_length - 64 * contents.directory.len();
+    let mut bytes = file[..contents.head_length].to_vec();
+    for (i, entry) in contents.directory.iter().enumerate() {
+        let payload = match i == index {
+            true => stored,
+            false => &file[entry.offset..entry.offset + entry.length],
+        };
+        bytes.resize(bytes.len().next_multiple_of(64), 0);
+        let offset = bytes.len() as u64;
+        bytes[directory + 64 * i + 8..][..8].copy_from_slice(&offset.to_le_bytes());
+        let length = payload.len() as u64;
+        bytes[directory + 64 * i + 16..][..8].copy_from_slice(&length.to_le_bytes());
+        bytes.extend(payload);
+    }
+    let length = bytes.len() as u64;
+    bytes[16..24].copy_from_slice(&length.to_le_bytes());
+    seal(&mut bytes, file);
+    bytes
+}
+
+/// Makes the checksums of a file right; `original` tells where its chunks stand.
+pub fn seal(bytes: &mut [u8], original: &[u8]) {
+    let contents = welkin::format::parse(original).unwrap();
+    let directory = contents.head_length - 64 * contents.directory.len();
+    for i in 0..contents.directory.len() {
+        let entry = directory + 64 * i;
+        let place =
+            |at: usize| u64::from_le_bytes(bytes[entry + at..][..8].try_into().unwrap()) as usize;
+        let (offset, length) = (place(8), place(16));
+        let end = offset.saturating_add(length).min(bytes.len());
+        let crc = crc32fast::hash(&bytes[offset.min(end)..end]);
+        bytes[entry + 36..][..4].copy_from_slice(&crc.to_le_bytes());
+    }
+    bytes[32..36].fill(0);
+    let crc = crc32fast::hash(&bytes[..contents.head_length]);
+    bytes[32..36].copy_from_slice(&crc.to_le_bytes());
 }

@@ -1,0 +1,84 @@
+//! Puts head arrays and chunks together to a file: places, lengths, checksums. Format specification, sections 1 and 5.
+
+use zerocopy::little_endian::{U32, U64};
+use zerocopy::{FromBytes, IntoBytes};
+
+use super::encoding::{check_chunk, decode};
+use super::head::Kind;
+use super::layout::*;
+use super::parse::{head_crc, parse};
+use crate::error::{Error, Result};
+
+/// The bytes of a file. The fields of `header` and of the entries that depend on the layout are set here.
+pub(crate) fn assemble(
+    mut header: Header,
+    arrays: &[u8],
+    chunks: Vec<(RawEntry, Vec<u8>)>,
+) -> Result<Vec<u8>> {
+    let count = chunks.len();
+    let head_length = HEADER_LENGTH + arrays.len() + count * ENTRY_LENGTH;
+    header.chunk_count =
+        U32::new(u32::try_from(count).map_err(|_| {
+            Error::invalid("chunk_count", format!("expected 32 bits, got {count}"))
+        })?);
+    let mut file = [header.as_bytes(), arrays].concat();
+    file.resize(head_length, 0);
+    let mut entries = Vec::with_capacity(count);
+    for (mut entry, bytes) in chunks {
+        file.resize(file.len().next_multiple_of(CHUNK_ALIGNMENT as usize), 0);
+        entry.offset = U64::new(file.len() as u64);
+        entry.stored_length = U64::new(bytes.len() as u64);
+        entry.crc32 = U32::new(crc32fast::hash(&bytes));
+        entries.push(entry);
+        file.extend(bytes);
+    }
+    file[head_length - count * ENTRY_LENGTH..head_length].copy_from_slice(entries.as_bytes());
+    header.head_length = U64::new(head_length as u64);
+    header.file_length = U64::new(file.len() as u64);
+    file[..HEADER_LENGTH].copy_from_slice(header.as_bytes());
+    let crc = head_crc(&file[..head_length]);
+    file[CRC_RANGE].copy_from_slice(&crc.to_le_bytes());
+    // The reader's checks of the directory are the writer's too.
+    parse(&file)?;
+    Ok(file)
+}
+
+/// The same file with its chunks in another encoding ([`ENCODING_RAW`] or [`ENCODING_ZSTD`]).
+///
+/// Chunks that would not shrink, or shrink beyond what the format allows, stay raw; chunks of unknown kinds stay as
+/// they are.
+///
+/// # Errors
+/// As a reader of the file; [`Error::Encoding`] if this build does not have the feature that the encoding needs.
+pub fn recode(file: &[u8], encoding: u32) -> Result<Vec<u8>> {
+    let contents = parse(file)?;
+    let directory = contents.head_length - contents.directory.len() * ENTRY_LENGTH;
+    let (header, _) = Header::read_from_prefix(file).map_err(|_| Error::NotWelkin)?;
+    let raw_entries = file[directory..contents.head_length].chunks_exact(ENTRY_LENGTH);
+    let mut chunks = Vec::with_capacity(contents.directory.len());
+    for (i, (entry, raw)) in contents.directory.iter().zip(raw_entries).enumerate() {
+        let mut raw = RawEntry::read_from_bytes(raw).map_err(|_| Error::NotWelkin)?;
+        let payload = decode(i, entry, &file[entry.offset..entry.offset + entry.length])?;
+        let mut stored = payload.into_owned();
+        if !matches!(entry.kind, Kind::Unknown(_)) {
+            check_chunk(&contents.head, i, entry, &stored)?;
+            let (code, bytes) = encode(i, stored, encoding)?;
+            raw.encoding = U32::new(code);
+            stored = bytes;
+        }
+        chunks.push((raw, stored));
+    }
+    assemble(header, &file[HEADER_LENGTH..directory], chunks)
+}
+
+fn encode(chunk: usize, payload: Vec<u8>, encoding: u32) -> Result<(u32, Vec<u8>)> {
+    match encoding {
+        ENCODING_RAW => Ok((ENCODING_RAW, payload)),
+        #[cfg(feature = "zstd")]
+        ENCODING_ZSTD => Ok(match super::encoding::compress(&payload) {
+            Some(frame) => (ENCODING_ZSTD, frame),
+            None => (ENCODING_RAW, payload),
+        }),
+        got => Err(Error::Encoding { chunk, got }),
+    }
+}
