@@ -100,6 +100,23 @@ pub enum Error {
 }
 
 impl Error {
+    /// The class of the error in the terms of the format specification, section 8.
+    pub fn class(&self) -> &'static str {
+        match self {
+            Error::Io { .. } | Error::Read { .. } => "io",
+            Error::NotWelkin => "magic",
+            Error::Version { .. } => "version",
+            Error::Feature { .. } => "feature",
+            Error::Encoding { .. } => "encoding",
+            Error::Length { .. } => "length",
+            Error::Checksum { .. } => "checksum",
+            Error::Invalid { .. } => "value",
+            Error::MissingChunk { .. } => "missing",
+            Error::OutOfRange { .. } => "range",
+            Error::Direction { .. } => "direction",
+        }
+    }
+
     pub(crate) fn invalid(what: &'static str, detail: impl Into<String>) -> Self {
         Error::Invalid {
             what,

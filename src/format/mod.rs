@@ -8,6 +8,7 @@ mod layout;
 mod parse;
 mod replace;
 mod validate;
+mod verify;
 mod write;
 
 pub(crate) use chunk::widen;
@@ -24,4 +25,5 @@ pub use layout::{
 };
 pub use parse::{Contents, parse};
 pub use replace::replace_file;
+pub use verify::{Problem, verify};
 pub use write::{Chunk, ColumnTable, Payload, RadianceFactors, encode, write};

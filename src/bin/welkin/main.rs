@@ -6,6 +6,7 @@ mod info;
 mod projection;
 mod query;
 mod render;
+mod verify;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -31,6 +32,8 @@ enum Command {
     Query(query::Options),
     /// Describe a model file.
     Info(info::Options),
+    /// Check a model file against the format specification: exit code 1 if it breaks a rule.
+    Verify(verify::Options),
 }
 
 /// Which model a command works on.
@@ -63,15 +66,21 @@ fn main() -> ExitCode {
         Err(error) => return refuse_arguments(&error),
     };
     let outcome = match &arguments.command {
-        Command::Render(options) => render::run(options),
-        Command::Query(options) => query::run(options),
-        Command::Info(options) => info::run(options),
+        Command::Render(options) => render::run(options).map(done),
+        Command::Query(options) => query::run(options).map(done),
+        Command::Info(options) => info::run(options).map(done),
+        Command::Verify(options) => verify::run(options),
     };
     match outcome {
+        Ok(code) => code,
         // Whoever closed the pipe has seen enough.
-        Ok(()) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
+        Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
         Err(Failure::Message(message)) => complain(&message),
     }
+}
+
+fn done((): ()) -> ExitCode {
+    ExitCode::SUCCESS
 }
 
 /// Help goes out as clap writes it; errors become one line.
@@ -83,7 +92,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            complain("a command is missing: render, query or info (see welkin --help)")
+            complain("a command is missing: render, query, info or verify (see welkin --help)")
         }
         _ => {
             let text = error.render().to_string();
