@@ -51,6 +51,8 @@ mod tables;
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
+#[cfg(feature = "default-model")]
+pub use model::DEFAULT_MODEL;
 pub use model::Model;
 pub use sky::Sky;
 pub use source::ReadAt;

@@ -23,6 +23,10 @@ pub struct Model {
     index: HashMap<Key, usize>,
 }
 
+/// The bytes of the embedded model: a file like any other.
+#[cfg(feature = "default-model")]
+pub static DEFAULT_MODEL: &[u8] = include_bytes!("../models/default.welkin");
+
 impl Model {
     /// Opens a file; with the feature `mmap` by mapping it, otherwise as [`Model::read`].
     ///
@@ -82,7 +86,7 @@ impl Model {
     /// As [`Model::from_bytes`]; none in a sound build.
     #[cfg(feature = "default-model")]
     pub fn default_model() -> Result<Self> {
-        Self::from_static(include_bytes!("../models/default.welkin"))
+        Self::from_static(DEFAULT_MODEL)
     }
 
     fn new(bytes: Bytes) -> Result<Self> {

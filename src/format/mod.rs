@@ -2,6 +2,7 @@
 
 mod assemble;
 mod chunk;
+mod crop;
 mod encoding;
 mod head;
 mod layout;
@@ -18,6 +19,7 @@ pub(crate) use parse::{head_length, parse_head};
 
 pub use assemble::recode;
 pub use chunk::{ColumnView, Payload16, RadianceView};
+pub use crop::{Selection, crop, unpack};
 pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 pub use layout::{
     CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_RADIANCE, MAGIC,

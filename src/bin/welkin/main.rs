@@ -6,6 +6,7 @@ mod info;
 mod projection;
 mod query;
 mod render;
+mod subset;
 mod verify;
 
 use std::path::PathBuf;
@@ -32,6 +33,8 @@ enum Command {
     Query(query::Options),
     /// Describe a model file.
     Info(info::Options),
+    /// Write a smaller file for a part of the conditions.
+    Subset(subset::Options),
     /// Check a model file against the format specification: exit code 1 if it breaks a rule.
     Verify(verify::Options),
 }
@@ -52,6 +55,17 @@ impl Source {
         }
     }
 
+    /// The file as a whole.
+    fn bytes(&self) -> Result<Vec<u8>> {
+        match &self.model {
+            Some(path) => {
+                let unreadable = |e| Failure::message(format!("{}: {e}", path.display()));
+                std::fs::read(path).map_err(unreadable)
+            }
+            None => Ok(welkin::DEFAULT_MODEL.to_vec()),
+        }
+    }
+
     fn name(&self) -> String {
         match &self.model {
             Some(path) => path.display().to_string(),
@@ -69,6 +83,7 @@ fn main() -> ExitCode {
         Command::Render(options) => render::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),
         Command::Info(options) => info::run(options).map(done),
+        Command::Subset(options) => subset::run(options).map(done),
         Command::Verify(options) => verify::run(options),
     };
     match outcome {
@@ -91,9 +106,9 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             let _ = error.print();
             ExitCode::SUCCESS
         }
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            complain("a command is missing: render, query, info or verify (see welkin --help)")
-        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
+            "a command is missing: render, query, info, subset or verify (see welkin --help)",
+        ),
         _ => {
             let text = error.render().to_string();
             let about = |line: &&str| !line.trim().is_empty();

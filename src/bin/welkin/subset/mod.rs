@@ -1,0 +1,227 @@
+//! `welkin subset`: a smaller file for a part of the conditions.
+
+mod colour;
+mod nodes;
+mod reduce;
+mod samples;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use welkin::Model;
+use welkin::format::{ENCODING_RAW, ENCODING_ZSTD, encode, parse, recode, replace_file, unpack};
+
+use crate::Source;
+use crate::failure::{Failure, Result};
+use reduce::{Reducer, Wish};
+use samples::{Differences, Quantity, Samples, Scope};
+
+/// Skies of the final comparison.
+const SKIES: usize = 256;
+/// Its skies are not those of the search.
+const HELD_OUT: usize = 1_000_000;
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: Source,
+    /// Altitudes that must stay, m.
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true)]
+    altitudes: Option<[f64; 2]>,
+    /// Visibilities that must stay, km.
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true)]
+    visibilities: Option<[f64; 2]>,
+    /// Wavelengths that must stay, nm.
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, conflicts_with = "rgb")]
+    wavelengths: Option<[f64; 2]>,
+    /// Keep as few wavelengths as colour needs.
+    #[arg(long)]
+    rgb: bool,
+    /// Leave out what changes 99 % of all values by less than this; without it, nothing changes (with --rgb: 1 %).
+    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Compress the chunks.
+    #[arg(long)]
+    zstd: bool,
+    /// The new file.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Write the report as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    let bytes = options.source.bytes()?;
+    let name = options.source.name();
+    let in_source = |error: welkin::Error| Failure::message(format!("{name}: {error}"));
+    let model = Model::from_bytes(bytes.clone()).map_err(in_source)?;
+    let scope = scope(options, &model)?;
+    let wish = Wish {
+        scope,
+        wavelengths: options.wavelengths,
+        rgb: options.rgb,
+        tolerance: options.tolerance,
+    };
+    let reducer = Reducer::new(&model, unpack(&bytes).map_err(in_source)?, wish)?;
+    let (mut head, chunks, kept) = reducer.reduce()?;
+
+    let smaller = Model::from_bytes(encode(&head, &chunks)?)?;
+    let samples = Samples::new(&model, &scope, SKIES, HELD_OUT);
+    let quantity = match options.rgb {
+        true => Quantity::Colour,
+        false => Quantity::Spectrum,
+    };
+    let all: Vec<usize> = (0..kept.len()).collect();
+    let differences = Differences::between(
+        &samples.values(&smaller, quantity, &all)?,
+        &samples.values(&model, quantity, &kept)?,
+    );
+    let mut report = report(&scope, quantity, &differences);
+    head.metadata = with_report(&head.metadata, &report);
+    let encoding = match options.zstd {
+        true => ENCODING_ZSTD,
+        false => ENCODING_RAW,
+    };
+    let file = recode(&encode(&head, &chunks)?, encoding)?;
+    replace_file(&options.out, &file)?;
+
+    report["file"] = json!(options.out.display().to_string());
+    report["bytes"] = json!(file.len());
+    report["source_bytes"] = json!(bytes.len());
+    report["chunks"] = json!(parse(&file)?.directory.len());
+    report["altitudes_m"] = json!(head.altitudes);
+    report["visibilities_km"] = json!(kilometres(&head.visibilities));
+    report["wavelengths_nm"] = json!(head.wavelengths);
+    print(&report, options.json)
+}
+
+fn scope(options: &Options, model: &Model) -> Result<Scope> {
+    let visibilities = options.visibilities.map(|range| range.map(|v| v * 1e3));
+    Ok(Scope {
+        altitudes: within(
+            "altitudes",
+            options.altitudes,
+            model.altitude_range(),
+            "m",
+            1.0,
+        )?,
+        visibilities: within(
+            "visibilities",
+            visibilities,
+            model.visibility_range(),
+            "km",
+            1e-3,
+        )?,
+    })
+}
+
+/// The wished range, which the model must have.
+fn within(
+    what: &str,
+    wish: Option<[f64; 2]>,
+    model: [f64; 2],
+    unit: &str,
+    factor: f64,
+) -> Result<[f64; 2]> {
+    let [low, high] = wish.unwrap_or(model);
+    if model[0] <= low && high <= model[1] {
+        return Ok([low, high]);
+    }
+    let [low, high, first, last] = [low, high, model[0], model[1]].map(|v| v * factor);
+    Err(Failure::message(format!(
+        "{what} must be in {first}..{last} {unit}, got {low}..{high}"
+    )))
+}
+
+fn report(scope: &Scope, quantity: Quantity, differences: &Differences) -> Value {
+    let what = match quantity {
+        Quantity::Colour => "CIE XYZ",
+        Quantity::Spectrum => "spectral radiance",
+    };
+    json!({
+        "for_altitudes_m": scope.altitudes,
+        "for_visibilities_km": kilometres(&scope.visibilities),
+        "difference_to_source": {
+            "of": what,
+            "count": differences.count(),
+            "median": differences.quantile(0.5),
+            "p95": differences.quantile(0.95),
+            "p99": differences.quantile(0.99),
+            "max": differences.quantile(1.0),
+        },
+    })
+}
+
+/// The provenance of the source with what happened to it since.
+fn with_report(metadata: &str, report: &Value) -> String {
+    let mut metadata: Value = serde_json::from_str(metadata).unwrap_or_else(|_| json!({}));
+    match metadata.as_object_mut() {
+        Some(object) => object.insert("subset".to_owned(), report.clone()),
+        None => return json!({ "subset": report }).to_string(),
+    };
+    metadata.to_string()
+}
+
+fn kilometres(metres: &[f64]) -> Vec<f64> {
+    let rounded = |m: &f64| (m * 1e6).round() / 1e9;
+    metres.iter().map(rounded).collect()
+}
+
+fn print(report: &Value, json: bool) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    if json {
+        writeln!(out, "{report:#}")?;
+        return Ok(());
+    }
+    let size = |key: &str| report[key].as_u64().unwrap_or_default();
+    let share = 100.0 * size("bytes") as f64 / size("source_bytes") as f64;
+    let file = report["file"].as_str().unwrap_or_default();
+    writeln!(
+        out,
+        "{file}: {} bytes, {share:.1} % of the source",
+        size("bytes")
+    )?;
+    for (name, key) in [
+        ("altitudes, m", "altitudes_m"),
+        ("visibilities, km", "visibilities_km"),
+        ("wavelengths, nm", "wavelengths_nm"),
+    ] {
+        writeln!(out, "{name:18} {}", report[key])?;
+    }
+    let difference = &report["difference_to_source"];
+    let percent = |key: &str| 100.0 * difference[key].as_f64().unwrap_or_default();
+    writeln!(
+        out,
+        "difference of {} to the source over {} values: median {:.3} %, p95 {:.3} %, p99 {:.3} %, max {:.3} %",
+        difference["of"].as_str().unwrap_or_default(),
+        difference["count"],
+        percent("median"),
+        percent("p95"),
+        percent("p99"),
+        percent("max"),
+    )?;
+    Ok(())
+}
+
+fn range(text: &str) -> std::result::Result<[f64; 2], String> {
+    let (low, high) = text.split_once("..").unwrap_or((text, text));
+    let number = |part: &str| {
+        part.trim()
+            .parse::<f64>()
+            .map_err(|_| format!("\"{part}\" is no number"))
+    };
+    match [number(low)?, number(high)?] {
+        [low, high] if low <= high => Ok([low, high]),
+        _ => Err("expected LOW..HIGH with LOW not above HIGH".to_owned()),
+    }
+}
+
+fn percent(text: &str) -> std::result::Result<f64, String> {
+    let number = text.trim_end_matches('%').trim().parse::<f64>();
+    match number {
+        Ok(value) if value > 0.0 && value <= 100.0 => Ok(value / 100.0),
+        _ => Err("expected a percentage above 0 and up to 100".to_owned()),
+    }
+}

@@ -1,0 +1,193 @@
+//! Leaves out of a model what a wish does not need.
+
+use welkin::Model;
+use welkin::format::{Chunk, Head, Selection, crop, encode};
+
+use super::colour::Quadrature;
+use super::nodes::{covers, needed};
+use super::samples::{Differences, Quantity, Samples, Scope};
+use crate::failure::{Failure, Result};
+
+/// Skies of each comparison of the search.
+const SKIES: usize = 64;
+/// Share of the tolerance that the choice of wavelengths may use.
+const COLOUR_SHARE: f64 = 0.6;
+/// Tolerance of colours, if none is given.
+const COLOUR_TOLERANCE: f64 = 0.01;
+
+pub struct Wish {
+    pub scope: Scope,
+    /// nm.
+    pub wavelengths: Option<[f64; 2]>,
+    pub rgb: bool,
+    /// Largest 99th percentile of relative differences; `None`: no differences.
+    pub tolerance: Option<f64>,
+}
+
+pub struct Reducer<'a> {
+    model: &'a Model,
+    head: Head,
+    chunks: Vec<Chunk>,
+    wish: Wish,
+    samples: Samples,
+}
+
+impl<'a> Reducer<'a> {
+    pub fn new(model: &'a Model, (head, chunks): (Head, Vec<Chunk>), wish: Wish) -> Result<Self> {
+        let samples = Samples::new(model, &wish.scope, SKIES, 0);
+        Ok(Self {
+            model,
+            head,
+            chunks,
+            wish,
+            samples,
+        })
+    }
+
+    /// The smaller model, and which wavelengths of the source it has.
+    pub fn reduce(&self) -> Result<(Head, Vec<Chunk>, Vec<usize>)> {
+        let mut selection = self.lossless()?;
+        let quadrature = Quadrature::measure(self.model, &self.samples)?;
+        if self.wish.rgb {
+            selection.wavelengths = self.colour_wavelengths(&selection, &quadrature)?;
+        }
+        if let Some(tolerance) = self.wish.tolerance {
+            self.thin(&mut selection, &quadrature, tolerance)?;
+        }
+        let (head, chunks) = self.build(&selection, &quadrature)?;
+        Ok((head, chunks, selection.wavelengths))
+    }
+
+    /// All nodes that queries within the wish meet.
+    fn lossless(&self) -> Result<Selection> {
+        let [low, high] = self.wish.scope.altitudes.map(f64::cbrt);
+        let [far, near] = self.wish.scope.visibilities.map(f64::recip);
+        let mut selection = Selection::all(&self.head);
+        selection.altitudes = needed(&self.head.altitude_nodes(), low, high);
+        selection.visibilities = needed(&self.head.visibility_nodes(), near, far);
+        if let Some([low, high]) = self.wish.wavelengths {
+            let [first, last] = self.model.wavelength_range();
+            if low < first || high > last || low == high {
+                let text =
+                    format!("wavelengths must be a range in {first}..{last} nm, got {low}..{high}");
+                return Err(Failure::message(text));
+            }
+            selection.wavelengths = needed(&self.head.wavelengths, low, high);
+        }
+        Ok(selection)
+    }
+
+    /// The fewest wavelengths that keep colours.
+    fn colour_wavelengths(&self, all: &Selection, quadrature: &Quadrature) -> Result<Vec<usize>> {
+        let share = COLOUR_SHARE * self.wish.tolerance.unwrap_or(COLOUR_TOLERANCE);
+        for count in 3..all.wavelengths.len() {
+            let selection = Selection {
+                wavelengths: quadrature.best(count),
+                ..all.clone()
+            };
+            if self.difference(&selection, quadrature)? <= share {
+                return Ok(selection.wavelengths);
+            }
+        }
+        Ok(all.wavelengths.clone())
+    }
+
+    /// Tries to do without each node, those first that stand closest to their neighbours.
+    fn thin(
+        &self,
+        selection: &mut Selection,
+        quadrature: &Quadrature,
+        tolerance: f64,
+    ) -> Result<()> {
+        for (axis, node) in self.candidates(selection) {
+            let mut fewer = selection.clone();
+            axis.of(&mut fewer).retain(|&i| i != node);
+            if self.covers(&fewer) && self.difference(&fewer, quadrature)? <= tolerance {
+                *selection = fewer;
+            }
+        }
+        Ok(())
+    }
+
+    fn candidates(&self, selection: &Selection) -> Vec<(Axis, usize)> {
+        let gaps = |axis: Axis, nodes: Vec<f64>, kept: &[usize]| {
+            let range = (nodes[kept[kept.len() - 1]] - nodes[kept[0]]).abs();
+            let gap = |k: usize| match (k.checked_sub(1), kept.get(k + 1)) {
+                (Some(before), Some(&after)) => (nodes[after] - nodes[kept[before]]).abs() / range,
+                _ => 0.0,
+            };
+            (0..kept.len())
+                .map(|k| (gap(k), axis, kept[k]))
+                .collect::<Vec<_>>()
+        };
+        let altitudes = gaps(
+            Axis::Altitude,
+            self.head.altitude_nodes(),
+            &selection.altitudes,
+        );
+        let visibilities = gaps(
+            Axis::Visibility,
+            self.head.visibility_nodes(),
+            &selection.visibilities,
+        );
+        let mut all = [altitudes, visibilities].concat();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter()
+            .map(|(_, axis, node)| (axis, node))
+            .collect()
+    }
+
+    fn covers(&self, selection: &Selection) -> bool {
+        covers(
+            &self.head.altitudes,
+            &selection.altitudes,
+            self.wish.scope.altitudes,
+        ) && covers(
+            &self.head.visibilities,
+            &selection.visibilities,
+            self.wish.scope.visibilities,
+        )
+    }
+
+    /// 99th percentile of the relative differences to the source.
+    fn difference(&self, selection: &Selection, quadrature: &Quadrature) -> Result<f64> {
+        let (head, chunks) = self.build(selection, quadrature)?;
+        let smaller = Model::from_bytes(encode(&head, &chunks)?)?;
+        let quantity = match self.wish.rgb {
+            true => Quantity::Colour,
+            false => Quantity::Spectrum,
+        };
+        let all: Vec<usize> = (0..selection.wavelengths.len()).collect();
+        let differences = Differences::between(
+            &self.samples.values(&smaller, quantity, &all)?,
+            &self
+                .samples
+                .values(self.model, quantity, &selection.wavelengths)?,
+        );
+        Ok(differences.quantile(0.99))
+    }
+
+    fn build(&self, selection: &Selection, quadrature: &Quadrature) -> Result<(Head, Vec<Chunk>)> {
+        let (mut head, mut chunks) = (self.head.clone(), self.chunks.clone());
+        crop(&mut head, &mut chunks, selection)?;
+        if selection.wavelengths.len() < self.head.wavelengths.len() {
+            head.xyz = quadrature.weights(&selection.wavelengths);
+        }
+        Ok((head, chunks))
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Axis {
+    Altitude,
+    Visibility,
+}
+
+impl Axis {
+    fn of(self, selection: &mut Selection) -> &mut Vec<usize> {
+        match self {
+            Axis::Altitude => &mut selection.altitudes,
+            Axis::Visibility => &mut selection.visibilities,
+        }
+    }
+}

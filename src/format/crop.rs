@@ -1,0 +1,181 @@
+//! Takes files apart and keeps a part of their nodes. Format specification, sections 4 to 6.
+
+use zerocopy::little_endian::U16;
+
+use super::chunk::{ColumnView, RadianceView, widen};
+use super::encoding::{check_chunk, decode};
+use super::head::{Head, Kind};
+use super::parse::parse;
+use super::write::{Chunk, ColumnTable, Payload, RadianceFactors};
+use crate::error::{Error, Result};
+
+/// Indices of the nodes that [`crop`] keeps, each strictly increasing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Selection {
+    /// Into the altitudes.
+    pub altitudes: Vec<usize>,
+    /// Into the visibilities.
+    pub visibilities: Vec<usize>,
+    /// Into the wavelengths, at least two.
+    pub wavelengths: Vec<usize>,
+}
+
+impl Selection {
+    /// Everything that `head` has.
+    pub fn all(head: &Head) -> Self {
+        Self {
+            altitudes: (0..head.altitudes.len()).collect(),
+            visibilities: (0..head.visibilities.len()).collect(),
+            wavelengths: (0..head.wavelengths.len()).collect(),
+        }
+    }
+}
+
+/// Reads a whole file into what [`encode`](super::encode) writes. Chunks of unknown kinds are left out.
+///
+/// # Errors
+/// As a reader that touches every chunk.
+pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
+    let contents = parse(file)?;
+    let shape = contents.head.shape();
+    let mut chunks = Vec::new();
+    for (i, entry) in contents.directory.iter().enumerate() {
+        let stored = &file[entry.offset..entry.offset + entry.length];
+        let payload = decode(i, entry, stored)?;
+        check_chunk(&contents.head, i, entry, &payload)?;
+        let payload = match entry.kind {
+            Kind::Unknown(_) => continue,
+            Kind::Radiance => {
+                let view = RadianceView::new(&payload, &shape, entry.rank)?;
+                Payload::Radiance(radiance(&view, shape.channels))
+            }
+            Kind::Column => Payload::Column(ColumnTable {
+                values: narrow(ColumnView::new(&payload, &shape)?.values),
+            }),
+        };
+        chunks.push(Chunk {
+            altitude: entry.altitude.unwrap_or_default(),
+            visibility: entry.visibility,
+            error_median: entry.error_median,
+            error_p99: entry.error_p99,
+            payload,
+        });
+    }
+    Ok((contents.head, chunks))
+}
+
+/// Keeps the nodes of `selection` and the chunks that stand at them.
+///
+/// The colour weights of the remaining wavelengths stay as they are; they no longer add up to the colour of the whole
+/// spectrum, so set [`Head::xyz`] where wavelengths are left out.
+///
+/// # Errors
+/// [`Error::Invalid`] for indices that do not increase or that the head does not have.
+pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> Result<()> {
+    check("altitudes", &selection.altitudes, head.altitudes.len())?;
+    check(
+        "visibilities",
+        &selection.visibilities,
+        head.visibilities.len(),
+    )?;
+    check(
+        "wavelengths",
+        &selection.wavelengths,
+        head.wavelengths.len(),
+    )?;
+    let (nw, nf) = (head.wavelengths.len(), head.fields.len());
+    let channels: Vec<usize> = (0..nf)
+        .flat_map(|f| selection.wavelengths.iter().map(move |w| f * nw + w))
+        .collect();
+    chunks.retain_mut(|chunk| {
+        let altitude = selection.altitudes.binary_search(&chunk.altitude);
+        let visibility = chunk
+            .visibility
+            .map(|v| selection.visibilities.binary_search(&v));
+        let (Ok(altitude), None | Some(Ok(_))) = (altitude, visibility) else {
+            return false;
+        };
+        chunk.altitude = altitude;
+        chunk.visibility = visibility.and_then(|found| found.ok());
+        if let Payload::Radiance(factors) = &mut chunk.payload {
+            factors.channel = columns(&factors.channel, nf * nw, &channels);
+        }
+        true
+    });
+    crop_head(head, selection);
+    Ok(())
+}
+
+fn crop_head(head: &mut Head, selection: &Selection) {
+    let Selection {
+        altitudes,
+        visibilities,
+        wavelengths,
+    } = selection;
+    let nw = head.wavelengths.len();
+    let rows = |table: &[f64], width| rows(table, width, visibilities);
+    head.extinction = columns(
+        &rows(&head.extinction, head.constituents * nw),
+        nw,
+        wavelengths,
+    );
+    head.spherical_albedo = columns(&rows(&head.spherical_albedo, nw), nw, wavelengths);
+    head.elevation_scale = columns(&head.elevation_scale, nw, wavelengths);
+    for field in &mut head.fields {
+        field.parameter = pick(&field.parameter, wavelengths);
+    }
+    head.xyz = pick(&head.xyz, wavelengths);
+    head.altitudes = pick(&head.altitudes, altitudes);
+    head.visibilities = pick(&head.visibilities, visibilities);
+    head.wavelengths = pick(&head.wavelengths, wavelengths);
+}
+
+fn check(what: &'static str, indices: &[usize], count: usize) -> Result<()> {
+    let increasing = indices.windows(2).all(|w| w[0] < w[1]);
+    if increasing && indices.last().is_some_and(|&i| i < count) {
+        return Ok(());
+    }
+    let detail = format!("expected increasing indices below {count}, got {indices:?}");
+    Err(Error::invalid(what, detail))
+}
+
+fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
+    indices.iter().map(|&i| values[i]).collect()
+}
+
+/// Rows of a matrix of the given width.
+fn rows<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
+    let row = |&i: &usize| &matrix[i * width..(i + 1) * width];
+    indices.iter().flat_map(row).copied().collect()
+}
+
+/// Columns of a matrix of the given width.
+fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
+    let rows = matrix.chunks_exact(width);
+    rows.flat_map(|row| pick(row, indices)).collect()
+}
+
+fn radiance(view: &RadianceView, channels: usize) -> RadianceFactors {
+    let rank = view.rank;
+    let rows = |table: &[U16]| unpadded(table, view.stride, rank);
+    let channel = &view.channel[..rank * view.channel_stride];
+    RadianceFactors {
+        rank,
+        scale: narrow(&view.scale[..rank]),
+        alpha_up: rows(view.alpha_up),
+        alpha_down: rows(view.alpha_down),
+        phi: rows(view.phi),
+        elevation: rows(view.elevation),
+        channel: unpadded(channel, view.channel_stride, channels),
+    }
+}
+
+fn unpadded(table: &[U16], stride: usize, width: usize) -> Vec<f32> {
+    let rows = table.chunks_exact(stride);
+    rows.flat_map(|row| row[..width].iter().map(|&h| widen(h)))
+        .collect()
+}
+
+fn narrow(values: &[zerocopy::little_endian::F32]) -> Vec<f32> {
+    values.iter().map(|v| v.get()).collect()
+}

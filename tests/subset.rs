@@ -1,0 +1,191 @@
+//! `welkin subset`: smaller files that keep their promise, and writers that never leave half a file.
+#![cfg(feature = "cli")]
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use welkin::{Conditions, Model};
+
+fn subset(folder: &Path, arguments: &[&str]) -> Output {
+    std::fs::write(folder.join("source.welkin"), common::model_bytes()).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_welkin"))
+        .args([
+            "subset",
+            "--model",
+            "source.welkin",
+            "--out",
+            "small.welkin",
+            "--json",
+        ])
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn report(output: &Output) -> Value {
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn spectrum(model: &Model, altitude: f64, visibility: f64) -> Vec<f32> {
+    let sky = model
+        .sky(&Conditions {
+            altitude,
+            visibility,
+            ..Conditions::default()
+        })
+        .unwrap();
+    let mut out = vec![0.0; sky.wavelengths().len()];
+    sky.radiance([0.3, 0.1, 0.4], &mut out).unwrap();
+    out
+}
+
+#[test]
+fn a_crop_without_tolerance_changes_nothing_in_its_ranges() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = [
+        "--altitudes",
+        "0..100",
+        "--visibilities",
+        "70..131.8",
+        "--zstd",
+    ];
+    let report = report(&subset(folder.path(), &arguments));
+    assert_eq!(report["difference_to_source"]["max"], 0.0);
+    let path = folder.path().join("small.welkin");
+    let small = Model::open(&path).unwrap();
+    assert!(report["bytes"].as_u64() < report["source_bytes"].as_u64());
+    assert_eq!(small.head().altitudes, [0.0, 120.0, 1000.0]);
+    let source = Model::from_bytes(common::model_bytes()).unwrap();
+    for (altitude, visibility) in [(0.0, 70e3), (50.0, 80e3), (100.0, 131.8e3)] {
+        assert_eq!(
+            spectrum(&small, altitude, visibility),
+            spectrum(&source, altitude, visibility)
+        );
+    }
+    assert!(welkin::format::verify(&std::fs::read(path).unwrap()).is_empty());
+    let metadata: Value = serde_json::from_str(&small.head().metadata).unwrap();
+    assert_eq!(
+        metadata["subset"]["for_altitudes_m"],
+        serde_json::json!([0.0, 100.0])
+    );
+    assert!(metadata["provenance"].is_string());
+}
+
+#[test]
+fn wavelengths_can_be_cut_and_colour_folded() {
+    let folder = tempfile::tempdir().unwrap();
+    let cut = report(&subset(folder.path(), &["--wavelengths", "320..360"]));
+    assert_eq!(cut["difference_to_source"]["max"], 0.0);
+    let small = Model::open(folder.path().join("small.welkin")).unwrap();
+    assert!(small.wavelengths().len() < 6);
+
+    let colour = report(&subset(folder.path(), &["--rgb", "--tolerance", "2%"]));
+    assert!(colour["wavelengths_nm"].as_array().unwrap().len() < 6);
+    assert!(colour["difference_to_source"]["p99"].as_f64().unwrap() < 0.02);
+    let small = Model::open(folder.path().join("small.welkin")).unwrap();
+    let source = Model::from_bytes(common::model_bytes()).unwrap();
+    let xyz = |model: &Model| {
+        let sky = model.sky(&Conditions::default()).unwrap();
+        sky.xyz([0.5, 0.1, 0.3]).unwrap()
+    };
+    for (got, expected) in xyz(&small).into_iter().zip(xyz(&source)) {
+        assert!((got / expected - 1.0).abs() < 0.04, "{got} {expected}");
+    }
+}
+
+#[test]
+fn a_wider_tolerance_keeps_less_and_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut last = usize::MAX;
+    for tolerance in ["0.001%", "1%", "20%"] {
+        let report = report(&subset(folder.path(), &["--tolerance", tolerance]));
+        let p99 = report["difference_to_source"]["p99"].as_f64().unwrap();
+        let promise: f64 = tolerance.trim_end_matches('%').parse().unwrap();
+        assert!(p99 < 1.3 * promise / 100.0, "{p99} for {tolerance}");
+        let bytes = report["bytes"].as_u64().unwrap() as usize;
+        assert!(bytes <= last);
+        last = bytes;
+        let small = Model::open(folder.path().join("small.welkin")).unwrap();
+        assert_eq!(small.altitude_range(), [0.0, 2000.0]);
+    }
+    assert!(last < common::model_bytes().len() / 2);
+}
+
+#[test]
+fn impossible_wishes_are_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, text) in [
+        (
+            &["--altitudes", "0..9000"][..],
+            "altitudes must be in 0..2000 m",
+        ),
+        (
+            &["--visibilities", "10..30"],
+            "visibilities must be in 20..131.8 km",
+        ),
+        (
+            &["--wavelengths", "100..400"],
+            "wavelengths must be a range in 320..760 nm",
+        ),
+        (&["--altitudes", "5..1"], "LOW not above HIGH"),
+        (&["--tolerance", "-1"], "percentage"),
+        (&["--altitudes", "NaN"], "LOW not above HIGH"),
+    ] {
+        let output = subset(folder.path(), arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(
+            error.contains(text) && error.lines().count() == 1,
+            "{error}"
+        );
+        assert!(!folder.path().join("small.welkin").exists());
+    }
+}
+
+/// Runs `welkin subset` over an existing file in a shell that limits the size of files to 8 KiB.
+#[cfg(unix)]
+fn with_small_files(before: &str) -> (Output, usize) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("source.welkin"), common::model_bytes()).unwrap();
+    std::fs::write(path("old.welkin"), "what was here before").unwrap();
+    let script = format!(
+        "{before} ulimit -f 8; exec {} subset --model source.welkin --out old.welkin",
+        env!("CARGO_BIN_EXE_welkin")
+    );
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let old = std::fs::read_to_string(path("old.welkin")).unwrap();
+    assert_eq!(old, "what was here before");
+    (output, std::fs::read_dir(folder.path()).unwrap().count())
+}
+
+#[cfg(unix)]
+#[test]
+fn a_write_that_fails_midway_leaves_the_old_file_and_no_other() {
+    // With the signal ignored, the write fails as it does on a full disk.
+    let (output, files) = with_small_files("trap '' XFSZ;");
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("old.welkin"), "{error}");
+    assert_eq!(files, 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_kill_midway_leaves_the_old_file() {
+    use std::os::unix::process::ExitStatusExt;
+    // The limit kills the process in the middle of its write.
+    let (output, files) = with_small_files("");
+    assert_eq!(output.status.signal(), Some(25), "SIGXFSZ");
+    assert_eq!(files, 3, "the temporary file shows that it was midway");
+}
