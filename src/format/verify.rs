@@ -1,7 +1,7 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
 use super::encoding::{check_chunk, decode};
-use super::head::Entry;
+use super::head::{Entry, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
 use crate::error::Error;
@@ -28,7 +28,7 @@ pub fn verify(file: &[u8]) -> Vec<Problem> {
     for (i, entry) in contents.directory.iter().enumerate() {
         let found = [
             check_gap(&file[end..entry.offset]),
-            check_reserved(&contents, file, i),
+            check_reserved(&contents, file, i, entry),
             check_payload(&contents, file, i, entry),
         ];
         let broken = found.into_iter().filter_map(Result::err);
@@ -50,7 +50,10 @@ fn check_gap(gap: &[u8]) -> Result<(), Error> {
 }
 
 /// The last eight bytes of a directory entry.
-fn check_reserved(contents: &Contents, file: &[u8], i: usize) -> Result<(), Error> {
+fn check_reserved(contents: &Contents, file: &[u8], i: usize, entry: &Entry) -> Result<(), Error> {
+    if matches!(entry.kind, Kind::Unknown(_)) {
+        return Ok(());
+    }
     let directory = contents.head_length - contents.directory.len() * ENTRY_LENGTH;
     let end = directory + (i + 1) * ENTRY_LENGTH;
     if file[end - 8..end] == [0; 8] {

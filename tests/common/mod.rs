@@ -1,6 +1,7 @@
 //! A small model with smooth analytic factors, for tests that need a file but not real air.
 #![allow(dead_code)]
 
+pub mod answer;
 pub mod http;
 pub mod oracle;
 
@@ -220,4 +221,48 @@ pub fn seal(bytes: &mut [u8], original: &[u8]) {
     bytes[32..36].fill(0);
     let crc = crc32fast::hash(&bytes[..contents.head_length]);
     bytes[32..36].copy_from_slice(&crc.to_le_bytes());
+}
+
+/// The file with its last chunk twice, the copy's directory entry changed.
+pub fn with_entry(file: &[u8], change: impl Fn(&mut [u8])) -> Vec<u8> {
+    let contents = welkin::format::parse(file).unwrap();
+    let (head_length, last) = (contents.head_length, contents.directory.last().unwrap());
+    let mut entry = file[head_length - 64..head_length].to_vec();
+    let mut bytes = [&file[..head_length], &entry].concat();
+    let move_chunk = |bytes: &mut Vec<u8>, entry: usize, stored: &[u8]| {
+        bytes.resize(bytes.len().next_multiple_of(64), 0);
+        let offset = bytes.len() as u64;
+        bytes[entry + 8..entry + 16].copy_from_slice(&offset.to_le_bytes());
+        bytes.extend(stored);
+    };
+    let directory = head_length - 64 * contents.directory.len();
+    for (i, entry) in contents.directory.iter().enumerate() {
+        let stored = &file[entry.offset..entry.offset + entry.length];
+        move_chunk(&mut bytes, directory + 64 * i, stored);
+    }
+    move_chunk(
+        &mut bytes,
+        head_length,
+        &file[last.offset..last.offset + last.length],
+    );
+    entry.copy_from_slice(&bytes[head_length..head_length + 64]);
+    change(&mut entry);
+    bytes[head_length..head_length + 64].copy_from_slice(&entry);
+    let (length, count) = (bytes.len() as u64, contents.directory.len() as u32 + 1);
+    bytes[16..24].copy_from_slice(&length.to_le_bytes());
+    bytes[24..32].copy_from_slice(&(head_length as u64 + 64).to_le_bytes());
+    bytes[36..40].copy_from_slice(&count.to_le_bytes());
+    bytes[32..36].fill(0);
+    let crc = crc32fast::hash(&bytes[..head_length + 64]);
+    bytes[32..36].copy_from_slice(&crc.to_le_bytes());
+    bytes
+}
+
+/// Turns the sign of half of the components, so that sums below zero occur.
+pub fn negate_components(chunks: &mut [Chunk]) {
+    for chunk in chunks {
+        if let Payload::Radiance(factors) = &mut chunk.payload {
+            factors.scale.iter_mut().step_by(2).for_each(|s| *s = -*s);
+        }
+    }
 }

@@ -267,15 +267,21 @@ impl<'a> Oracle<'a> {
     pub fn radiance_at(&self, q: &Query, wavelength: f64) -> (f64, f64) {
         let nodes = self.axis(self.at.wavelength, self.n.w, |x| x);
         let values = self.radiance(q);
-        let logarithm: f64 = hermite(&nodes, wavelength)
-            .iter()
-            .map(|&(i, w)| w * values[i].ln())
-            .sum();
+        let smooth = hermite(&nodes, wavelength);
+        let straight = piecewise(&nodes, wavelength);
+        let relative = match smooth.iter().all(|&(i, _)| values[i] > 0.0) {
+            true => smooth
+                .iter()
+                .map(|&(i, w)| w * values[i].ln())
+                .sum::<f64>()
+                .exp(),
+            false => straight.iter().map(|&(i, w)| w * values[i]).sum(),
+        };
         let x = (wavelength - self.f64(self.at.solar_axis, 0)) / self.f64(self.at.solar_axis, 1);
         let i = (x.floor() as usize).min(self.n.s - 2);
         let t = x - i as f64;
         let solar = (1.0 - t) * self.f32(self.at.solar, i) + t * self.f32(self.at.solar, i + 1);
-        (logarithm.exp(), solar)
+        (relative, solar)
     }
 
     pub fn xyz(&self, q: &Query) -> [f64; 3] {
@@ -342,7 +348,9 @@ fn piecewise(nodes: &[f64], x: f64) -> Vec<(usize, f64)> {
     }
     let i = interval(nodes, x);
     let t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
-    vec![(i, 1.0 - t), (i + 1, t)]
+    let mut weights = vec![(i, 1.0 - t), (i + 1, t)];
+    weights.retain(|&(_, w)| w != 0.0);
+    weights
 }
 
 /// Weights by feeding unit vectors through the textbook form of the Hermite interpolant.

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Asks a reader all questions of the conformance suite. See README.md.
+
+    run.py [--lacks FEATURE] [--] READER [ARGUMENT …]
+
+Exit code 0 if every answer is right, 1 at the first file with a wrong one, which is told.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+CONDITIONS = ("altitude", "visibility", "albedo", "solar_elevation", "solar_azimuth")
+
+
+def line(query):
+    cells = [query[name] for name in CONDITIONS] + query["direction"] + [query["wavelength"]]
+    return "\t".join([query["quantity"]] + [repr(float(cell)) for cell in cells])
+
+
+def ask(reader, path, queries):
+    """The reader's answers, one line each."""
+    text = "".join(line(query) + "\n" for query in queries)
+    done = subprocess.run(reader + [str(path)], input=text, capture_output=True, text=True, timeout=600)
+    if done.returncode != 0:
+        raise ValueError(f"exit code {done.returncode}: {done.stderr.strip()[-500:]}")
+    answers = done.stdout.splitlines()
+    if len(answers) != len(queries):
+        raise ValueError(f"{len(queries)} queries, {len(answers)} answers")
+    return answers
+
+
+def check(query, answer, relative, lacking):
+    """None, or what is wrong with an answer; and the worst share of the tolerance that was used."""
+    expected_error = query.get("error")
+    if lacking and expected_error not in ("range", "missing"):
+        expected_error = "encoding"
+    if expected_error:
+        good = answer.strip() == f"error {expected_error}"
+        return (None if good else f"expected error {expected_error}"), 0.0
+    try:
+        values = [float(cell) for cell in answer.split()]
+    except ValueError:
+        return "expected numbers", 0.0
+    if len(values) != len(query["expected"]):
+        return f"expected {len(query['expected'])} numbers", 0.0
+    worst = 0.0
+    for got, expected, absolute in zip(values, query["expected"], query["absolute"]):
+        tolerance = max(relative * abs(expected), absolute)
+        off = abs(got - expected)
+        # "not <=" also catches NaN.
+        if not off <= tolerance:
+            return f"expected {expected!r} ± {tolerance:.3g}", 0.0
+        worst = max(worst, off / tolerance if tolerance > 0.0 else 0.0)
+    return None, worst
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--lacks", action="append", default=[])
+    parser.add_argument("reader", nargs=argparse.REMAINDER)
+    options = parser.parse_args()
+    reader = [word for word in options.reader if word != "--"]
+    if not reader:
+        parser.error("which reader?")
+    manifest = json.loads((FOLDER / "manifest.json").read_text())
+    count, worst = 0, 0.0
+    for case in manifest["cases"]:
+        lacking = any(feature in options.lacks for feature in case["needs"])
+        try:
+            answers = ask(reader, FOLDER / case["file"], case["queries"])
+        except (ValueError, OSError, subprocess.TimeoutExpired) as error:
+            sys.exit(f"{case['file']} ({case['shows']}): {error}")
+        wrong = []
+        for query, answer in zip(case["queries"], answers):
+            complaint, share = check(query, answer, manifest["relative_tolerance"], lacking)
+            worst = max(worst, share)
+            if complaint:
+                wrong.append(f"  {line(query)}\n    {complaint}, got {answer!r}")
+        if wrong:
+            more = f"\n  and {len(wrong) - 5} more" if len(wrong) > 5 else ""
+            sys.exit(f"{case['file']} ({case['shows']}):\n" + "\n".join(wrong[:5]) + more)
+        count += len(answers)
+    files = len(manifest["cases"])
+    print(f"{' '.join(reader)}: {count} answers about {files} files are right, worst uses {100 * worst:.0f} % of its tolerance")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+//! One line of the conformance suite's queries, answered by the library.
+
+use welkin::{Conditions, Error, Model};
+
+/// The values, or the class of the error.
+pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
+    let (quantity, rest) = line.split_once('\t').unwrap_or((line, ""));
+    let numbers: Result<Vec<f64>, _> = rest.split('\t').map(str::parse).collect();
+    let Ok(
+        &[
+            altitude,
+            visibility,
+            albedo,
+            solar_elevation,
+            solar_azimuth,
+            x,
+            y,
+            z,
+            wavelength,
+        ],
+    ) = numbers.as_deref()
+    else {
+        return Err("query");
+    };
+    let conditions = Conditions {
+        altitude,
+        visibility,
+        albedo,
+        solar_elevation,
+        solar_azimuth,
+    };
+    let direction = [x, y, z].map(|v| v as f32);
+    values(model, quantity, &conditions, direction, wavelength).map_err(|error| error.class())
+}
+
+fn values(
+    model: &Model,
+    quantity: &str,
+    conditions: &Conditions,
+    direction: [f32; 3],
+    wavelength: f64,
+) -> Result<Vec<f32>, Error> {
+    let sky = model.sky(conditions)?;
+    let mut row = vec![0.0; sky.wavelengths().len()];
+    match quantity {
+        "relative_radiance" => sky.relative_radiance(direction, &mut row)?,
+        "radiance" => sky.radiance(direction, &mut row)?,
+        "relative_radiance_at" => {
+            return Ok(vec![sky.relative_radiance_at(direction, wavelength)?]);
+        }
+        "radiance_at" => return Ok(vec![sky.radiance_at(direction, wavelength)?]),
+        "xyz" => return Ok(sky.xyz(direction)?.to_vec()),
+        other => panic!("unknown quantity {other}"),
+    }
+    Ok(row)
+}

@@ -1,0 +1,208 @@
+//! The valid files.
+
+use welkin::format::{ENCODING_ZSTD, Head, PhaseFunction, encode, recode};
+
+use crate::common;
+
+pub struct Case {
+    pub name: String,
+    /// What the file is there for.
+    pub shows: &'static str,
+    /// Features that a reader may lack: it must then answer with the error "encoding".
+    pub needs: Vec<&'static str>,
+    pub bytes: Vec<u8>,
+    /// The same model with raw chunks, for the oracle.
+    pub raw: Vec<u8>,
+}
+
+pub fn valid() -> Vec<Case> {
+    let raw = model(&small(
+        &[0.0, 120.0, 1000.0, 2000.0],
+        &[20e3, 59.4e3, 131.8e3],
+    ));
+    let mut cases = vec![
+        case(
+            "raw",
+            "four altitudes, three visibilities, every interpolation",
+            raw.clone(),
+        ),
+        case(
+            "minimal",
+            "one altitude, one visibility, one interval per axis",
+            minimal(),
+        ),
+        case(
+            "pairs",
+            "two altitudes, two visibilities: linear between chunks",
+            pairs(),
+        ),
+        case(
+            "five",
+            "five nodes per axis: inner and outer stencils",
+            five(),
+        ),
+        case(
+            "wide",
+            "21 wavelengths, 16 fields of every kind, padding of every table",
+            wide(),
+        ),
+        case(
+            "sparse",
+            "chunks are missing: queries that need them are errors",
+            sparse(),
+        ),
+        case("no-chunks", "a file may have no chunks at all", head_only()),
+        case(
+            "unknown-kind",
+            "a chunk of an unknown kind is skipped, whatever its entry says",
+            unknown(&raw),
+        ),
+        case(
+            "minor",
+            "a newer minor version and reserved bytes are accepted",
+            minor(&raw),
+        ),
+        case(
+            "metadata",
+            "metadata in UTF-8, not a multiple of eight bytes",
+            metadata(),
+        ),
+        case("negative", "sums below zero become zero", negative()),
+    ];
+    cases.push(Case {
+        needs: vec!["zstd"],
+        raw: raw.clone(),
+        ..case(
+            "zstd",
+            "the chunks of raw.welkin, compressed",
+            compressed(&raw),
+        )
+    });
+    cases
+}
+
+fn case(name: &str, shows: &'static str, bytes: Vec<u8>) -> Case {
+    Case {
+        name: name.to_owned(),
+        shows,
+        needs: Vec::new(),
+        raw: bytes.clone(),
+        bytes,
+    }
+}
+
+/// A head with short axes, so that files stay small.
+pub fn small(altitudes: &[f64], visibilities: &[f64]) -> Head {
+    let mut head = common::head_with(altitudes, visibilities, 4);
+    head.up.intervals = 3;
+    head.down.intervals = 2;
+    head.phi_intervals = 2;
+    head.elevation.intervals = 3;
+    head.elevation_scale.truncate(6 * head.wavelengths.len());
+    head.solar_start = 310.0;
+    head.solar_step = 50.0;
+    head.solar_irradiance = (0..10).map(|i| 1.0 + 0.1 * (i % 4) as f32).collect();
+    head
+}
+
+fn model(head: &Head) -> Vec<u8> {
+    encode(head, &common::chunks(head)).expect("a valid model")
+}
+
+pub fn minimal() -> Vec<u8> {
+    let mut head = common::head_with(&[0.0], &[50e3], 2);
+    head.up.intervals = 1;
+    head.down.intervals = 1;
+    head.phi_intervals = 1;
+    head.elevation.intervals = 1;
+    head.elevation_scale.truncate(4 * head.wavelengths.len());
+    head.solar_start = 320.0;
+    head.solar_step = 440.0;
+    head.solar_irradiance = vec![1.0, 1.5];
+    head.fields.truncate(1);
+    head.metadata = "{}".to_owned();
+    model(&head)
+}
+
+fn pairs() -> Vec<u8> {
+    model(&small(&[100.0, 900.0], &[25e3, 75e3]))
+}
+
+fn five() -> Vec<u8> {
+    let mut head = small(
+        &[0.0, 50.0, 400.0, 1500.0, 4000.0],
+        &[15e3, 30e3, 45e3, 80e3, 200e3],
+    );
+    head.fields.truncate(2);
+    model(&head)
+}
+
+fn wide() -> Vec<u8> {
+    let mut head = common::head_with(&[500.0], &[40e3], 21);
+    head.up.intervals = 2;
+    head.down.intervals = 1;
+    head.phi_intervals = 3;
+    head.elevation.intervals = 1;
+    head.elevation_scale.truncate(4 * head.wavelengths.len());
+    head.fields = (0..16)
+        .map(|f| {
+            let mut field = head.fields[f % 5].clone();
+            field.ground = f % 3 == 0;
+            for p in &mut field.parameter {
+                *p = match field.phase {
+                    PhaseFunction::Rayleigh => 0.02 * f as f64,
+                    PhaseFunction::HenyeyGreenstein => 0.9 - 0.11 * f as f64,
+                    _ => 0.0,
+                };
+            }
+            field
+        })
+        .collect();
+    model(&head)
+}
+
+fn sparse() -> Vec<u8> {
+    let head = small(&[0.0, 500.0], &[20e3, 80e3]);
+    let mut chunks = common::chunks(&head);
+    chunks.retain(|chunk| chunk.altitude != 1 || chunk.visibility != Some(1));
+    encode(&head, &chunks).expect("a valid model")
+}
+
+fn head_only() -> Vec<u8> {
+    encode(&small(&[0.0], &[20e3]), &[]).expect("a valid model")
+}
+
+/// The last chunk of a file twice, the copy with a kind and an entry that no reader knows.
+fn unknown(raw: &[u8]) -> Vec<u8> {
+    common::with_entry(raw, |entry| {
+        entry[0..4].copy_from_slice(&0x8000_0001u32.to_le_bytes());
+        entry[4..8].copy_from_slice(&[0x12, 0x34, 0x56, 0x78]);
+        entry[24..36].fill(0xee);
+        entry[40..64].fill(0xff);
+    })
+}
+
+fn minor(raw: &[u8]) -> Vec<u8> {
+    let mut bytes = raw.to_vec();
+    bytes[10..12].copy_from_slice(&7u16.to_le_bytes());
+    common::seal(&mut bytes, raw);
+    bytes
+}
+
+fn metadata() -> Vec<u8> {
+    let mut head = small(&[0.0], &[20e3]);
+    head.metadata = r#"{"title":"Himmel über Zürich, 空"}"#.to_owned();
+    assert_ne!(head.metadata.len() % 8, 0);
+    model(&head)
+}
+
+fn negative() -> Vec<u8> {
+    let head = small(&[0.0], &[20e3]);
+    let mut chunks = common::chunks(&head);
+    common::negate_components(&mut chunks);
+    encode(&head, &chunks).expect("a valid model")
+}
+
+fn compressed(raw: &[u8]) -> Vec<u8> {
+    recode(raw, ENCODING_ZSTD).expect("a valid model")
+}

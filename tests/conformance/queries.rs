@@ -1,0 +1,253 @@
+//! Questions to the valid files, with the answers of the f64 oracle.
+
+use serde_json::{Value, json};
+use welkin::format::parse;
+use welkin::{Conditions, Model};
+
+use crate::common::oracle::{Oracle, Query};
+use crate::files::Case;
+
+/// Relative tolerance of a value.
+pub const RELATIVE: f64 = 1e-4;
+/// Absolute tolerance in units of the zenith radiance.
+const OF_ZENITH: f64 = 1e-7;
+/// Spread queries per file, besides the special ones.
+const SPREAD: usize = 14;
+
+/// All queries of a file.
+pub fn of(case: &Case) -> Vec<Value> {
+    let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
+    all.extend(special(&case.bytes));
+    let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
+    queries.extend(refusals(&case.bytes));
+    queries
+}
+
+/// The query of a file that must be refused.
+pub fn refused(class: &str) -> Value {
+    let query = Query {
+        altitude: 0.0,
+        visibility: 50e3,
+        albedo: 0.2,
+        solar_elevation: 0.5,
+        solar_azimuth: 0.0,
+        direction: [0.0, 0.0, 1.0],
+    };
+    with_error(value("relative_radiance", &query, 500.0), class)
+}
+
+struct Ranges {
+    altitude: [f64; 2],
+    visibility: [f64; 2],
+    elevation: [f64; 2],
+}
+
+fn ranges(file: &[u8]) -> Ranges {
+    let model = Model::from_bytes(file).expect("a valid model");
+    Ranges {
+        altitude: model.altitude_range(),
+        visibility: model.visibility_range(),
+        elevation: model.solar_elevation_range(),
+    }
+}
+
+/// The `i`-th of queries that fill the ranges of a file evenly (additive recurrence).
+fn spread(file: &[u8], i: usize) -> Query {
+    const STEPS: [f64; 7] = [
+        0.8566749, 0.7338919, 0.6287067, 0.5385973, 0.4614027, 0.3952718, 0.3386191,
+    ];
+    let t: [f64; 7] = STEPS.map(|step| (0.5 + step * (i + 1) as f64).fract());
+    let ranges = ranges(file);
+    let within = |[low, high]: [f64; 2], t: f64| low + t * (high - low);
+    let z = 2.0 * t[4] - 1.0;
+    let (y, x) = (std::f64::consts::TAU * t[5]).sin_cos();
+    let horizontal = (1.0 - z * z).sqrt();
+    Query {
+        altitude: within(ranges.altitude, t[0] * t[0]),
+        visibility: within(ranges.visibility, t[1]),
+        albedo: t[2],
+        solar_elevation: within(ranges.elevation, t[3] * t[3]),
+        solar_azimuth: 6.0 * t[6] - 3.0,
+        direction: [horizontal * x, horizontal * y, z].map(|v| f64::from(v as f32)),
+    }
+}
+
+/// Ends of ranges, poles, the sun's direction, and both sides of the horizon.
+fn special(file: &[u8]) -> Vec<Query> {
+    let ranges = ranges(file);
+    let [low, high] = ranges.altitude;
+    let at = |altitude: f64, elevation: f64, direction: [f64; 3]| Query {
+        altitude,
+        visibility: ranges.visibility[1],
+        albedo: 1.0,
+        solar_elevation: elevation,
+        solar_azimuth: 0.25,
+        direction: direction.map(|v| f64::from(v as f32)),
+    };
+    let [dusk, noon] = ranges.elevation;
+    let head = parse(file).expect("a valid file").head;
+    let dip = |h: f64| head.planet.dip(h);
+    let sloped = |h: f64, above: f64| {
+        let (z, horizontal) = (above - dip(h)).sin_cos();
+        [horizontal * 0.8, horizontal * -0.6, z]
+    };
+    let (sine, cosine) = 0.3f64.sin_cos();
+    vec![
+        at(low, dusk, [0.0, 0.0, 2.0]),
+        at(high, noon, [0.0, 0.0, -0.5]),
+        at(
+            high,
+            0.3,
+            [cosine * 0.25f64.cos(), cosine * 0.25f64.sin(), sine],
+        ),
+        at(low, 0.3, [3.0, -4.0, 0.001]),
+        at(high, 0.0, sloped(high, 1e-5)),
+        at(high, 0.0, sloped(high, -1e-5)),
+        at(low, 0.1, [-1.0, 0.1, -0.2]),
+    ]
+}
+
+/// What is asked about one direction: everything, each with its tolerances.
+fn asked(case: &Case, query: &Query) -> Vec<Value> {
+    let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
+    let conditions = Conditions {
+        altitude: query.altitude,
+        visibility: query.visibility,
+        albedo: query.albedo,
+        solar_elevation: query.solar_elevation,
+        solar_azimuth: query.solar_azimuth,
+    };
+    let [first, last] = model.wavelength_range();
+    let wavelength = (first + (last - first) * (0.3 + 0.4 * query.albedo)).round();
+    let ask = |quantity| value(quantity, query, wavelength);
+    // Only the oracle makes numbers; the library says whether the chunks are there.
+    if let Err(error) = model.sky(&conditions) {
+        return vec![with_error(ask("relative_radiance"), error.class())];
+    }
+    let oracle = Oracle::new(&case.raw);
+    let zenith = Query {
+        direction: [0.0, 0.0, 1.0],
+        ..*query
+    };
+    let floor: Vec<f64> = oracle
+        .radiance(&zenith)
+        .iter()
+        .map(|l| l * OF_ZENITH)
+        .collect();
+    let lowest = floor.iter().copied().fold(f64::INFINITY, f64::min);
+    let relative = oracle.radiance(query);
+    let (at, solar) = oracle.radiance_at(query, wavelength);
+    let mut queries = vec![
+        with_values(ask("relative_radiance"), &relative, &floor),
+        with_values(
+            ask("xyz"),
+            &oracle.xyz(query),
+            &oracle.xyz(&zenith).map(|c| c * OF_ZENITH),
+        ),
+    ];
+    // The logarithm of almost nothing is no test of a reader.
+    let firm = |(l, floor): (&f64, &f64)| *l == 0.0 || *l > 1e3 * floor;
+    if relative.iter().zip(&floor).all(firm) {
+        queries.push(with_values(ask("relative_radiance_at"), &[at], &[lowest]));
+        queries.push(with_values(
+            ask("radiance_at"),
+            &[at * solar],
+            &[lowest * solar],
+        ));
+    }
+    queries
+}
+
+/// Queries outside the model or without a meaning.
+fn refusals(file: &[u8]) -> Vec<Value> {
+    let ranges = ranges(file);
+    let good = || Query {
+        altitude: ranges.altitude[0],
+        visibility: ranges.visibility[0],
+        albedo: 0.5,
+        solar_elevation: 0.5,
+        solar_azimuth: 0.0,
+        direction: [0.0, 0.6, 0.8],
+    };
+    let ask = |change: &dyn Fn(&mut Query)| {
+        let mut query = good();
+        change(&mut query);
+        with_error(value("relative_radiance", &query, 500.0), "range")
+    };
+    vec![
+        ask(&|q| q.altitude = ranges.altitude[1] + 1.0),
+        ask(&|q| q.visibility = ranges.visibility[0] * 0.9),
+        ask(&|q| q.albedo = -0.1),
+        ask(&|q| q.albedo = 1.1),
+        ask(&|q| q.solar_elevation = ranges.elevation[0] - 0.01),
+    ]
+}
+
+fn value(quantity: &str, query: &Query, wavelength: f64) -> Value {
+    json!({
+        "quantity": quantity,
+        "altitude": query.altitude,
+        "visibility": query.visibility,
+        "albedo": query.albedo,
+        "solar_elevation": query.solar_elevation,
+        "solar_azimuth": query.solar_azimuth,
+        "direction": query.direction,
+        "wavelength": wavelength,
+    })
+}
+
+fn with_error(mut query: Value, class: &str) -> Value {
+    query["error"] = json!(class);
+    query
+}
+
+fn with_values(mut query: Value, expected: &[f64], absolute: &[f64]) -> Value {
+    let short = |v: &f64| format!("{v:.3e}").parse::<f64>().unwrap();
+    let long = |v: &f64| format!("{v:.12e}").parse::<f64>().unwrap();
+    query["expected"] = json!(expected.iter().map(long).collect::<Vec<_>>());
+    query["absolute"] = json!(absolute.iter().map(short).collect::<Vec<_>>());
+    query
+}
+
+/// A query as readers get it.
+pub fn line(query: &Value) -> String {
+    let direction = query["direction"].as_array().unwrap();
+    let conditions = [
+        "altitude",
+        "visibility",
+        "albedo",
+        "solar_elevation",
+        "solar_azimuth",
+    ];
+    let cells = conditions.iter().map(|name| query[*name].to_string());
+    let direction = direction.iter().map(Value::to_string);
+    let numbers: Vec<String> = cells
+        .chain(direction)
+        .chain([query["wavelength"].to_string()])
+        .collect();
+    format!(
+        "{}\t{}",
+        query["quantity"].as_str().unwrap(),
+        numbers.join("\t")
+    )
+}
+
+/// Compares an answer with what the suite expects.
+pub fn check(query: &Value, answer: Result<Vec<f32>, &'static str>, name: &str) {
+    let values = match (answer, query["error"].as_str()) {
+        (Err(class), Some(expected)) => return assert_eq!(class, expected, "{name}: {query}"),
+        (Ok(values), None) => values,
+        (answer, _) => panic!("{name}: {query}: {answer:?}"),
+    };
+    let numbers = |key: &str| -> Vec<f64> {
+        let array = query[key].as_array().unwrap();
+        array.iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let (expected, absolute) = (numbers("expected"), numbers("absolute"));
+    assert_eq!(values.len(), expected.len());
+    for ((got, expected), absolute) in values.iter().zip(expected).zip(absolute) {
+        let tolerance = (RELATIVE * expected.abs()).max(absolute);
+        let off = (f64::from(*got) - expected).abs();
+        assert!(off <= tolerance, "{name}: {query}: {got} is not {expected}");
+    }
+}
