@@ -104,3 +104,18 @@ proptest! {
         let _ = answers(forged);
     }
 }
+
+#[test]
+fn a_small_file_cannot_ask_for_a_large_table() {
+    let mut head = common::head(&[0.0], &[50e3]);
+    head.up.intervals = 1024;
+    head.phi_intervals = 1024;
+    let chunks = common::chunks(&head);
+    assert!(matches!(
+        welkin::format::encode(&head, &chunks),
+        Err(welkin::Error::Invalid {
+            what: "table of a sky",
+            ..
+        })
+    ));
+}

@@ -25,6 +25,8 @@ pub const MOST_EXPANSION: usize = 256;
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a radiance chunk.
 pub const MAX_RANK: usize = 4096;
+/// Most coefficients of the radiance of one sky: (up + down) · azimuth · channels.
+pub const MAX_TABLE: usize = 1 << 24;
 /// Bit of a field code: light reflected by the ground.
 pub const FIELD_GROUND: u32 = 1 << 16;
 

@@ -23,7 +23,7 @@ pub use crop::{Selection, crop, unpack};
 pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 pub use layout::{
     CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_RADIANCE, MAGIC,
-    MAX_RANK, MOST_EXPANSION, NO_INDEX, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
+    MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
 pub use parse::{Contents, parse};
 pub use replace::replace_file;

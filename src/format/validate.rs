@@ -3,6 +3,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::head::{Field, Head, PhaseFunction};
+use super::layout::MAX_TABLE;
 use crate::error::{Error, Result};
 
 impl Head {
@@ -30,7 +31,11 @@ impl Head {
         count("phi_intervals", self.phi_intervals, 1, 1024)?;
         count("elevation_intervals", self.elevation.intervals, 1, 1024)?;
         count("solar_samples", self.solar_irradiance.len(), 2, 16384)?;
-        count("metadata_length", self.metadata.len(), 0, u32::MAX as usize)
+        count("metadata_length", self.metadata.len(), 0, u32::MAX as usize)?;
+        // A few bytes of factors must not make a reader allocate gigabytes.
+        let shape = self.shape();
+        let table = (shape.up + shape.down) * shape.phi * shape.channels;
+        count("table of a sky", table, 1, MAX_TABLE)
     }
 
     fn check_lengths(&self) -> Result<()> {

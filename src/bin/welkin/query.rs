@@ -30,17 +30,33 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
+    let input = input(options)?;
+    let (rows, failures) = answer(&model, options.clamp, input, io::stdout().lock())?;
+    if options.strict && failures > 0 {
+        let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
+        return Err(Failure::message(text));
+    }
+    Ok(())
+}
+
+/// Answers a table; returns how many rows it has and how many of them failed.
+pub fn answer(
+    model: &Model,
+    clamp: bool,
+    input: impl Read,
+    output: impl io::Write,
+) -> Result<(u64, u64)> {
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .trim(csv::Trim::All)
-        .from_reader(input(options)?);
+        .from_reader(input);
     let header = reader.byte_headers().map_err(unreadable)?.clone();
     let columns = Columns::find(&header)?;
-    let mut writer = csv::Writer::from_writer(io::stdout().lock());
+    let mut writer = csv::Writer::from_writer(output);
     write_row(&mut writer, &header, header.len(), "value", "error")?;
     let mut answerer = Answerer {
-        model: &model,
-        clamp: options.clamp,
+        model,
+        clamp,
         skies: HashMap::new(),
     };
     let (mut rows, mut failures) = (0u64, 0u64);
@@ -55,11 +71,7 @@ pub fn run(options: &Options) -> Result<()> {
         write_row(&mut writer, &row, header.len(), &value, &error)?;
     }
     writer.flush()?;
-    if options.strict && failures > 0 {
-        let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
-        return Err(Failure::message(text));
-    }
-    Ok(())
+    Ok((rows, failures))
 }
 
 fn input(options: &Options) -> Result<Box<dyn Read>> {
