@@ -1,14 +1,16 @@
 //! From CIE XYZ to linear sRGB.
 
+pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
+    [3.240_97, -1.537_383_2, -0.498_610_76],
+    [-0.969_243_65, 1.875_967_5, 0.041_555_06],
+    [0.055_630_08, -0.203_976_96, 1.056_971_5],
+];
+
 /// Converts CIE 1931 XYZ to linear sRGB (IEC 61966-2-1, D65 white): Y = 1 and the chromaticity of D65 give (1, 1, 1).
 ///
 /// Colours outside the gamut have negative components; deep blue skies do.
 pub fn xyz_to_linear_srgb([x, y, z]: [f32; 3]) -> [f32; 3] {
-    [
-        3.240_97 * x - 1.537_383_2 * y - 0.498_610_76 * z,
-        -0.969_243_65 * x + 1.875_967_5 * y + 0.041_555_06 * z,
-        0.055_630_08 * x - 0.203_976_96 * y + 1.056_971_5 * z,
-    ]
+    XYZ_TO_SRGB.map(|[a, b, c]| a * x + b * y + c * z)
 }
 
 #[cfg(test)]

@@ -47,6 +47,28 @@ impl Conditions {
         Ok(moved)
     }
 
+    /// Unit vector towards the sun's centre.
+    pub fn sun_direction(&self) -> [f64; 3] {
+        direction(self.solar_elevation, self.solar_azimuth)
+    }
+
+    /// The same with another azimuth of the sun.
+    pub(crate) fn with_solar_azimuth(&self, azimuth: f64) -> Result<Self> {
+        if !azimuth.is_finite() {
+            return Err(Error::OutOfRange {
+                parameter: "solar_azimuth",
+                value: azimuth,
+                min: f64::MIN,
+                max: f64::MAX,
+                unit: "rad",
+            });
+        }
+        Ok(Self {
+            solar_azimuth: azimuth,
+            ..*self
+        })
+    }
+
     /// Checks every parameter against the range of `model`; a relative excess of 1e-9 is rounding and gets clamped.
     pub(crate) fn checked(&self, model: &Model) -> Result<Self> {
         let mut checked = *self;
@@ -86,6 +108,13 @@ impl Conditions {
             ),
         ]
     }
+}
+
+/// Unit vector at an elevation and an azimuth, rad.
+pub(crate) fn direction(elevation: f64, azimuth: f64) -> [f64; 3] {
+    let (sine, cosine) = elevation.sin_cos();
+    let (y, x) = azimuth.sin_cos();
+    [cosine * x, cosine * y, sine]
 }
 
 struct Parameter {

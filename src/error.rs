@@ -92,6 +92,13 @@ pub enum Error {
         /// Unit of the three values.
         unit: &'static str,
     },
+    /// No table is large enough for the wanted error.
+    Tolerance {
+        /// The wanted error.
+        expected: f64,
+        /// The error of the largest table.
+        got: f64,
+    },
     /// A direction has length zero or a component that is not finite.
     Direction {
         /// The refused vector.
@@ -113,6 +120,7 @@ impl Error {
             Error::Invalid { .. } => "value",
             Error::MissingChunk { .. } => "missing",
             Error::OutOfRange { .. } => "range",
+            Error::Tolerance { .. } => "tolerance",
             Error::Direction { .. } => "direction",
         }
     }
@@ -187,6 +195,10 @@ impl fmt::Display for Error {
                 f,
                 "{parameter} must be in {min}..={max}{}{unit}, got {value}",
                 if unit.is_empty() { "" } else { " " }
+            ),
+            Error::Tolerance { expected, got } => write!(
+                f,
+                "the largest table has an error of {got}, wanted at most {expected}: allow more"
             ),
             Error::Direction { got: [x, y, z] } => write!(
                 f,

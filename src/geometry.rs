@@ -46,6 +46,22 @@ impl Planet {
         self.ray_with_dip(altitude, self.dip(altitude), elevation, elevation.sin())
     }
 
+    /// The ray at `angle` (rad, ≥ 0) from the geometric horizon on the given side of it.
+    pub fn ray_beside_horizon(&self, altitude: f64, side: Side, angle: f64) -> Ray {
+        let dip = self.dip(altitude);
+        let (sign, range) = match side {
+            Side::Up => (1.0, FRAC_PI_2 + dip),
+            Side::Down => (-1.0, FRAC_PI_2 - dip),
+        };
+        let angle = angle.clamp(0.0, range);
+        Ray {
+            side,
+            angle,
+            range,
+            length: self.length(altitude, (sign * angle - dip).sin(), side),
+        }
+    }
+
     /// [`Planet::ray`] for callers who know the dip of the horizon and the sine of the elevation.
     #[inline]
     pub fn ray_with_dip(&self, altitude: f64, dip: f64, elevation: f64, sine: f64) -> Ray {

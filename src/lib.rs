@@ -33,11 +33,13 @@
 //! builds the command `welkin`.
 
 pub mod axis;
+mod baked;
 mod colour;
 mod conditions;
 mod error;
 pub mod format;
 pub mod geometry;
+mod lanes;
 mod math;
 mod model;
 mod phase;
@@ -48,6 +50,7 @@ mod spectrum;
 mod store;
 mod tables;
 
+pub use baked::{BakeError, BakedColour, BakedSky, Directions};
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};

@@ -16,20 +16,18 @@ fn split_exp(x: f32) -> (f32, f32) {
     let power = f32::from_bits(exponent.wrapping_add(127) << 23);
     let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
     // Taylor series of (e^r − 1)/r; at |r| ≤ ln 2 / 2 the rest is below 6e-9.
-    let q = 1.0 / 5040.0;
-    let q = q * r + 1.0 / 720.0;
-    let q = q * r + 1.0 / 120.0;
-    let q = q * r + 1.0 / 24.0;
-    let q = q * r + 1.0 / 6.0;
-    let q = q * r + 0.5;
-    let q = q * r + 1.0;
-    (power, power * r * q)
+    // In pairs, for short chains of operations.
+    let r2 = r * r;
+    let low = (1.0 + r * 0.5) + r2 * (1.0 / 6.0 + r * (1.0 / 24.0));
+    let high = (1.0 / 120.0 + r * (1.0 / 720.0)) + r2 * (1.0 / 5040.0);
+    (power, power * r * (low + r2 * r2 * high))
 }
 
 /// `x` in `low..=high`; unlike `clamp`, NaN becomes `low`.
 #[inline(always)]
 pub(crate) fn bound(x: f32, low: f32, high: f32) -> f32 {
-    x.max(low).min(high)
+    let x = if x > low { x } else { low };
+    if x < high { x } else { high }
 }
 
 /// e^x with a relative error below 2e-7; x is clamped to −87..=88, NaN counts as −87.
@@ -39,11 +37,49 @@ pub(crate) fn exp(x: f32) -> f32 {
     power + rest
 }
 
+/// 2^x with a relative error below 3e-7; x is clamped to −126..=127, NaN counts as −126.
+#[inline(always)]
+pub(crate) fn exp2(x: f32) -> f32 {
+    // As in `split_exp`.
+    const ROUND: f32 = 12_582_912.0;
+    let x = bound(x, -126.0, 127.0);
+    let shifted = x + ROUND;
+    let r = x - (shifted - ROUND);
+    let exponent = shifted.to_bits().wrapping_sub(ROUND.to_bits());
+    let power = f32::from_bits(exponent.wrapping_add(127) << 23);
+    // Least largest error of 2^r on −1/2..=1/2: 9e-8.
+    let r2 = r * r;
+    let low = core::f32::consts::LN_2 + r * 0.240_222_42;
+    let high = (0.055_507_337 + r * 0.009_671_513) + r2 * 0.001_326_472_7;
+    power + power * r * (low + r2 * high)
+}
+
+/// log2 x with an absolute error below 2e-7 and as much relative to the result; x is a positive normal number.
+#[inline(always)]
+pub(crate) fn log2(x: f32) -> f32 {
+    // The bits of √½ make the mantissa 0.7..1.4.
+    let bits = x.to_bits().wrapping_sub(0x3f35_04f3);
+    let exponent = (bits as i32 >> 23) as f32;
+    let mantissa = f32::from_bits((bits & 0x007f_ffff) + 0x3f35_04f3);
+    // 2/ln 2 · artanh s.
+    let s = (mantissa - 1.0) / (mantissa + 1.0);
+    let s2 = s * s;
+    let series =
+        2.885_39 + s2 * (0.961_796_7 + s2 * (0.577_078 + s2 * (0.412_198_6 + s2 * 0.320_6)));
+    exponent + s * series
+}
+
 /// 1 − e^−x with a relative error below 4e-7, for x ≥ 0 (clamped to 0..=87, NaN counts as 87).
 #[inline(always)]
 pub(crate) fn one_minus_exp_neg(x: f32) -> f32 {
     let (power, rest) = split_exp(bound(-x, -87.0, 0.0));
     (1.0 - power) - rest
+}
+
+/// √x.
+#[inline(always)]
+pub(crate) fn sqrt(x: f32) -> f32 {
+    x.sqrt()
 }
 
 #[cfg(test)]
@@ -56,6 +92,19 @@ mod tests {
             let x = k as f32 * 1e-3;
             let truth = f64::from(x).exp();
             assert!((f64::from(exp(x)) / truth - 1.0).abs() < 2e-7, "{x}");
+        }
+        for k in -12_599..=12_699 {
+            let x = k as f32 * 1e-2;
+            let truth = f64::from(x).exp2();
+            assert!((f64::from(exp2(x)) / truth - 1.0).abs() < 3e-7, "{x}");
+        }
+        for k in 0..100_000 {
+            let x = (k as f32 * 1.7e-3 - 85.0).exp();
+            let truth = f64::from(x).log2();
+            assert!(
+                (f64::from(log2(x)) - truth).abs() < 2e-7 * (1.0 + truth.abs()),
+                "{x}"
+            );
         }
         for k in 0..100_000 {
             let x = (k as f32 * 3e-4 - 25.0).exp();

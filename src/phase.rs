@@ -16,11 +16,20 @@ impl SunAngle {
     /// Between two unit vectors.
     pub fn between(a: [f64; 3], b: [f64; 3]) -> Self {
         // Half the squared chord: exact where 1 − a·b cancels.
-        let versine = 0.5 * (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>();
+        Self::from_versine(0.5 * (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>())
+    }
+
+    /// From 1 − cos γ.
+    pub fn from_versine(versine: f64) -> Self {
         Self {
             cosine_squared: (1.0 - versine).powi(2) as f32,
             versine: versine as f32,
         }
+    }
+
+    /// sin(γ/2).
+    pub fn half_sine(self) -> f32 {
+        (0.5 * self.versine).max(0.0).sqrt().min(1.0)
     }
 }
 
@@ -120,10 +129,7 @@ mod tests {
             let n = 20_000;
             let mean = (0..n)
                 .map(|i| 2.0 * (f64::from(i) + 0.5) / f64::from(n))
-                .map(|versine| SunAngle {
-                    cosine_squared: (1.0 - versine).powi(2) as f32,
-                    versine: versine as f32,
-                })
+                .map(SunAngle::from_versine)
                 .map(|angle| f64::from(table.evaluate(0, angle)[0]))
                 .sum::<f64>()
                 / f64::from(n);

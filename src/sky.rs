@@ -4,11 +4,11 @@ use crate::colour::xyz_to_linear_srgb;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
-use crate::geometry::Planet;
+use crate::geometry::{Planet, Ray, Side};
 use crate::math::{LANES, bound};
 use crate::phase::SunAngle;
 use crate::spectrum;
-use crate::tables::{Lookup, Tables};
+use crate::tables::{Lookup, Row, Tables, azimuth};
 
 /// Most wavelengths that a file can have.
 const MOST_WAVELENGTHS: usize = 256;
@@ -38,7 +38,7 @@ pub struct Sky {
 impl Sky {
     pub(crate) fn new(head: &Head, conditions: Conditions, tables: Tables) -> Self {
         Self {
-            sun: direction(conditions.solar_elevation, conditions.solar_azimuth),
+            sun: conditions.sun_direction(),
             azimuth: conditions.solar_azimuth.sin_cos(),
             dip: head.planet.dip(conditions.altitude),
             planet: head.planet,
@@ -61,18 +61,9 @@ impl Sky {
     /// # Errors
     /// [`Error::OutOfRange`] if the azimuth is not finite.
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
-        if !azimuth.is_finite() {
-            return Err(Error::OutOfRange {
-                parameter: "solar_azimuth",
-                value: azimuth,
-                min: f64::MIN,
-                max: f64::MAX,
-                unit: "rad",
-            });
-        }
-        self.conditions.solar_azimuth = azimuth;
+        self.conditions = self.conditions.with_solar_azimuth(azimuth)?;
         self.azimuth = azimuth.sin_cos();
-        self.sun = direction(self.conditions.solar_elevation, azimuth);
+        self.sun = self.conditions.sun_direction();
         Ok(())
     }
 
@@ -183,6 +174,62 @@ impl Sky {
         Ok(xyz_to_linear_srgb(self.xyz(direction)?).map(finite))
     }
 
+    /// Solar irradiance at the wavelengths, in blocks of `N`, W m⁻² nm⁻¹.
+    pub(crate) fn irradiance<const N: usize>(&self) -> impl Iterator<Item = [f32; N]> {
+        let value = |l: &f64| self.solar_irradiance(*l) as f32;
+        let lane = move |block: &[f64], i: usize| block.get(i).map_or(0.0, value);
+        let blocks = self.wavelengths.chunks(N);
+        blocks.map(move |block| core::array::from_fn(|i| lane(block, i)))
+    }
+
+    /// Solar irradiance, W m⁻² nm⁻¹, with the wavelength of the first sample and the step, nm.
+    pub(crate) fn solar_spectrum(&self) -> (&[f32], [f64; 2]) {
+        (&self.solar, self.solar_axis)
+    }
+
+    /// CIE XYZ of a spectrum of relative radiance.
+    #[inline(always)]
+    pub(crate) fn project_xyz(&self, radiance: &[f32]) -> [f32; 3] {
+        let mut sums = [0.0; 3];
+        for (block, radiance) in self.tables.xyz.iter().zip(radiance.chunks(LANES)) {
+            for (sum, weight) in sums.iter_mut().zip(block) {
+                *sum += radiance.iter().zip(weight).map(|(l, w)| l * w).sum::<f32>();
+            }
+        }
+        sums
+    }
+
+    /// Angle of the geometric horizon below the horizontal, rad.
+    pub(crate) fn dip(&self) -> f64 {
+        self.dip
+    }
+
+    pub(crate) fn planet(&self) -> Planet {
+        self.planet
+    }
+
+    /// Horizontal and vertical component of the unit vector along a ray.
+    pub(crate) fn cylinder(&self, ray: &Ray) -> (f64, f64) {
+        let elevation = match ray.side {
+            Side::Up => ray.angle - self.dip,
+            Side::Down => -ray.angle - self.dip,
+        };
+        (elevation.cos(), elevation.sin())
+    }
+
+    /// All azimuths at the angle of a ray from the horizon.
+    pub(crate) fn row(&self, ray: &Ray) -> Row {
+        self.tables.row(ray)
+    }
+
+    /// Relative radiance in a row at the azimuth `phi` (0..=π from the sun), with the phase functions taken at `angle`.
+    #[inline(always)]
+    pub(crate) fn relative_in(&self, row: &Row, phi: f64, angle: SunAngle, out: &mut [f32]) {
+        let phi = azimuth(phi, self.phi_intervals);
+        let store = |block, radiance| store(out, block, radiance);
+        self.tables.radiance_in(row, &phi, angle, store);
+    }
+
     fn relative_at(&self, direction: [f32; 3], wavelength: f64) -> Result<f64> {
         let nodes = self.wavelengths.as_slice();
         let [min, max] = [nodes[0], nodes[nodes.len() - 1]];
@@ -272,12 +319,6 @@ fn check_length(got: usize, expected: usize) -> Result<()> {
         expected: expected as u64,
         got: got as u64,
     })
-}
-
-fn direction(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let (sine, cosine) = elevation.sin_cos();
-    let (y, x) = azimuth.sin_cos();
-    [cosine * x, cosine * y, sine]
 }
 
 /// Absurd tables can overflow; the result stays a number.

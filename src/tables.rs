@@ -128,6 +128,20 @@ pub(crate) struct Tables {
     pub xyz: Vec<[[f32; LANES]; 3]>,
 }
 
+/// One angle from the horizon, with the azimuth left open.
+pub(crate) struct Row {
+    /// `[phi][cell]`.
+    cells: Vec<Cell>,
+    depth: [f32; MOST],
+}
+
+/// The place of an azimuth from the sun, 0..=π.
+#[inline(always)]
+pub(crate) fn azimuth(phi: f64, intervals: usize) -> Taps {
+    let u = intervals as f64 * phi / core::f64::consts::PI;
+    spline(u, intervals, Ends::Mirrored)
+}
+
 /// One direction, looked up: what all wavelengths share.
 pub(crate) struct Lookup<'a> {
     side: &'a SideTable,
@@ -142,18 +156,8 @@ impl Tables {
     /// Finds the coefficients for a ray with the azimuth `phi` (0..=π from the sun).
     #[inline(always)]
     pub fn lookup(&self, ray: &Ray, phi: f64, phi_intervals: usize, angle: SunAngle) -> Lookup<'_> {
-        let side = match ray.side {
-            Side::Up => &self.up,
-            Side::Down => &self.down,
-        };
-        let AlphaAxis {
-            intervals,
-            exponent,
-        } = side.axis;
-        let u = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
-        let alpha = spline(u, intervals, Ends::Free);
-        let u = phi_intervals as f64 * phi / core::f64::consts::PI;
-        let phi = spline(u, phi_intervals, Ends::Mirrored);
+        let (side, alpha) = self.alpha(ray);
+        let phi = azimuth(phi, phi_intervals);
         let stride = side.phi_coefficients * side.cells;
         let rows: [usize; 4] = core::array::from_fn(|k| alpha.index[k] * stride);
         let columns: [usize; 4] = core::array::from_fn(|k| phi.index[k] * side.cells);
@@ -166,6 +170,64 @@ impl Tables {
         }
     }
 
+    /// The side of a ray and its place there.
+    #[inline(always)]
+    fn alpha(&self, ray: &Ray) -> (&SideTable, Taps) {
+        let side = match ray.side {
+            Side::Up => &self.up,
+            Side::Down => &self.down,
+        };
+        let AlphaAxis {
+            intervals,
+            exponent,
+        } = side.axis;
+        let u = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
+        (side, spline(u, intervals, Ends::Free))
+    }
+
+    /// All azimuths at the angle of `ray` from the horizon.
+    pub fn row(&self, ray: &Ray) -> Row {
+        let (side, alpha) = self.alpha(ray);
+        let stride = side.phi_coefficients * side.cells;
+        let mut cells = vec![Cell::ZERO; stride];
+        for (index, weight) in alpha.index.into_iter().zip(alpha.weight) {
+            let row = &side.radiance[index * stride..(index + 1) * stride];
+            cells
+                .iter_mut()
+                .zip(row)
+                .for_each(|(sum, cell)| sum.add(weight, cell));
+        }
+        Row {
+            cells,
+            depth: side.depths(&alpha, ray.length),
+        }
+    }
+
+    /// As [`Tables::radiance`], for a direction in a row.
+    #[inline(always)]
+    pub fn radiance_in(
+        &self,
+        row: &Row,
+        phi: &Taps,
+        angle: SunAngle,
+        mut emit: impl FnMut(usize, [f32; LANES]),
+    ) {
+        let cells = self.layout.cells();
+        for block in 0..self.layout.blocks {
+            let mut sum = [0.0; LANES];
+            for quad in 0..self.layout.quads {
+                let mut cell = Cell::ZERO;
+                for (index, weight) in phi.index.into_iter().zip(phi.weight) {
+                    let place = index * cells + block * self.layout.quads + quad;
+                    cell.add(weight, &row.cells[place]);
+                }
+                let fields = self.fields(angle, quad, block, &cell);
+                sum = core::array::from_fn(|i| sum[i] + fields[i]);
+            }
+            emit(block, self.finish(&row.depth, block, sum));
+        }
+    }
+
     /// Relative radiance (sr⁻¹), finite and not negative, handed to `emit` block by block of wavelengths.
     #[inline(always)]
     pub fn radiance(&self, lookup: &Lookup, mut emit: impl FnMut(usize, [f32; LANES])) {
@@ -175,8 +237,8 @@ impl Tables {
             while block + 3 <= self.layout.blocks {
                 let cells = lookup.gather::<3>(block);
                 for (i, cell) in cells.iter().enumerate() {
-                    let fields = self.fields(lookup, 0, block + i, cell);
-                    emit(block + i, self.finish(lookup, block + i, fields));
+                    let fields = self.fields(lookup.angle, 0, block + i, cell);
+                    emit(block + i, self.finish(&lookup.depth, block + i, fields));
                 }
                 block += 3;
             }
@@ -185,29 +247,29 @@ impl Tables {
             let mut sum = [0.0; LANES];
             for quad in 0..self.layout.quads {
                 let [cell] = lookup.gather(block * self.layout.quads + quad);
-                let fields = self.fields(lookup, quad, block, &cell);
+                let fields = self.fields(lookup.angle, quad, block, &cell);
                 sum = core::array::from_fn(|i| sum[i] + fields[i]);
             }
-            emit(block, self.finish(lookup, block, sum));
+            emit(block, self.finish(&lookup.depth, block, sum));
             block += 1;
         }
     }
 
     /// Sum of the fields of a quad, each times its phase function.
     #[inline(always)]
-    fn fields(&self, lookup: &Lookup, quad: usize, block: usize, cell: &Cell) -> [f32; LANES] {
+    fn fields(&self, angle: SunAngle, quad: usize, block: usize, cell: &Cell) -> [f32; LANES] {
         let mut sum = [0.0; LANES];
         let phases = self.phases[quad * QUAD..].iter().take(QUAD);
         for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
-            let phase = phase.evaluate(block, lookup.angle);
+            let phase = phase.evaluate(block, angle);
             sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i]);
         }
         sum
     }
 
     #[inline(always)]
-    fn finish(&self, lookup: &Lookup, block: usize, sum: [f32; LANES]) -> [f32; LANES] {
-        let opacity = self.opacity(lookup, block);
+    fn finish(&self, depth: &[f32; MOST], block: usize, sum: [f32; LANES]) -> [f32; LANES] {
+        let opacity = self.opacity(depth, block);
         let scale = &self.scale[block];
         // Only absurd tables can make these bounds count.
         core::array::from_fn(|i| bound(opacity[i] * scale[i] * sum[i].max(0.0), 0.0, f32::MAX))
@@ -215,10 +277,10 @@ impl Tables {
 
     /// 1 − T.
     #[inline(always)]
-    fn opacity(&self, lookup: &Lookup, block: usize) -> [f32; LANES] {
+    fn opacity(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
         let mut depth = [0.0; LANES];
         let rows = self.extinction.chunks_exact(self.layout.blocks);
-        for (row, length) in rows.zip(lookup.depth) {
+        for (row, length) in rows.zip(lengths) {
             for i in 0..LANES {
                 depth[i] += row[block][i] * length;
             }

@@ -5,6 +5,8 @@ mod common;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+#[cfg(feature = "default-model")]
+use welkin::{BakedSky, Directions};
 use welkin::{Conditions, Model};
 
 struct Counting;
@@ -56,5 +58,40 @@ fn queries_do_not_allocate() {
     let _ = sky.radiance_batch(&directions[..3], &mut batch);
     let _ = sky.xyz_batch(&directions[..3], &mut xyz);
     let _ = sky.set_solar_azimuth(2.0);
+    assert_eq!(COUNT.get(), before);
+}
+
+#[test]
+#[cfg(feature = "default-model")]
+fn baked_queries_do_not_allocate() {
+    let model = Model::default_model().unwrap();
+    let sky = model.sky(&Conditions::default()).unwrap();
+    let mut baked = sky.bake(BakedSky::TOLERANCE).unwrap();
+    let mut colour = sky.bake_colour(BakedSky::TOLERANCE).unwrap();
+    let n = baked.wavelengths().len();
+    let mut out = vec![0.0; 19 * n];
+    let mut rgb = [[0.0; 3]; 19];
+    let component: Vec<f32> = (0..19).map(|i| (i as f32).sin()).collect();
+    let directions = Directions {
+        x: &component,
+        y: &component,
+        z: &component,
+    };
+    let before = COUNT.get();
+    let _ = baked.radiance_batch(&directions, &mut out);
+    let _ = colour.linear_srgb_batch(&directions, &mut rgb);
+    let _ = colour.xyz_batch(&directions, &mut rgb);
+    for direction in [
+        [0.1, 0.2, 0.3],
+        [0.0, 0.0, -1.0],
+        [1e-40, 0.0, 0.0],
+        [0.0; 3],
+    ] {
+        let _ = baked.radiance(direction, &mut out[..n]);
+        let _ = colour.linear_srgb(direction);
+        let _ = colour.xyz(direction);
+    }
+    let _ = baked.set_solar_azimuth(2.0);
+    let _ = colour.set_solar_azimuth(2.0);
     assert_eq!(COUNT.get(), before);
 }

@@ -1,0 +1,184 @@
+//! Many directions at once.
+
+use super::frame::{Frame, prepared};
+use super::simd::Kernel;
+use super::table::{Spots, Table};
+use crate::error::{Error, Result};
+use crate::lanes::Lanes;
+
+/// Directions as a structure of arrays of equal length. They need not be normalised.
+#[derive(Clone, Copy, Debug)]
+pub struct Directions<'a> {
+    /// Components along x.
+    pub x: &'a [f32],
+    /// Components along y.
+    pub y: &'a [f32],
+    /// Components along z, up.
+    pub z: &'a [f32],
+}
+
+impl Directions<'_> {
+    /// Number of directions.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        check_length("y of directions", self.y.len(), self.len())?;
+        check_length("z of directions", self.z.len(), self.len())
+    }
+}
+
+pub(super) fn check_length(what: &'static str, got: usize, expected: usize) -> Result<()> {
+    if got == expected {
+        return Ok(());
+    }
+    Err(Error::Length {
+        what,
+        expected: expected as u64,
+        got: got as u64,
+    })
+}
+
+/// Directions that are located together.
+const WIDTH: usize = 8;
+
+/// Where results go.
+pub(super) trait Sink<const N: usize> {
+    /// Takes the first `count` directions of a group, of which the first has this index. Must be `#[inline(always)]`.
+    fn put<const W: usize>(
+        &mut self,
+        index: usize,
+        count: usize,
+        table: &Table<N>,
+        spots: &Spots<W>,
+    );
+}
+
+/// Looks up directions until one is bad.
+pub(super) struct Each<'a, const N: usize, S> {
+    pub frame: &'a Frame,
+    pub table: &'a Table<N>,
+    pub directions: Directions<'a>,
+    pub sink: S,
+}
+
+impl<const N: usize, S: Sink<N>> Kernel for Each<'_, N, S> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run(mut self) -> Result<()> {
+        let x = self.directions.x.as_chunks();
+        let y = self.directions.y.as_chunks();
+        let z = self.directions.z.as_chunks();
+        let mut first = 0;
+        for ((&x, &y), &z) in x.0.iter().zip(y.0).zip(z.0) {
+            self.group(first, WIDTH, [Lanes(x), Lanes(y), Lanes(z)])?;
+            first += WIDTH;
+        }
+        self.group(first, x.1.len(), [pad(x.1), pad(y.1), pad(z.1)])
+    }
+}
+
+/// The last few directions and some that do not matter.
+fn pad(rest: &[f32]) -> Lanes<WIDTH> {
+    let mut lanes = Lanes::splat(1.0);
+    lanes.0[..rest.len()].copy_from_slice(rest);
+    lanes
+}
+
+impl<const N: usize, S: Sink<N>> Each<'_, N, S> {
+    #[inline(always)]
+    fn group(&mut self, first: usize, count: usize, d: [Lanes<WIDTH>; 3]) -> Result<()> {
+        let Some(prepared) = prepared(d) else {
+            return Err(Error::Direction { got: unsound(d) });
+        };
+        let spots = self.table.spots(self.frame.locate(prepared));
+        self.sink.put(first, count, self.table, &spots);
+        Ok(())
+    }
+}
+
+/// Looks up one direction.
+pub(super) struct One<'a, const N: usize, S> {
+    pub frame: &'a Frame,
+    pub table: &'a Table<N>,
+    pub direction: [f32; 3],
+    pub sink: S,
+}
+
+impl<const N: usize, S: Sink<N>> Kernel for One<'_, N, S> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run(mut self) -> Result<()> {
+        // Four times the same costs no more than once, and vectors choose without branches.
+        let [x, y, z] = self.direction;
+        let direction = [Lanes::<4>::splat(x), Lanes::splat(y), Lanes::splat(z)];
+        let Some(prepared) = prepared(direction) else {
+            return Err(Error::Direction {
+                got: self.direction,
+            });
+        };
+        let spots = self.table.spots(self.frame.locate(prepared));
+        self.sink.put(0, 1, self.table, &spots);
+        Ok(())
+    }
+}
+
+/// The first vector without a direction.
+#[cold]
+fn unsound(d: [Lanes<WIDTH>; 3]) -> [f32; 3] {
+    let vector = |i: usize| d.map(|component| component.0[i]);
+    let bad = |v: &[f32; 3]| prepared(v.map(|c| Lanes([c]))).is_none();
+    (0..WIDTH).map(vector).find(bad).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::simd::dispatch;
+    use super::super::{Baked, BakedSky};
+    use super::*;
+    use crate::{Conditions, Model};
+
+    struct Values(Vec<[f32; 16]>);
+
+    impl Sink<16> for &mut Values {
+        #[inline(always)]
+        fn put<const W: usize>(&mut self, _: usize, n: usize, table: &Table<16>, spots: &Spots<W>) {
+            self.0.extend((0..n).map(|i| table.value(spots, i, 0).0));
+        }
+    }
+
+    #[test]
+    #[cfg(feature = "default-model")]
+    fn narrow_and_wide_vectors_give_the_same_bits() {
+        let model = Model::default_model().unwrap();
+        let sky = model.sky(&Conditions::default()).unwrap();
+        let BakedSky { baked, .. } = sky.bake(BakedSky::TOLERANCE).unwrap();
+        let Baked { frame, table, .. } = &baked;
+        let wave = |k: f32| (0..1003).map(move |i| (k * i as f32 + 1.0).sin()).collect();
+        let [x, y, z]: [Vec<f32>; 3] = [0.7, 1.1, 0.9].map(wave);
+        let directions = Directions {
+            x: &x,
+            y: &y,
+            z: &z,
+        };
+        let each = |sink| Each {
+            frame,
+            table,
+            directions,
+            sink,
+        };
+        let [mut narrow, mut wide] = [Values(Vec::new()), Values(Vec::new())];
+        each(&mut narrow).run().unwrap();
+        dispatch(each(&mut wide)).unwrap();
+        assert_eq!(narrow.0, wide.0);
+        assert_eq!(wide.0.len(), 1003);
+    }
+}

@@ -1,0 +1,161 @@
+//! From directions to the coordinates of baked tables: single precision, no branches and nothing but roots and
+//! quotients.
+
+use crate::conditions::Conditions;
+use crate::lanes::Lanes;
+use crate::sky::Sky;
+
+/// What directions are measured against.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    /// Unit vector towards the sun.
+    sun: [f32; 3],
+    /// Cosine and sine of the sun's azimuth.
+    azimuth: [f32; 2],
+    /// z of unit vectors that meet the geometric horizon, ≤ 0.
+    horizon: f32,
+    /// Distance from the planet's centre over [`opaque_length`].
+    radius: f32,
+}
+
+/// Directions in the coordinates of the tables; all but `side` are 0..=1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Points<const N: usize> {
+    /// ≥ 0 where the ray ends in space.
+    pub side: Lanes<N>,
+    /// Warped distance from the geometric horizon.
+    pub height: Lanes<N>,
+    /// sin(φ/2), φ the azimuth from the sun.
+    pub azimuth: Lanes<N>,
+    /// sin(γ/2), γ the angle from the sun.
+    pub sun: Lanes<N>,
+    /// What the radiance is divided by: about the opacity of the air before the ground, 1 where the ray ends in space.
+    pub opacity: Lanes<N>,
+}
+
+/// Length of air at the ground with an optical depth of 1 at 550 nm, m.
+pub(crate) fn opaque_length(conditions: &Conditions) -> f64 {
+    conditions.visibility / 3.912
+}
+
+/// Scales vectors by powers of two, if need be, so that their squares neither over- nor underflow; `None` if one is
+/// zero or not finite.
+#[inline(always)]
+pub(crate) fn prepared<const N: usize>(vector: [Lanes<N>; 3]) -> Option<[Lanes<N>; 3]> {
+    // Bits order magnitudes like numbers, with infinity and NaN at the end; in integers this stays free of branches.
+    const SMALL: u32 = 67 << 23; // 2^-60
+    const LARGE: u32 = 187 << 23; // 2^60
+    let mut furthest = 0;
+    for i in 0..N {
+        furthest = furthest.max(largest(vector, i).wrapping_sub(SMALL));
+    }
+    if furthest < LARGE - SMALL {
+        return Some(vector);
+    }
+    scaled(vector)
+}
+
+/// Bits of the largest magnitude in lane `i`.
+#[inline(always)]
+fn largest<const N: usize>([x, y, z]: [Lanes<N>; 3], i: usize) -> u32 {
+    let magnitude = |v: Lanes<N>| v.0[i].to_bits() & !(1 << 31);
+    magnitude(x).max(magnitude(y)).max(magnitude(z))
+}
+
+#[cold]
+fn scaled<const N: usize>(vector: [Lanes<N>; 3]) -> Option<[Lanes<N>; 3]> {
+    let mut scaled = vector;
+    for i in 0..N {
+        let factor = match largest(vector, i) >> 23 {
+            255 => return None,
+            187.. => 2f32.powi(-66),
+            67.. => 1.0,
+            _ if largest(vector, i) == 0 => return None,
+            _ => 2f32.powi(90),
+        };
+        for component in &mut scaled {
+            component.0[i] *= factor;
+        }
+    }
+    Some(scaled)
+}
+
+impl Frame {
+    pub fn new(sky: &Sky) -> Self {
+        let conditions = sky.conditions();
+        let centre = sky.planet().radius + conditions.altitude;
+        let mut frame = Self {
+            sun: [0.0; 3],
+            azimuth: [0.0; 2],
+            horizon: -sky.dip().sin() as f32,
+            radius: (centre / opaque_length(conditions)) as f32,
+        };
+        frame.turn(conditions);
+        frame
+    }
+
+    /// Follows the azimuth of the sun.
+    pub fn turn(&mut self, conditions: &Conditions) {
+        self.sun = conditions.sun_direction().map(|v| v as f32);
+        let (sine, cosine) = conditions.solar_azimuth.sin_cos();
+        self.azimuth = [cosine as f32, sine as f32];
+    }
+
+    /// Locates [`prepared`] directions of any length.
+    #[inline(always)]
+    pub fn locate<const N: usize>(&self, [x, y, z]: [Lanes<N>; 3]) -> Points<N> {
+        let horizontal_square = x * x + y * y;
+        let length = (horizontal_square + z * z).sqrt();
+        let unit = [x / length, y / length, z / length];
+        let side = unit[2] - self.horizon;
+        Points {
+            side,
+            height: self.height(unit[2], side),
+            azimuth: self.half_azimuth(x, y, horizontal_square),
+            sun: self.half_angle(unit),
+            opacity: self.opacity(unit[2], side),
+        }
+    }
+
+    /// With t the share of the way in z from the horizon to the pole: √(1 − √(1 − t)). Near the horizon it goes with
+    /// the root of the angle, near the pole with the angle. Cancellation costs 3e-4 at most.
+    #[inline(always)]
+    fn height<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> Lanes<N> {
+        let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
+        let sign = side.at_least(0.0, one, -one);
+        let above = Lanes::splat(1.0 / (1.0 - self.horizon));
+        let below = Lanes::splat(1.0 / (1.0 + self.horizon));
+        let shrink = side.at_least(0.0, above, below);
+        let rest = ((one - sign * z) * shrink).max(zero).min(one);
+        (one - rest.sqrt()).sqrt()
+    }
+
+    /// d/(d + opaque length), d the way to the ground: z² − z_h² is taken apart, as its terms cancel at the horizon.
+    #[inline(always)]
+    fn opacity<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> Lanes<N> {
+        let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
+        let product = (z + self.horizon) * (z - self.horizon);
+        let root = product.max(zero).sqrt();
+        let length = self.radius * self.horizon * self.horizon;
+        let length = Lanes::splat(length) / (root + z.abs()).max(Lanes::splat(1e-20));
+        // Arithmetic instead of a choice between results keeps branches away.
+        (length + side.at_least(0.0, one, zero)) / (length + one)
+    }
+
+    /// Anything where the direction is vertical: all azimuths meet at the poles.
+    #[inline(always)]
+    fn half_azimuth<const N: usize>(&self, x: Lanes<N>, y: Lanes<N>, square: Lanes<N>) -> Lanes<N> {
+        let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
+        let tiny = Lanes::splat(f32::MIN_POSITIVE);
+        let along = x * self.azimuth[0] + y * self.azimuth[1];
+        let share = along / square.max(tiny).sqrt();
+        (Lanes::splat(0.5) - share * 0.5).max(zero).min(one).sqrt()
+    }
+
+    /// Half the chord: exact where the cosine of the angle is not.
+    #[inline(always)]
+    fn half_angle<const N: usize>(&self, [x, y, z]: [Lanes<N>; 3]) -> Lanes<N> {
+        let [x, y, z] = [x - self.sun[0], y - self.sun[1], z - self.sun[2]];
+        ((x * x + y * y + z * z).sqrt() * 0.5).min(Lanes::splat(1.0))
+    }
+}

@@ -1,0 +1,66 @@
+//! Skies as small tables: a query costs little more than reading them.
+//!
+//! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables
+//! and `quality` chooses their size; `spectral` and `colour` are the public faces.
+#![allow(clippy::needless_range_loop)] // As in `lanes`.
+
+mod bake;
+mod batch;
+mod colour;
+mod frame;
+mod hero;
+mod quality;
+mod simd;
+mod spectral;
+mod spline;
+mod table;
+
+pub use batch::Directions;
+pub use colour::BakedColour;
+pub use quality::BakeError;
+pub use spectral::BakedSky;
+
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::sky::Sky;
+use bake::Channels;
+use frame::Frame;
+use table::Table;
+
+/// What baked skies have in common.
+#[derive(Clone, Debug)]
+struct Baked<const N: usize> {
+    conditions: Conditions,
+    frame: Frame,
+    table: Table<N>,
+    error: BakeError,
+}
+
+impl<const N: usize> Baked<N> {
+    fn new<C: Channels<N>>(sky: &Sky, channels: &C, tolerance: f64) -> Result<Self> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(Error::OutOfRange {
+                parameter: "tolerance",
+                value: tolerance,
+                min: f64::MIN_POSITIVE,
+                max: f64::MAX,
+                unit: "",
+            });
+        }
+        let frame = Frame::new(sky);
+        let (table, error) = quality::bake(sky, channels, &frame, tolerance)?;
+        Ok(Self {
+            conditions: *sky.conditions(),
+            frame,
+            table,
+            error,
+        })
+    }
+
+    fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        let moved = self.conditions.with_solar_azimuth(azimuth)?;
+        self.conditions = moved;
+        self.frame.turn(&moved);
+        Ok(())
+    }
+}

@@ -1,0 +1,138 @@
+//! The tables of a baked sky and the inner loops over them.
+//!
+//! log2 (radiance / opacity) = bicubic B-spline over (distance from the horizon, azimuth) on each side of the horizon
+//! + cubic B-spline over the angle from the sun, which holds what the phase functions do.
+
+use super::frame::Points;
+use super::spline::{Taps, taps};
+use crate::lanes::Lanes;
+
+/// Intervals of the axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Grid {
+    pub up: u32,
+    pub down: u32,
+    pub azimuth: u32,
+    pub sun: u32,
+}
+
+impl Grid {
+    #[inline(always)]
+    pub fn columns(&self) -> usize {
+        self.azimuth as usize + 3
+    }
+
+    /// Rows above and below the horizon.
+    #[inline(always)]
+    pub fn rows(&self) -> [usize; 2] {
+        [self.up as usize + 3, self.down as usize + 3]
+    }
+
+    /// Cells of the two sides together.
+    #[inline(always)]
+    pub fn cells(&self) -> usize {
+        let [up, down] = self.rows();
+        (up + down) * self.columns()
+    }
+
+    /// Cells over the angle from the sun.
+    #[inline(always)]
+    pub fn envelope_cells(&self) -> usize {
+        self.sun as usize + 3
+    }
+}
+
+/// Tables of some blocks of `N` channels.
+#[derive(Clone, Debug)]
+pub(crate) struct Table<const N: usize> {
+    pub grid: Grid,
+    /// `[block][up rows, then down rows][azimuth]`.
+    pub cells: Vec<Lanes<N>>,
+    /// `[block][sun]`.
+    pub envelope: Vec<Lanes<N>>,
+}
+
+/// Directions, looked up: what all channels share.
+#[derive(Clone, Copy)]
+pub(crate) struct Spots<const W: usize> {
+    first: [u32; W],
+    rows: [Lanes<W>; 4],
+    columns: [Lanes<W>; 4],
+    envelope: Taps<W>,
+    pub opacity: Lanes<W>,
+}
+
+impl<const N: usize> Table<N> {
+    #[inline(always)]
+    pub fn spots<const W: usize>(&self, points: Points<W>) -> Spots<W> {
+        let Grid {
+            up,
+            down,
+            azimuth,
+            sun,
+        } = self.grid;
+        let above = Lanes::splat(up as f32);
+        let intervals = points.side.at_least(0.0, above, Lanes::splat(down as f32));
+        let rows = taps(points.height, intervals);
+        let columns = taps(points.azimuth, Lanes::splat(azimuth as f32));
+        let mut first = [0; W];
+        for i in 0..W {
+            let skipped = if points.side.0[i] >= 0.0 { 0 } else { up + 3 };
+            first[i] = (skipped + rows.first[i]) * (azimuth + 3) + columns.first[i];
+        }
+        Spots {
+            first,
+            rows: rows.weight,
+            columns: columns.weight,
+            envelope: taps(points.sun, Lanes::splat(sun as f32)),
+            opacity: points.opacity,
+        }
+    }
+
+    /// Channels of a block for direction `i`.
+    #[inline(always)]
+    pub fn value<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N> {
+        self.logarithm(spots, i, block).exp2() * spots.opacity.0[i]
+    }
+
+    /// Logarithms of the channels of a block for direction `i`, without the opacity.
+    #[inline(always)]
+    pub fn logarithm<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N> {
+        let mut sum = self.envelope(&spots.envelope, i, block);
+        let first = block * self.grid.cells() + spots.first[i] as usize;
+        let stride = self.grid.columns();
+        for (k, weight) in spots.rows.iter().enumerate() {
+            let row = weighted(&self.cells[first + k * stride..], &spots.columns, i);
+            sum = sum + row * weight.0[i];
+        }
+        sum
+    }
+
+    #[inline(always)]
+    pub fn envelope<const W: usize>(&self, taps: &Taps<W>, i: usize, block: usize) -> Lanes<N> {
+        let first = block * self.grid.envelope_cells() + taps.first[i] as usize;
+        weighted(&self.envelope[first..], &taps.weight, i)
+    }
+
+    #[inline(always)]
+    pub fn blocks(&self) -> usize {
+        self.envelope.len() / self.grid.envelope_cells()
+    }
+
+    /// Bytes on the heap.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.cells.as_slice()) + size_of_val(self.envelope.as_slice())
+    }
+}
+
+/// Sum of the first four cells, weighted for direction `i`.
+#[inline(always)]
+fn weighted<const N: usize, const W: usize>(
+    cells: &[Lanes<N>],
+    weight: &[Lanes<W>; 4],
+    i: usize,
+) -> Lanes<N> {
+    let cells = &cells[..4];
+    let term = |k: usize| cells[k] * weight[k].0[i];
+    (term(0) + term(1)) + (term(2) + term(3))
+}
