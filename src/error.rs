@@ -72,10 +72,10 @@ pub enum Error {
     },
     /// The file lacks a chunk that the conditions need.
     MissingChunk {
-        /// "radiance" or "column".
+        /// "radiance", "column", "polarisation" …
         kind: &'static str,
-        /// Altitude of the chunk, m.
-        altitude: f64,
+        /// Altitude of the chunk, m, if it has one.
+        altitude: Option<f64>,
         /// Visibility of the chunk, m, if it has one.
         visibility: Option<f64>,
     },
@@ -179,7 +179,10 @@ impl fmt::Display for Error {
                 altitude,
                 visibility,
             } => {
-                write!(f, "the file has no {kind} chunk for altitude {altitude} m")?;
+                write!(f, "the file has no {kind} chunk")?;
+                if let Some(altitude) = altitude {
+                    write!(f, " for altitude {altitude} m")?;
+                }
                 if let Some(visibility) = visibility {
                     write!(f, " and visibility {visibility} m")?;
                 }

@@ -43,6 +43,7 @@ mod lanes;
 mod math;
 mod model;
 mod phase;
+mod polarisation;
 mod prepare;
 mod sky;
 mod source;
@@ -57,6 +58,7 @@ pub use error::{Error, Result};
 #[cfg(feature = "default-model")]
 pub use model::DEFAULT_MODEL;
 pub use model::Model;
+pub use polarisation::{Frame, PolarisedSky, Stokes};
 pub use sky::Sky;
 pub use source::ReadAt;
 pub use store::Traffic;

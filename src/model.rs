@@ -6,7 +6,9 @@ use std::path::Path;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::format::{ColumnView, Contents, Entry, Head, Kind, RadianceView};
+use crate::format::{
+    ColumnView, Contents, Entry, Head, Kind, PolarisationBasisView, PolarisationView, RadianceView,
+};
 use crate::sky::Sky;
 use crate::source::ReadAt;
 use crate::store::{Bytes, Store, Traffic};
@@ -197,21 +199,43 @@ impl Model {
         altitude: usize,
         visibility: usize,
     ) -> Result<RadianceView<'_>> {
-        let i = self.find(Kind::Radiance, altitude, Some(visibility))?;
+        let i = self.find(Kind::Radiance, Some(altitude), Some(visibility))?;
         let rank = self.contents.directory[i].rank;
         RadianceView::new(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn column_chunk(&self, altitude: usize) -> Result<ColumnView<'_>> {
-        let i = self.find(Kind::Column, altitude, None)?;
+        let i = self.find(Kind::Column, Some(altitude), None)?;
         ColumnView::new(self.chunk(i)?, &self.head().shape())
     }
 
-    fn find(&self, kind: Kind, altitude: usize, visibility: Option<usize>) -> Result<usize> {
-        let found = self.index.get(&(kind, Some(altitude), visibility));
+    pub(crate) fn polarisation_chunk(
+        &self,
+        altitude: usize,
+        visibility: usize,
+    ) -> Result<PolarisationView<'_>> {
+        let i = self.find(Kind::Polarisation, Some(altitude), Some(visibility))?;
+        let rank = self.contents.directory[i].rank;
+        PolarisationView::new(self.chunk(i)?, &self.head().shape(), rank)
+    }
+
+    pub(crate) fn polarisation_basis(&self) -> Result<PolarisationBasisView<'_>> {
+        let i = self.find(Kind::PolarisationBasis, None, None)?;
+        let rank = self.contents.directory[i].rank;
+        let wavelengths = self.head().wavelengths.len();
+        PolarisationBasisView::new(self.chunk(i)?, &self.head().shape(), wavelengths, rank)
+    }
+
+    fn find(
+        &self,
+        kind: Kind,
+        altitude: Option<usize>,
+        visibility: Option<usize>,
+    ) -> Result<usize> {
+        let found = self.index.get(&(kind, altitude, visibility));
         found.copied().ok_or_else(|| Error::MissingChunk {
             kind: kind.name(),
-            altitude: self.head().altitudes[altitude],
+            altitude: altitude.map(|a| self.head().altitudes[a]),
             visibility: visibility.map(|v| self.head().visibilities[v]),
         })
     }

@@ -76,6 +76,17 @@ impl PhaseTable {
         }
     }
 
+    /// How much of the field is polarised by sin² γ, for one block of wavelengths; `None` for phase functions that do not
+    /// polarise.
+    #[inline(always)]
+    pub fn polarising(&self, block: usize) -> Option<[f32; LANES]> {
+        match self {
+            // The same ¾Δ: the unpolarised part of Rayleigh scattering is isotropic.
+            Self::Quadratic(table) => Some(table[block][1]),
+            Self::HenyeyGreenstein(_) => None,
+        }
+    }
+
     /// Bytes on the heap.
     pub fn bytes(&self) -> usize {
         match self {

@@ -47,15 +47,16 @@ impl Sky {
 }
 
 /// Weights of the nodes around the conditions.
-struct Place {
-    altitudes: Stencil,
-    visibilities: Stencil,
+pub(crate) struct Place {
+    pub altitudes: Stencil,
+    pub visibilities: Stencil,
     visibilities_linear: Stencil,
-    elevation: f64,
+    /// Coordinate on the elevation axis.
+    pub elevation: f64,
 }
 
 impl Place {
-    fn new(head: &Head, conditions: &Conditions) -> Self {
+    pub fn new(head: &Head, conditions: &Conditions) -> Self {
         let visibilities = head.visibility_nodes();
         let x = visibility_node(conditions.visibility);
         Self {
@@ -67,15 +68,21 @@ impl Place {
     }
 
     /// The chunks that the baker asks for.
-    fn keys(&self) -> Vec<Key> {
-        let altitudes = self.altitudes.taps().map(|(a, _)| Some(a));
-        altitudes
-            .flat_map(|a| {
-                let visibilities = self.visibilities.taps().map(|(v, _)| Some(v));
-                let radiance = visibilities.map(move |v| (Kind::Radiance, a, v));
-                radiance.chain([(Kind::Column, a, None)])
-            })
-            .collect()
+    pub fn keys(&self) -> impl Iterator<Item = Key> {
+        let columns = self
+            .altitudes
+            .taps()
+            .map(|(a, _)| (Kind::Column, Some(a), None));
+        self.keys_of(Kind::Radiance).chain(columns)
+    }
+
+    /// The chunks of a kind that has one for every altitude and visibility.
+    pub fn keys_of(&self, kind: Kind) -> impl Iterator<Item = Key> {
+        let altitudes = self.altitudes.taps();
+        altitudes.flat_map(move |(a, _)| {
+            let visibilities = self.visibilities.taps();
+            visibilities.map(move |(v, _)| (kind, Some(a), Some(v)))
+        })
     }
 
     /// A table `[visibility][n]` at the visibility of the sky, linear in 1/V.
@@ -91,13 +98,19 @@ impl Place {
 
     /// What each channel `[field][wavelength]` is multiplied with: the light between ground and sky for ground fields.
     fn fold(&self, head: &Head, albedo: f64) -> Vec<f32> {
+        let ground = self.ground(head, albedo);
+        let factor = |f: &Field, g: f32| if f.ground { g } else { 1.0 };
+        let fields = head.fields.iter();
+        fields
+            .flat_map(|f| ground.iter().map(move |&g| factor(f, g)))
+            .collect()
+    }
+
+    /// What light from the ground is multiplied with at each wavelength: A / (1 − A s).
+    pub fn ground(&self, head: &Head, albedo: f64) -> Vec<f32> {
         let spherical = self.at_visibility(&head.spherical_albedo, head.wavelengths.len());
-        let factor = |ground: bool, s: &f64| match ground {
-            true => (albedo / (1.0 - albedo * s)) as f32,
-            false => 1.0,
-        };
-        let field = |ground: bool| spherical.iter().map(move |s| factor(ground, s));
-        head.fields.iter().flat_map(|f| field(f.ground)).collect()
+        let factor = |s: &f64| (albedo / (1.0 - albedo * s)) as f32;
+        spherical.iter().map(factor).collect()
     }
 
     /// S(e, λ).

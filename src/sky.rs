@@ -11,7 +11,7 @@ use crate::spectrum;
 use crate::tables::{Lookup, Row, Tables, azimuth};
 
 /// Most wavelengths that a file can have.
-const MOST_WAVELENGTHS: usize = 256;
+pub(crate) const MOST_WAVELENGTHS: usize = 256;
 
 /// The clear sky at one set of conditions.
 ///
@@ -267,7 +267,7 @@ impl Sky {
     }
 
     #[inline(always)]
-    fn lookup(&self, direction: [f32; 3]) -> Result<Lookup<'_>> {
+    pub(crate) fn lookup(&self, direction: [f32; 3]) -> Result<Lookup<'_>> {
         // In double precision the square of every single-precision number is normal.
         let [x, y, z] = direction.map(f64::from);
         let horizontal = x * x + y * y;
@@ -287,12 +287,22 @@ impl Sky {
         Ok(self.tables.lookup(&ray, phi, self.phi_intervals, angle))
     }
 
+    pub(crate) fn tables(&self) -> &Tables {
+        &self.tables
+    }
+
+    /// Unit vector towards the sun; sine and cosine of its azimuth.
+    pub(crate) fn sun(&self) -> ([f64; 3], (f64, f64)) {
+        (self.sun, self.azimuth)
+    }
+
     /// 0..=π; 0 where the direction is vertical.
     fn azimuth_from_sun(&self, x: f64, y: f64) -> f64 {
         let (sine, cosine) = self.azimuth;
         let along = x * cosine + y * sine;
         let across = x * sine - y * cosine;
-        across.abs().atan2(along)
+        // The sum turns −0 into 0, of which the arc tangent is 0 and not π.
+        across.abs().atan2(along + 0.0)
     }
 
     fn check_output(&self, out: &[f32], directions: usize) -> Result<()> {
@@ -310,7 +320,7 @@ fn store(out: &mut [f32], block: usize, values: [f32; LANES]) {
     }
 }
 
-fn check_length(got: usize, expected: usize) -> Result<()> {
+pub(crate) fn check_length(got: usize, expected: usize) -> Result<()> {
     if got == expected {
         return Ok(());
     }

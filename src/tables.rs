@@ -50,6 +50,18 @@ impl Layout {
         (cell, group % QUAD * LANES + wavelength % LANES)
     }
 
+    /// Blocks of wavelengths.
+    #[inline(always)]
+    pub fn blocks(&self) -> usize {
+        self.blocks
+    }
+
+    /// First cell of a block of wavelengths in a row.
+    #[inline(always)]
+    pub fn cell(&self, block: usize) -> usize {
+        block * self.quads
+    }
+
     /// Cells in a row.
     pub fn cells(&self) -> usize {
         self.blocks * self.quads
@@ -128,6 +140,16 @@ pub(crate) struct Tables {
     pub xyz: Vec<[[f32; LANES]; 3]>,
 }
 
+/// One block of wavelengths in one direction. Format specification, section 7.5.
+pub(crate) struct Polarisable {
+    /// Relative radiance, sr⁻¹, finite and not negative.
+    pub radiance: [f32; LANES],
+    /// The sum of the fields, each times its phase function.
+    pub sum: [f32; LANES],
+    /// D: what Rayleigh scattering polarises of the fields.
+    pub dipole: [f32; LANES],
+}
+
 /// One angle from the horizon, with the azimuth left open.
 pub(crate) struct Row {
     /// `[phi][cell]`.
@@ -144,6 +166,7 @@ pub(crate) fn azimuth(phi: f64, intervals: usize) -> Taps {
 
 /// One direction, looked up: what all wavelengths share.
 pub(crate) struct Lookup<'a> {
+    up: bool,
     side: &'a SideTable,
     /// First cell of each of the 16 rows.
     row: [usize; 16],
@@ -162,6 +185,7 @@ impl Tables {
         let rows: [usize; 4] = core::array::from_fn(|k| alpha.index[k] * stride);
         let columns: [usize; 4] = core::array::from_fn(|k| phi.index[k] * side.cells);
         Lookup {
+            up: ray.side == Side::Up,
             side,
             row: core::array::from_fn(|t| rows[t / 4] + columns[t % 4]),
             weight: core::array::from_fn(|t| alpha.weight[t / 4] * phi.weight[t % 4]),
@@ -246,7 +270,7 @@ impl Tables {
         while block < self.layout.blocks {
             let mut sum = [0.0; LANES];
             for quad in 0..self.layout.quads {
-                let [cell] = lookup.gather(block * self.layout.quads + quad);
+                let [cell] = lookup.gather(self.layout.cell(block) + quad);
                 let fields = self.fields(lookup.angle, quad, block, &cell);
                 sum = core::array::from_fn(|i| sum[i] + fields[i]);
             }
@@ -265,6 +289,28 @@ impl Tables {
             sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i]);
         }
         sum
+    }
+
+    /// One block of wavelengths, with what polarisation needs.
+    #[inline(always)]
+    pub fn polarisable(&self, lookup: &Lookup, block: usize) -> Polarisable {
+        let (mut sum, mut dipole) = ([0.0; LANES], [0.0; LANES]);
+        for quad in 0..self.layout.quads {
+            let [cell] = lookup.gather(self.layout.cell(block) + quad);
+            let fields = self.fields(lookup.angle, quad, block, &cell);
+            sum = core::array::from_fn(|i| sum[i] + fields[i]);
+            let phases = self.phases[quad * QUAD..].iter().take(QUAD);
+            for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
+                if let Some(strength) = phase.polarising(block) {
+                    dipole = core::array::from_fn(|i| dipole[i] + strength[i] * field[i]);
+                }
+            }
+        }
+        Polarisable {
+            radiance: self.finish(&lookup.depth, block, sum),
+            sum,
+            dipole,
+        }
     }
 
     #[inline(always)]
@@ -311,6 +357,27 @@ impl Tables {
 }
 
 impl Lookup<'_> {
+    /// Which table of a pair the direction is in: the one above the horizon or the one below.
+    #[inline(always)]
+    pub fn is_up(&self) -> bool {
+        self.up
+    }
+
+    /// The weighted sum of the 16 cells that stand beside cell `cell` of the rows in another table.
+    #[inline(always)]
+    pub fn gather_beside<const N: usize, T: AsRef<[f32; N]>>(
+        &self,
+        table: &[T],
+        cell: usize,
+    ) -> [f32; N] {
+        let mut sum = [0.0; N];
+        for (row, weight) in self.row.iter().zip(self.weight) {
+            let values = table[row + cell].as_ref();
+            sum = core::array::from_fn(|i| sum[i] + weight * values[i]);
+        }
+        sum
+    }
+
     /// The weighted sums of the 16 rows in `N` cells.
     #[inline(always)]
     fn gather<const N: usize>(&self, cell: usize) -> [Cell; N] {

@@ -7,7 +7,7 @@ use std::cell::Cell;
 
 #[cfg(feature = "default-model")]
 use welkin::{BakedSky, Directions};
-use welkin::{Conditions, Model};
+use welkin::{Conditions, Frame, Model, Stokes};
 
 struct Counting;
 
@@ -34,10 +34,12 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn queries_do_not_allocate() {
-    let model = Model::from_bytes(common::model_bytes()).unwrap();
+    let model = Model::from_bytes(common::polarised_bytes(0.02)).unwrap();
     let mut sky = model.sky(&Conditions::default()).unwrap();
     assert!(COUNT.get() > 0, "the counter counts");
+    let mut polarised = model.polarised_sky(&Conditions::default()).unwrap();
     let mut out = vec![0.0; sky.wavelengths().len()];
+    let mut stokes = vec![Stokes::default(); out.len()];
     let directions = [
         [0.1, 0.2, 0.3],
         [0.0, 0.0, 1.0],
@@ -54,10 +56,15 @@ fn queries_do_not_allocate() {
         let _ = sky.radiance_at(direction, f64::NAN);
         let _ = sky.xyz(direction);
         let _ = sky.linear_srgb(direction);
+        let _ = polarised.stokes(direction, Frame::SunAligned, &mut stokes);
+        let _ = polarised.relative_stokes(direction, Frame::Axis([1.0, 0.0, 0.0]), &mut stokes);
+        let _ = polarised.stokes_at(direction, Frame::Vertical, 500.0);
+        let _ = polarised.xyz(direction, Frame::Vertical);
     }
     let _ = sky.radiance_batch(&directions[..3], &mut batch);
     let _ = sky.xyz_batch(&directions[..3], &mut xyz);
     let _ = sky.set_solar_azimuth(2.0);
+    let _ = polarised.set_solar_azimuth(2.0);
     assert_eq!(COUNT.get(), before);
 }
 

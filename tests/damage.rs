@@ -4,17 +4,20 @@ mod common;
 
 use proptest::prelude::*;
 use welkin::format::parse;
-use welkin::{Conditions, Model, Result};
+use welkin::{Conditions, Frame, Model, Result, Stokes};
 
 const DIRECTIONS: [[f32; 3]; 3] = [[0.1, 0.2, 0.3], [0.0, 0.0, 1.0], [1.0, 0.1, 0.01]];
 
 /// Everything that the tiny model says, as bits.
 fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
     let model = Model::from_bytes(bytes)?;
-    let sky = model.sky(&Conditions {
+    let conditions = Conditions {
         visibility: 50e3,
         ..Conditions::default()
-    })?;
+    };
+    let sky = model.sky(&conditions)?;
+    let polarised = model.polarised_sky(&conditions)?;
+    let mut stokes = vec![Stokes::default(); sky.wavelengths().len()];
     let mut out = vec![0.0; sky.wavelengths().len()];
     let mut bits = Vec::new();
     for direction in DIRECTIONS {
@@ -27,6 +30,15 @@ fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
         assert!(values.iter().all(|v| v.is_finite()), "{values:?}");
         assert!(out.iter().all(|&l| l >= 0.0));
         bits.extend(values.into_iter().map(f32::to_bits));
+        polarised.stokes(direction, Frame::SunAligned, &mut stokes)?;
+        for (light, l) in stokes.iter().zip(&out) {
+            assert!(
+                light.i == *l && light.q.is_finite() && light.u.is_finite(),
+                "{light:?} {l}"
+            );
+            assert!(light.q.hypot(light.u) <= light.i, "{light:?}");
+            bits.extend([light.q, light.u].map(f32::to_bits));
+        }
     }
     Ok(bits)
 }

@@ -30,6 +30,9 @@ fn head_and_chunks_survive_a_round_trip() {
                 let view = ColumnView::new(bytes, &head.shape()).unwrap();
                 assert!(view.values.iter().zip(&table.values).all(|(a, b)| a == b));
             }
+            Payload::Polarisation(_) | Payload::PolarisationBasis(_) => {
+                unreachable!("not asked for")
+            }
             Payload::Radiance(factors) => {
                 let view = RadianceView::new(bytes, &head.shape(), entry.rank).unwrap();
                 assert_eq!(view.rank, factors.rank);
@@ -91,7 +94,10 @@ fn the_writer_refuses_what_the_reader_would() {
         factors(|f| f.rank = 6),
         Error::Length { what: "scale", .. }
     ));
-    assert!(matches!(refuse(&|c| c.altitude = 1), Error::Invalid { .. }));
+    assert!(matches!(
+        refuse(&|c| c.altitude = Some(1)),
+        Error::Invalid { .. }
+    ));
     assert!(matches!(
         refuse(&|c| c.visibility = None),
         Error::Invalid { .. }

@@ -329,7 +329,7 @@ fn assemble(
 /// Radiance chunks in the order of `fitted`, then columns.
 fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Vec<Chunk> {
     let radiance = fitted.iter().map(|f| Chunk {
-        altitude: f.altitude,
+        altitude: Some(f.altitude),
         visibility: Some(f.visibility),
         error_median: 0.0,
         error_p99: 0.0,
@@ -341,7 +341,7 @@ fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Vec<Chunk> {
         let geometry = chunk_geometry(medium, planet, &plan.grid, a);
         let values = geometry.coefficients(plan.grid.up.0, plan.grid.down.0);
         Chunk {
-            altitude: a,
+            altitude: Some(a),
             visibility: None,
             error_median: 0.0,
             error_p99: 0.0,

@@ -96,7 +96,7 @@ impl<'a> ColumnView<'a> {
     }
 }
 
-fn check_length(what: &'static str, bytes: &[u8], expected: usize) -> Result<()> {
+pub(super) fn check_length(what: &'static str, bytes: &[u8], expected: usize) -> Result<()> {
     if bytes.len() == expected {
         return Ok(());
     }
@@ -107,7 +107,7 @@ fn check_length(what: &'static str, bytes: &[u8], expected: usize) -> Result<()>
     })
 }
 
-fn take<'a, T>(rest: &mut &'a [u8], n: usize) -> Result<&'a [T]>
+pub(super) fn take<'a, T>(rest: &mut &'a [u8], n: usize) -> Result<&'a [T]>
 where
     T: FromBytes + zerocopy::Immutable + zerocopy::KnownLayout + zerocopy::Unaligned,
 {
@@ -121,7 +121,7 @@ where
     Ok(taken)
 }
 
-fn half_is_finite(table: &Payload16) -> bool {
+pub(super) fn half_is_finite(table: &Payload16) -> bool {
     table.iter().all(|h| h.get() & 0x7c00 != 0x7c00)
 }
 

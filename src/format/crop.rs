@@ -6,6 +6,10 @@ use super::chunk::{ColumnView, RadianceView, widen};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
 use super::parse::parse;
+use super::polarisation::{
+    POLARISATION_PARTS, PolarisationBasis, PolarisationBasisView, PolarisationFactors,
+    PolarisationView,
+};
 use super::write::{Chunk, ColumnTable, Payload, RadianceFactors};
 use crate::error::{Error, Result};
 
@@ -52,9 +56,18 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
             Kind::Column => Payload::Column(ColumnTable {
                 values: narrow(ColumnView::new(&payload, &shape)?.values),
             }),
+            Kind::Polarisation => {
+                let view = PolarisationView::new(&payload, &shape, entry.rank)?;
+                Payload::Polarisation(polarisation(&view))
+            }
+            Kind::PolarisationBasis => {
+                let nw = contents.head.wavelengths.len();
+                let view = PolarisationBasisView::new(&payload, &shape, nw, entry.rank)?;
+                Payload::PolarisationBasis(basis(&view, POLARISATION_PARTS * nw))
+            }
         };
         chunks.push(Chunk {
-            altitude: entry.altitude.unwrap_or_default(),
+            altitude: entry.altitude,
             visibility: entry.visibility,
             error_median: entry.error_median,
             error_p99: entry.error_p99,
@@ -84,26 +97,34 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
         head.wavelengths.len(),
     )?;
     let (nw, nf) = (head.wavelengths.len(), head.fields.len());
-    let channels: Vec<usize> = (0..nf)
-        .flat_map(|f| selection.wavelengths.iter().map(move |w| f * nw + w))
-        .collect();
+    let kept = |channel: &[f32], parts: usize| {
+        let part = |f: usize| selection.wavelengths.iter().map(move |w| f * nw + w);
+        let channels: Vec<usize> = (0..parts).flat_map(part).collect();
+        columns(channel, parts * nw, &channels)
+    };
     chunks.retain_mut(|chunk| {
-        let altitude = selection.altitudes.binary_search(&chunk.altitude);
-        let visibility = chunk
-            .visibility
-            .map(|v| selection.visibilities.binary_search(&v));
-        let (Ok(altitude), None | Some(Ok(_))) = (altitude, visibility) else {
+        let altitude = position(&selection.altitudes, chunk.altitude);
+        let visibility = position(&selection.visibilities, chunk.visibility);
+        let (Ok(altitude), Ok(visibility)) = (altitude, visibility) else {
             return false;
         };
-        chunk.altitude = altitude;
-        chunk.visibility = visibility.and_then(|found| found.ok());
-        if let Payload::Radiance(factors) = &mut chunk.payload {
-            factors.channel = columns(&factors.channel, nf * nw, &channels);
+        (chunk.altitude, chunk.visibility) = (altitude, visibility);
+        match &mut chunk.payload {
+            Payload::Radiance(factors) => factors.channel = kept(&factors.channel, nf),
+            Payload::PolarisationBasis(basis) => {
+                basis.channel = kept(&basis.channel, POLARISATION_PARTS);
+            }
+            Payload::Column(_) | Payload::Polarisation(_) => {}
         }
         true
     });
     crop_head(head, selection);
     Ok(())
+}
+
+/// Where a node stands among those that are kept; an error if it is not one of them.
+fn position(kept: &[usize], node: Option<usize>) -> core::result::Result<Option<usize>, usize> {
+    node.map(|i| kept.binary_search(&i)).transpose()
 }
 
 fn crop_head(head: &mut Head, selection: &Selection) {
@@ -166,6 +187,26 @@ fn radiance(view: &RadianceView, channels: usize) -> RadianceFactors {
         alpha_down: rows(view.alpha_down),
         phi: rows(view.phi),
         elevation: rows(view.elevation),
+        channel: unpadded(channel, view.channel_stride, channels),
+    }
+}
+
+fn polarisation(view: &PolarisationView) -> PolarisationFactors {
+    let rows = |table: &[U16]| unpadded(table, view.stride, view.rank);
+    PolarisationFactors {
+        rank: view.rank,
+        scale: narrow(&view.scale[..view.rank]),
+        alpha_up: rows(view.alpha_up),
+        alpha_down: rows(view.alpha_down),
+        elevation: rows(view.elevation),
+    }
+}
+
+fn basis(view: &PolarisationBasisView, channels: usize) -> PolarisationBasis {
+    let channel = &view.channel[..view.rank * view.channel_stride];
+    PolarisationBasis {
+        rank: view.rank,
+        phi: unpadded(view.phi, view.stride, view.rank),
         channel: unpadded(channel, view.channel_stride, channels),
     }
 }

@@ -7,6 +7,7 @@ use super::head::{Entry, Head, Kind};
 use super::layout::ENCODING_RAW;
 #[cfg(feature = "zstd")]
 use super::layout::ENCODING_ZSTD;
+use super::polarisation::{PolarisationBasisView, PolarisationView};
 use crate::error::{Error, Result};
 
 /// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are.
@@ -36,6 +37,11 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
         Kind::Unknown(_) => return Ok(()),
         Kind::Radiance => RadianceView::new(payload, &shape, entry.rank)?.is_finite(),
         Kind::Column => ColumnView::new(payload, &shape)?.is_finite(),
+        Kind::Polarisation => PolarisationView::new(payload, &shape, entry.rank)?.is_finite(),
+        Kind::PolarisationBasis => {
+            let wavelengths = head.wavelengths.len();
+            PolarisationBasisView::new(payload, &shape, wavelengths, entry.rank)?.is_finite()
+        }
     };
     if finite {
         return Ok(());

@@ -1,6 +1,8 @@
 //! The head of a file in owned form: everything except the chunks.
 
-use super::layout::{KIND_COLUMN, KIND_RADIANCE, Shape};
+use super::layout::{
+    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, Shape,
+};
 use crate::axis::{ElevationAxis, Ends, coefficients};
 use crate::geometry::Planet;
 use crate::spectrum::sample;
@@ -127,6 +129,10 @@ pub enum Kind {
     Radiance,
     /// Mean densities along rays from one altitude.
     Column,
+    /// Factors of the polarisation at one altitude and visibility.
+    Polarisation,
+    /// What the polarisation of all altitudes and visibilities shares.
+    PolarisationBasis,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -136,6 +142,8 @@ impl Kind {
         match code {
             KIND_RADIANCE => Kind::Radiance,
             KIND_COLUMN => Kind::Column,
+            KIND_POLARISATION => Kind::Polarisation,
+            KIND_POLARISATION_BASIS => Kind::PolarisationBasis,
             other => Kind::Unknown(other),
         }
     }
@@ -145,6 +153,8 @@ impl Kind {
         match self {
             Kind::Radiance => "radiance",
             Kind::Column => "column",
+            Kind::Polarisation => "polarisation",
+            Kind::PolarisationBasis => "polarisation basis",
             Kind::Unknown(_) => "unknown",
         }
     }
@@ -169,10 +179,10 @@ pub struct Entry {
     pub encoding: u32,
     /// CRC-32 of the bytes in the file.
     pub crc32: u32,
-    /// Rank of a radiance chunk, otherwise 0.
+    /// Number of components; 0 for chunks without.
     pub rank: usize,
-    /// Median relative error against the traced data, 0 if not measured.
+    /// Median error against the traced data, 0 if not measured: relative, or of the degree of polarisation.
     pub error_median: f32,
-    /// 99th percentile of the relative error, 0 if not measured.
+    /// 99th percentile of that error, 0 if not measured.
     pub error_p99: f32,
 }

@@ -15,6 +15,10 @@ pub const CHUNK_ALIGNMENT: u64 = 64;
 pub const KIND_RADIANCE: u32 = 1;
 /// `kind` of a column chunk.
 pub const KIND_COLUMN: u32 = 2;
+/// `kind` of a polarisation chunk.
+pub const KIND_POLARISATION: u32 = 6;
+/// `kind` of the polarisation basis.
+pub const KIND_POLARISATION_BASIS: u32 = 7;
 /// `encoding` of a chunk that is stored as it is.
 pub const ENCODING_RAW: u32 = 0;
 /// `encoding` of a chunk that is stored as one zstd frame.
@@ -23,7 +27,7 @@ pub const ENCODING_ZSTD: u32 = 1;
 pub const MOST_EXPANSION: usize = 256;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
-/// Largest rank of a radiance chunk.
+/// Largest rank of a chunk.
 pub const MAX_RANK: usize = 4096;
 /// Most coefficients of the radiance of one sky: (up + down) · azimuth · channels.
 pub const MAX_TABLE: usize = 1 << 24;

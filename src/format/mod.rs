@@ -7,6 +7,7 @@ mod encoding;
 mod head;
 mod layout;
 mod parse;
+mod polarisation;
 mod replace;
 mod validate;
 mod verify;
@@ -22,10 +23,15 @@ pub use chunk::{ColumnView, Payload16, RadianceView};
 pub use crop::{Selection, crop, unpack};
 pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 pub use layout::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_RADIANCE, MAGIC,
-    MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
+    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_POLARISATION,
+    KIND_POLARISATION_BASIS, KIND_RADIANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX,
+    Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
 pub use parse::{Contents, parse};
+pub use polarisation::{
+    POLARISATION_PARTS, PolarisationBasis, PolarisationBasisView, PolarisationFactors,
+    PolarisationView,
+};
 pub use replace::replace_file;
 pub use verify::{Problem, verify};
 pub use write::{Chunk, ColumnTable, Payload, RadianceFactors, encode, write};

@@ -7,6 +7,7 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 use super::layout::*;
+use super::polarisation::{polarisation_basis_bytes, polarisation_bytes};
 use crate::axis::ElevationAxis;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
@@ -330,8 +331,11 @@ fn entry(raw: &RawEntry) -> Entry {
 fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Result<(), String> {
     let indices = match entry.kind {
         Kind::Unknown(_) => return Ok(()),
-        Kind::Radiance => entry.altitude.is_some() && entry.visibility.is_some(),
+        Kind::Radiance | Kind::Polarisation => {
+            entry.altitude.is_some() && entry.visibility.is_some()
+        }
         Kind::Column => entry.altitude.is_some() && entry.visibility.is_none(),
+        Kind::PolarisationBasis => entry.altitude.is_none() && entry.visibility.is_none(),
     };
     let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
         && entry.visibility.is_none_or(|i| i < head.visibilities.len());
@@ -342,7 +346,7 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         ));
     }
     let ranks = match entry.kind {
-        Kind::Radiance => 1..=MAX_RANK,
+        Kind::Radiance | Kind::Polarisation | Kind::PolarisationBasis => 1..=MAX_RANK,
         _ => 0..=0,
     };
     if !ranks.contains(&entry.rank) {
@@ -366,6 +370,10 @@ fn check_chunk_length(
 ) -> core::result::Result<(), String> {
     let expected = match entry.kind {
         Kind::Radiance => head.shape().radiance_bytes(entry.rank),
+        Kind::Polarisation => polarisation_bytes(&head.shape(), entry.rank),
+        Kind::PolarisationBasis => {
+            polarisation_basis_bytes(&head.shape(), head.wavelengths.len(), entry.rank)
+        }
         _ => head.shape().column_bytes(),
     } as u64;
     let (stored, decoded) = (raw.stored_length.get(), raw.raw_length.get());

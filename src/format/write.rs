@@ -9,6 +9,7 @@ use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
 use super::parse::head_crc;
+use super::polarisation::{PolarisationBasis, PolarisationFactors};
 use super::replace::replace_file;
 use crate::error::{Error, Result};
 
@@ -47,18 +48,22 @@ pub enum Payload {
     Radiance(RadianceFactors),
     /// Mean densities along rays from one altitude.
     Column(ColumnTable),
+    /// Factors of the polarisation at one altitude and visibility.
+    Polarisation(PolarisationFactors),
+    /// What the polarisation of all altitudes and visibilities shares.
+    PolarisationBasis(PolarisationBasis),
 }
 
 /// A chunk to be written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chunk {
-    /// Index into the altitudes of the head.
-    pub altitude: usize,
-    /// Index into the visibilities of the head; `None` for columns.
+    /// Index into the altitudes of the head; `None` for what serves all altitudes.
+    pub altitude: Option<usize>,
+    /// Index into the visibilities of the head; `None` for what serves all visibilities.
     pub visibility: Option<usize>,
-    /// Median relative error against the traced data, 0 if not measured.
+    /// Median error against the traced data, 0 if not measured: relative, or of the degree of polarisation.
     pub error_median: f32,
-    /// 99th percentile of the relative error, 0 if not measured.
+    /// 99th percentile of that error, 0 if not measured.
     pub error_p99: f32,
     /// The tables.
     pub payload: Payload,
@@ -86,7 +91,7 @@ pub fn encode(head: &Head, chunks: &[Chunk]) -> Result<Vec<u8>> {
     file.resize(head_length, 0);
     let mut entries = Vec::with_capacity(chunks.len());
     for chunk in chunks {
-        let payload = encode_payload(&head.shape(), &chunk.payload)?;
+        let payload = encode_payload(head, &chunk.payload)?;
         file.resize(file.len().next_multiple_of(CHUNK_ALIGNMENT as usize), 0);
         entries.push(entry(chunk, file.len(), &payload)?);
         file.extend_from_slice(&payload);
@@ -183,6 +188,8 @@ fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
     let (kind, rank) = match &chunk.payload {
         Payload::Radiance(factors) => (KIND_RADIANCE, factors.rank),
         Payload::Column(_) => (KIND_COLUMN, 0),
+        Payload::Polarisation(factors) => (KIND_POLARISATION, factors.rank),
+        Payload::PolarisationBasis(basis) => (KIND_POLARISATION_BASIS, basis.rank),
     };
     let index = |i: usize| {
         u16::try_from(i)
@@ -191,7 +198,7 @@ fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
     };
     Ok(RawEntry {
         kind: U32::new(kind),
-        altitude: index(chunk.altitude)?,
+        altitude: chunk.altitude.map_or(Ok(U16::new(NO_INDEX)), index)?,
         visibility: chunk.visibility.map_or(Ok(U16::new(NO_INDEX)), index)?,
         offset: U64::new(offset as u64),
         stored_length: U64::new(payload.len() as u64),
@@ -206,23 +213,21 @@ fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
     })
 }
 
-fn encode_payload(shape: &Shape, payload: &Payload) -> Result<Vec<u8>> {
+fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
+    let shape = &head.shape();
     match payload {
         Payload::Radiance(factors) => encode_radiance(shape, factors),
         Payload::Column(table) => encode_column(shape, table),
+        Payload::Polarisation(factors) => factors.encode(shape),
+        Payload::PolarisationBasis(basis) => basis.encode(shape, head.wavelengths.len()),
     }
 }
 
 fn encode_radiance(shape: &Shape, factors: &RadianceFactors) -> Result<Vec<u8>> {
     let r = factors.rank;
-    if !(1..=MAX_RANK).contains(&r) {
-        let detail = format!("expected 1..={MAX_RANK}, got {r}");
-        return Err(Error::invalid("rank", detail));
-    }
+    check_rank(r)?;
     let mut bytes = Vec::with_capacity(shape.radiance_bytes(r));
-    check("scale", &factors.scale, r)?;
-    push_f32(&mut bytes, &factors.scale);
-    bytes.resize(4 * ceil16(r), 0);
+    push_scale(&mut bytes, &factors.scale, r)?;
     push_half(&mut bytes, "alpha_up", &factors.alpha_up, shape.up, r)?;
     push_half(&mut bytes, "alpha_down", &factors.alpha_down, shape.down, r)?;
     push_half(&mut bytes, "phi", &factors.phi, shape.phi, r)?;
@@ -246,8 +251,24 @@ fn encode_column(shape: &Shape, table: &ColumnTable) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+pub(super) fn check_rank(rank: usize) -> Result<()> {
+    if (1..=MAX_RANK).contains(&rank) {
+        return Ok(());
+    }
+    let detail = format!("expected 1..={MAX_RANK}, got {rank}");
+    Err(Error::invalid("rank", detail))
+}
+
+/// Appends the weights of `rank` components, padded to a multiple of 16.
+pub(super) fn push_scale(bytes: &mut Vec<u8>, scale: &[f32], rank: usize) -> Result<()> {
+    check("scale", scale, rank)?;
+    push_f32(bytes, scale);
+    bytes.resize(bytes.len() + 4 * (ceil16(rank) - rank), 0);
+    Ok(())
+}
+
 /// Appends a matrix with rows padded to a multiple of 16.
-fn push_half(
+pub(super) fn push_half(
     bytes: &mut Vec<u8>,
     what: &'static str,
     values: &[f32],

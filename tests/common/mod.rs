@@ -7,7 +7,8 @@ pub mod oracle;
 
 use welkin::axis::ElevationAxis;
 use welkin::format::{
-    AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction, RadianceFactors, encode,
+    AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction, PolarisationBasis,
+    PolarisationFactors, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
 
@@ -91,7 +92,7 @@ pub fn chunks(head: &Head) -> Vec<Chunk> {
     let mut chunks = Vec::new();
     for a in 0..head.altitudes.len() {
         chunks.push(Chunk {
-            altitude: a,
+            altitude: Some(a),
             visibility: None,
             error_median: 0.0,
             error_p99: 0.0,
@@ -99,12 +100,50 @@ pub fn chunks(head: &Head) -> Vec<Chunk> {
         });
         for v in 0..head.visibilities.len() {
             chunks.push(Chunk {
-                altitude: a,
+                altitude: Some(a),
                 visibility: Some(v),
                 error_median: 0.001,
                 error_p99: 0.01,
                 payload: Payload::Radiance(factors(head, a, v)),
             });
+        }
+    }
+    chunks
+}
+
+/// The same with polarisation, of the given strength.
+pub fn polarised_chunks(head: &Head, strength: f32) -> Vec<Chunk> {
+    let shape = head.shape();
+    let wave = |rows: usize, columns: usize, speed: f32| -> Vec<f32> {
+        (0..rows * columns)
+            .map(|i| (speed * (i / columns) as f32 + 1.1 * (i % columns) as f32).sin())
+            .collect()
+    };
+    let chunk = |altitude, visibility, payload| Chunk {
+        altitude,
+        visibility,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload,
+    };
+    let mut chunks = chunks(head);
+    let basis = PolarisationBasis {
+        rank: RANK,
+        phi: wave(shape.phi, RANK, 0.6),
+        channel: wave(RANK, 4 * head.wavelengths.len(), 0.8),
+    };
+    chunks.push(chunk(None, None, Payload::PolarisationBasis(basis)));
+    for a in 0..head.altitudes.len() {
+        for v in 0..head.visibilities.len() {
+            let speed = 0.3 + 0.02 * a as f32 + 0.03 * v as f32;
+            let factors = PolarisationFactors {
+                rank: RANK,
+                scale: (0..RANK).map(|r| strength / (1.0 + r as f32)).collect(),
+                alpha_up: wave(shape.up, RANK, speed),
+                alpha_down: wave(shape.down, RANK, 0.1 + speed),
+                elevation: wave(shape.elevation, RANK, 0.2 + speed),
+            };
+            chunks.push(chunk(Some(a), Some(v), Payload::Polarisation(factors)));
         }
     }
     chunks
@@ -151,15 +190,32 @@ pub fn model_bytes() -> Vec<u8> {
     encode(&head, &chunks(&head)).expect("the synthetic model is valid")
 }
 
+/// [`model_bytes`] with polarisation.
+pub fn polarised_bytes(strength: f32) -> Vec<u8> {
+    let head = head(&[0.0, 120.0, 1000.0, 2000.0], &[20e3, 59.4e3, 131.8e3]);
+    encode(&head, &polarised_chunks(&head, strength)).expect("the polarised model is valid")
+}
+
+/// [`wide_bytes`] with polarisation.
+pub fn wide_polarised_bytes() -> Vec<u8> {
+    let head = wide_head();
+    encode(&head, &polarised_chunks(&head, 0.02)).expect("the wide polarised model is valid")
+}
+
 /// More wavelengths and fields, for the parts of the evaluator that small models do not reach.
 pub fn wide_bytes() -> Vec<u8> {
+    let head = wide_head();
+    encode(&head, &chunks(&head)).expect("the wide model is valid")
+}
+
+fn wide_head() -> Head {
     let mut head = head_with(&[0.0, 2000.0], &[20e3, 59.4e3, 131.8e3], 14);
     for g in [0.5, 0.3, -0.2] {
         let mut field = head.fields[2].clone();
         field.parameter.fill(g);
         head.fields.push(field);
     }
-    encode(&head, &chunks(&head)).expect("the wide model is valid")
+    head
 }
 
 /// Enough wavelengths that blocks of them are gathered together.
@@ -179,7 +235,7 @@ pub fn tiny_bytes() -> Vec<u8> {
     head.phi_intervals = 1;
     head.elevation.intervals = 1;
     head.elevation_scale.truncate(4 * head.wavelengths.len());
-    encode(&head, &chunks(&head)).expect("the tiny model is valid")
+    encode(&head, &polarised_chunks(&head, 0.02)).expect("the tiny model is valid")
 }
 
 /// The file with the stored bytes of a chunk replaced, and everything that depends on them made right.

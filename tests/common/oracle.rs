@@ -127,6 +127,18 @@ impl<'a> Oracle<'a> {
 
     /// Relative radiance at every wavelength.
     pub fn radiance(&self, q: &Query) -> Vec<f64> {
+        self.light(q, false)
+            .into_iter()
+            .map(|[l, _, _]| l)
+            .collect()
+    }
+
+    /// L, Q and U at every wavelength, in the vertical frame.
+    pub fn stokes(&self, q: &Query) -> Vec<[f64; 3]> {
+        self.light(q, true)
+    }
+
+    fn light(&self, q: &Query, polarised: bool) -> Vec<[f64; 3]> {
         let n = &self.n;
         let (radius, top) = (self.f64(64, 0), self.f64(72, 0));
         let r = radius + q.altitude;
@@ -154,7 +166,12 @@ impl<'a> Oracle<'a> {
             q.solar_elevation.cos() * q.solar_azimuth.sin(),
             q.solar_elevation.sin(),
         ];
-        let cosine = (x * sun[0] + y * sun[1] + z * sun[2]) / length;
+        let view = [x, y, z].map(|v| v / length);
+        let cosine: f64 = view.iter().zip(sun).map(|(a, b)| a * b).sum();
+        let [e1, e2] = vertical_frame(view, q.solar_azimuth);
+        // Light that was scattered once is polarised along the normal of the scattering plane.
+        let normal = cross(view, sun);
+        let along = [dot(normal, e1), dot(normal, e2)];
         let g = |e: f64| ((e - self.f64(112, 0)) / self.f64(120, 0)).asinh();
         let (low, high) = (g(self.f64(96, 0)), g(self.f64(104, 0)));
         let e = free(
@@ -205,7 +222,8 @@ impl<'a> Oracle<'a> {
                     .map(|&(i, t)| t * self.f32(self.at.scale, i * n.w + w))
                     .sum();
                 let spherical = at_visibility(self.at.spherical, n.w, w);
-                let mut total = 0.0;
+                let (mut total, mut dipole) = (0.0, 0.0);
+                let ground = q.albedo / (1.0 - q.albedo * spherical);
                 for f in 0..n.f {
                     let mut value = 0.0;
                     for &(j, aj) in &a {
@@ -218,15 +236,68 @@ impl<'a> Oracle<'a> {
                         self.file[self.at.field + 4 * f..][..4].try_into().unwrap(),
                     );
                     let parameter = self.f64(self.at.parameter, f * n.w + w);
-                    value *= phase(code & 0xffff, parameter, cosine);
                     if code >> 16 == 1 {
-                        value *= q.albedo / (1.0 - q.albedo * spherical);
+                        value *= ground;
                     }
-                    total += value;
+                    if code & 0xffff == 1 {
+                        dipole += 0.75 * (1.0 - parameter) / (1.0 + parameter / 2.0) * value;
+                    }
+                    total += value * phase(code & 0xffff, parameter, cosine);
                 }
-                -(-depth).exp_m1() * s.exp() * total.max(0.0)
+                let outside = -(-depth).exp_m1() * s.exp();
+                let light = outside * total.max(0.0);
+                if !polarised {
+                    return [light, 0.0, 0.0];
+                }
+                let multiple = [0, 1, 2, 3].map(|part| {
+                    let mut value = 0.0;
+                    for &(j, aj) in &a {
+                        for &(m, bm) in &b {
+                            let taps = [&alpha, &azimuth, &e].map(|t| t.as_slice());
+                            value += aj * bm * self.polarisation(j, m, up, taps, part * n.w + w);
+                        }
+                    }
+                    value
+                });
+                let q = dipole * (along[0].powi(2) - along[1].powi(2));
+                let u = dipole * 2.0 * along[0] * along[1];
+                let q = outside * (q + multiple[0] + ground * multiple[2]);
+                let u = outside * (u + phi.sin() * (multiple[1] + ground * multiple[3]));
+                let share = (light / q.hypot(u)).min(1.0);
+                [light, share * q, share * u]
             })
             .collect()
+    }
+
+    fn polarisation(
+        &self,
+        altitude: usize,
+        visibility: usize,
+        up: bool,
+        [alpha, phi, e]: [&[(usize, f64)]; 3],
+        channel: usize,
+    ) -> f64 {
+        let n = &self.n;
+        let (at, rank) = self.chunk(6, altitude, visibility);
+        let (basis, _) = self.chunk(7, 65535, 65535);
+        let q = rank.div_ceil(16) * 16;
+        let c = (4 * n.w).div_ceil(16) * 16;
+        let up_at = at + 4 * q;
+        let down_at = up_at + 2 * q * (n.u + 3);
+        let e_at = down_at + 2 * q * (n.d + 3);
+        let channel_at = basis + 2 * q * (n.p + 1);
+        let along = |at: usize, taps: &[(usize, f64)], r: usize| -> f64 {
+            taps.iter().map(|&(i, w)| w * self.f16(at, i * q + r)).sum()
+        };
+        (0..rank)
+            .map(|r| {
+                self.f32(at, r)
+                    * along(if up { up_at } else { down_at }, alpha, r)
+                    * along(basis, phi, r)
+                    * along(e_at, e, r)
+                    * self.f16(channel_at, r * c + channel)
+            })
+            .sum()
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -294,6 +365,29 @@ impl<'a> Oracle<'a> {
                 .sum()
         })
     }
+}
+
+/// `e1` in the vertical plane, upwards, and `e2 = w × e1`.
+pub fn vertical_frame(view: [f64; 3], solar_azimuth: f64) -> [[f64; 3]; 2] {
+    let azimuth = if view[0] == 0.0 && view[1] == 0.0 {
+        solar_azimuth
+    } else {
+        view[1].atan2(view[0])
+    };
+    let right = [azimuth.sin(), -azimuth.cos(), 0.0];
+    [cross(right, view), right]
+}
+
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn phase(code: u32, p: f64, cosine: f64) -> f64 {

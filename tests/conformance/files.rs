@@ -164,7 +164,7 @@ fn wide() -> Vec<u8> {
 fn sparse() -> Vec<u8> {
     let head = small(&[0.0, 500.0], &[20e3, 80e3]);
     let mut chunks = common::chunks(&head);
-    chunks.retain(|chunk| chunk.altitude != 1 || chunk.visibility != Some(1));
+    chunks.retain(|chunk| chunk.altitude != Some(1) || chunk.visibility != Some(1));
     encode(&head, &chunks).expect("a valid model")
 }
 

@@ -1,0 +1,11 @@
+//! Polarised skies. Format specification, sections 6.6, 6.7 and 7.5.
+
+mod aspect;
+mod prepare;
+mod sky;
+mod stokes;
+mod table;
+
+pub use aspect::Frame;
+pub use sky::PolarisedSky;
+pub use stokes::Stokes;

@@ -1,0 +1,80 @@
+//! Stokes vectors of linearly polarised light.
+
+/// Intensity and linear polarisation of light, against an axis `e1` across the view direction `w` and `e2 = w × e1`.
+///
+/// `w` points away from the observer, towards where the light comes from. Light of the sky has no circular
+/// polarisation to speak of, so there is no fourth component.
+///
+/// Renderers whose frames are right-handed about the direction in which the light *travels* (x = `e1`, y = −`e2`) have
+/// U of the other sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stokes {
+    /// Radiance.
+    pub i: f32,
+    /// What a polariser along `e1` passes less what one along `e2` passes.
+    pub q: f32,
+    /// What a polariser along the diagonal `e1 + e2` passes less what one along `e1 − e2` passes.
+    pub u: f32,
+}
+
+impl Stokes {
+    /// Degree of linear polarisation, 0..=1; 0 without light.
+    pub fn degree(&self) -> f32 {
+        if self.i > 0.0 {
+            ((self.q / self.i).hypot(self.u / self.i)).min(1.0)
+        } else {
+            0.0
+        }
+    }
+
+    /// Angle of polarisation from `e1` towards `e2`, −π/2..=π/2 rad; 0 without polarisation.
+    pub fn angle(&self) -> f32 {
+        0.5 * self.u.atan2(self.q)
+    }
+
+    /// The same light against axes that are turned by `angle` (rad) from `e1` towards `e2`.
+    #[must_use]
+    pub fn turned(&self, angle: f32) -> Self {
+        let (sine, cosine) = (2.0 * angle).sin_cos();
+        Self {
+            i: self.i,
+            q: cosine * self.q + sine * self.u,
+            u: cosine * self.u - sine * self.q,
+        }
+    }
+
+    /// Radiance behind an ideal polariser at `angle` (rad) from `e1` towards `e2`.
+    pub fn through_polariser(&self, angle: f32) -> f32 {
+        (0.5 * (self.i + self.turned(angle).q)).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Stokes;
+
+    #[test]
+    fn turning_changes_the_angle_and_nothing_else() {
+        let light = Stokes {
+            i: 2.0,
+            q: 0.6,
+            u: -0.8,
+        };
+        assert!((light.degree() - 0.5).abs() < 1e-6);
+        for turn in [-0.7f32, 0.1, 0.3] {
+            let turned = light.turned(turn);
+            assert!((turned.degree() - 0.5).abs() < 1e-6);
+            assert!((turned.angle() - (light.angle() - turn)).abs() < 1e-6);
+        }
+        let best = light.through_polariser(light.angle());
+        assert!((best - 1.5).abs() < 1e-6);
+        let worst = light.through_polariser(light.angle() + std::f32::consts::FRAC_PI_2);
+        assert!((worst - 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn darkness_is_unpolarised() {
+        assert_eq!(Stokes::default().degree(), 0.0);
+        assert_eq!(Stokes::default().angle(), 0.0);
+    }
+}
