@@ -1,0 +1,35 @@
+//! What three scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
+
+#[path = "../tests/common/http.rs"]
+mod http;
+
+use http::{Client, Server};
+use welkin::{Conditions, DEFAULT_MODEL, Model, Result};
+
+fn main() -> Result<()> {
+    let server = Server::start(DEFAULT_MODEL.to_vec());
+    let scenes = [
+        ("ground, visibility at a node", 0.0, 59.4e3),
+        ("ground, visibility between nodes", 0.0, 50e3),
+        ("altitude and visibility between nodes", 1234.0, 50e3),
+    ];
+    println!("the file has {} bytes", DEFAULT_MODEL.len());
+    for (name, altitude, visibility) in scenes {
+        let model = Model::stream(Client(server.address))?;
+        let head = model.traffic();
+        model.sky(&Conditions {
+            altitude,
+            visibility,
+            ..Conditions::default()
+        })?;
+        let total = model.traffic();
+        println!(
+            "{name}: open {} request, {} bytes; scene {} requests, {} bytes",
+            head.requests,
+            head.bytes,
+            total.requests - head.requests,
+            total.bytes - head.bytes
+        );
+    }
+    Ok(())
+}
