@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use welkin::{Conditions, Model};
+use welkin::{Conditions, Frame, Model};
 
 struct Bench {
     folder: tempfile::TempDir,
@@ -18,7 +18,7 @@ impl Bench {
     fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let model = folder.path().join("model.welkin");
-        std::fs::write(&model, common::model_bytes()).unwrap();
+        std::fs::write(&model, common::polarised_bytes(0.02)).unwrap();
         Self { folder, model }
     }
 
@@ -184,9 +184,9 @@ fn info_describes_the_file() {
     let bench = Bench::new();
     let output = bench.on_model(&["info", "--json", "--verify"], "");
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(json["file_bytes"], common::model_bytes().len());
+    assert_eq!(json["file_bytes"], common::polarised_bytes(0.02).len());
     assert_eq!(json["altitudes_m"][1], 120.0);
-    assert_eq!(json["chunks"].as_array().unwrap().len(), 16);
+    assert_eq!(json["chunks"].as_array().unwrap().len(), 29);
     assert_eq!(
         json["metadata"]["provenance"],
         "synthetic model for tests: not a sky"
@@ -384,4 +384,102 @@ fn a_closed_pipe_is_no_failure() {
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success());
     assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn query_answers_polarisation() {
+    let bench = Bench::new();
+    let quantities = ["radiance", "polarisation", "stokes_q", "stokes_u"];
+    let rows = quantities.map(|q| format!("{q},59.4,0.2,500,20,60,30,,543\n"));
+    let output = bench.on_model(
+        &["query", "--strict"],
+        &format!("{HEADER}\n{}", rows.concat()),
+    );
+    assert!(output.status.success());
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let values = reader
+        .records()
+        .map(|row| row.unwrap()[9].parse::<f32>().unwrap());
+    let got: Vec<f32> = values.collect();
+    let model = Model::open(&bench.model).unwrap();
+    let conditions = Conditions {
+        altitude: 500.0,
+        ..Conditions::default()
+    };
+    let sky = model.polarised_sky(&conditions).unwrap();
+    let (z, r) = 30f64.to_radians().sin_cos();
+    let (y, x) = 30f64.to_radians().sin_cos();
+    let direction = [r * x, r * y, z].map(|v| v as f32);
+    let aligned = sky.stokes_at(direction, Frame::SunAligned, 543.0).unwrap();
+    let vertical = sky.stokes_at(direction, Frame::Vertical, 543.0).unwrap();
+    let expected = [aligned.i, aligned.q / aligned.i, vertical.q, vertical.u];
+    for (got, expected) in got.into_iter().zip(expected) {
+        assert!(
+            (got - expected).abs() <= 1e-5 * expected.abs(),
+            "{got} {expected}"
+        );
+    }
+}
+
+#[test]
+fn a_file_without_polarisation_answers_the_rest() {
+    let bench = Bench::new();
+    std::fs::write(&bench.model, common::model_bytes()).unwrap();
+    let table = format!(
+        "{HEADER}\npolarisation,59.4,0.2,0,20,60,30,,550\nradiance,59.4,0.2,0,20,60,30,,550\n"
+    );
+    let output = bench.on_model(&["query"], &table);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("has no polarisation basis chunk"), "{text}");
+    assert!(text.lines().nth(2).unwrap().ends_with(','), "{text}");
+    let output = bench.on_model(&["render", "--quantity", "dolp", "--size", "8"], "");
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn render_shows_polarisation() {
+    use exr::prelude::read_all_flat_layers_from_file;
+    let bench = Bench::new();
+    let render = |arguments: &[&str]| {
+        let output = bench.on_model(
+            &[&["render", "--size", "8", "--out", "p"], arguments].concat(),
+            "",
+        );
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{text}");
+        let image = read_all_flat_layers_from_file(bench.folder.path().join("p.exr")).unwrap();
+        let channels = image.layer_data[0].channel_data.list.iter();
+        channels
+            .map(|c| (c.name.to_string(), c.sample_data.values_as_f32().collect()))
+            .collect::<Vec<(String, Vec<f32>)>>()
+    };
+    for (quantity, most) in [
+        ("dolp", 1.0),
+        ("overlay", 1.0),
+        ("aolp", 90.0),
+        ("q", 1.0),
+        ("u", 1.0),
+    ] {
+        let planes = render(&["--quantity", quantity]);
+        assert_eq!(planes.len(), 1);
+        let largest = planes[0].1.iter().fold(0f32, |m, v| m.max(v.abs()));
+        assert!(largest > 1e-3 && largest <= most, "{quantity} {largest}");
+    }
+    for (arguments, first) in [
+        (&["--stokes"][..], 15),
+        (&["--stokes", "--spectral"][..], 24),
+    ] {
+        let planes = render(arguments);
+        assert_eq!(planes.len(), first);
+        let plane = |name: &str| &planes.iter().find(|(n, _)| n == name).unwrap().1;
+        let suffix = if first == 15 { "G" } else { "408nm" };
+        let [i, q, u, v] = [0, 1, 2, 3].map(|s| plane(&format!("S{s}.{suffix}")));
+        assert!(v.iter().all(|&v| v == 0.0));
+        assert!(q.iter().any(|&q| q != 0.0) && u.iter().any(|&u| u != 0.0));
+        if first == 24 {
+            for k in 0..i.len() {
+                assert!(q[k].hypot(u[k]) <= 1.00001 * i[k]);
+            }
+        }
+    }
 }

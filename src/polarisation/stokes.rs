@@ -27,6 +27,17 @@ impl Stokes {
         }
     }
 
+    /// Q over I, −1..=1; 0 without light. In [`Frame::SunAligned`](crate::Frame::SunAligned) it is positive where the light
+    /// is polarised across the plane of view and sun, as singly scattered light is, and changes its sign at the neutral
+    /// points.
+    pub fn signed_degree(&self) -> f32 {
+        if self.i > 0.0 {
+            (self.q / self.i).clamp(-1.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
     /// Angle of polarisation from `e1` towards `e2`, −π/2..=π/2 rad; 0 without polarisation.
     pub fn angle(&self) -> f32 {
         0.5 * self.u.atan2(self.q)

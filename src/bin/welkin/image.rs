@@ -43,15 +43,22 @@ pub fn exr(picture: Planes) -> Result<Vec<u8>> {
 
 /// Encodes linear sRGB pixels (cd m⁻²) as PNG; `white` is the luminance of display white.
 pub fn png(size: [usize; 2], pixels: &[[f32; 3]], white: f32) -> Result<Vec<u8>> {
+    let samples: Vec<[u8; 3]> = pixels.iter().map(|&p| display(p, white)).collect();
+    png_of_display(size, &samples)
+}
+
+/// Encodes sRGB pixels as PNG.
+pub fn png_of_display(size: [usize; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>> {
     let failed = |e: png::EncodingError| Failure::message(format!("cannot encode the PNG: {e}"));
-    let samples: Vec<u8> = pixels.iter().flat_map(|&p| display(p, white)).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size[0] as u32, size[1] as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&samples).map_err(failed)?;
+    writer
+        .write_image_data(pixels.as_flattened())
+        .map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }

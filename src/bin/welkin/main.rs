@@ -3,6 +3,8 @@
 mod failure;
 mod image;
 mod info;
+mod picture;
+mod polarised;
 mod projection;
 mod query;
 mod render;

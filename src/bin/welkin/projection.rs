@@ -38,6 +38,14 @@ impl Projection {
         }
     }
 
+    /// Up vector of the camera.
+    pub fn up(self, azimuth: f64) -> [f32; 3] {
+        match self {
+            Projection::Up => [azimuth.cos() as f32, azimuth.sin() as f32, 0.0],
+            _ => [0.0, 0.0, 1.0],
+        }
+    }
+
     /// Direction of a pixel; `azimuth` (rad) is the view azimuth.
     pub fn direction(self, pixel: [usize; 2], size: [usize; 2], azimuth: f64) -> Option<[f32; 3]> {
         let [x, y, z] = self.local(pixel, size)?;

@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 
 use csv::ByteRecord;
-use welkin::{Conditions, Model, Sky};
+use welkin::{Conditions, Frame, Model, PolarisedSky, Sky};
 
 use crate::Source;
 use crate::failure::{Failure, Result, describe};
@@ -58,6 +58,7 @@ pub fn answer(
         model,
         clamp,
         skies: HashMap::new(),
+        polarised: HashMap::new(),
     };
     let (mut rows, mut failures) = (0u64, 0u64);
     let mut row = ByteRecord::new();
@@ -203,6 +204,11 @@ fn parse_number(name: &str, cell: &[u8]) -> std::result::Result<f64, String> {
 enum Quantity {
     Radiance,
     RelativeRadiance,
+    /// Q/I in the sun-aligned frame: positive where light is polarised across the plane of view and sun.
+    Polarisation,
+    /// In the vertical frame.
+    StokesQ,
+    StokesU,
 }
 
 impl Quantity {
@@ -210,11 +216,14 @@ impl Quantity {
         match cell {
             b"radiance" => Ok(Self::Radiance),
             b"relative_radiance" => Ok(Self::RelativeRadiance),
-            b"polarisation" | b"transmittance" | b"in_scatter" | b"sun_radiance" => {
+            b"polarisation" => Ok(Self::Polarisation),
+            b"stokes_q" => Ok(Self::StokesQ),
+            b"stokes_u" => Ok(Self::StokesU),
+            b"transmittance" | b"in_scatter" | b"sun_radiance" => {
                 Err("not in this version".to_owned())
             }
             other => Err(format!(
-                "unknown quantity \"{}\": expected radiance or relative_radiance",
+                "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q or stokes_u",
                 String::from_utf8_lossy(other)
             )),
         }
@@ -226,6 +235,7 @@ struct Answerer<'a> {
     model: &'a Model,
     clamp: bool,
     skies: HashMap<[u64; 4], Sky>,
+    polarised: HashMap<[u64; 4], PolarisedSky>,
 }
 
 impl Answerer<'_> {
@@ -248,43 +258,90 @@ impl Answerer<'_> {
         if !azimuth.is_finite() {
             return Err(format!("view_azimuth_deg must be finite, got {azimuth}"));
         }
-        let sky = self.sky(Conditions {
+        let conditions = Conditions {
             solar_elevation: elevation.to_radians(),
             solar_azimuth: 0.0,
             visibility: visibility * 1e3,
             albedo,
             altitude,
-        })?;
-        let direction = direction(zenith, azimuth);
-        let value = match quantity {
-            Quantity::Radiance => sky.radiance_at(direction, wavelength),
-            Quantity::RelativeRadiance => sky.relative_radiance_at(direction, wavelength),
         };
+        let direction = direction(zenith, azimuth);
+        let value = self.value(quantity, conditions, direction, wavelength);
         value.map_err(|error| describe(&error))
     }
 
-    fn sky(&mut self, conditions: Conditions) -> std::result::Result<&Sky, String> {
-        let key = [
-            conditions.solar_elevation,
-            conditions.visibility,
-            conditions.albedo,
-            conditions.altitude,
-        ]
-        .map(f64::to_bits);
-        if !self.skies.contains_key(&key) {
-            let conditions = match self.clamp {
-                true => conditions.clamped(self.model),
-                false => Ok(conditions),
-            };
-            let sky = conditions.and_then(|c| self.model.sky(&c));
-            let sky = sky.map_err(|error| describe(&error))?;
-            if self.skies.len() == MOST_SKIES {
-                self.skies.clear();
+    fn value(
+        &mut self,
+        quantity: Quantity,
+        conditions: Conditions,
+        direction: [f32; 3],
+        wavelength: f64,
+    ) -> welkin::Result<f32> {
+        match quantity {
+            Quantity::Radiance => self.sky(conditions)?.radiance_at(direction, wavelength),
+            Quantity::RelativeRadiance => {
+                let sky = self.sky(conditions)?;
+                sky.relative_radiance_at(direction, wavelength)
             }
-            self.skies.insert(key, sky);
+            Quantity::Polarisation => {
+                let sky = self.polarised_sky(conditions)?;
+                let light = sky.stokes_at(direction, Frame::SunAligned, wavelength)?;
+                Ok(light.signed_degree())
+            }
+            Quantity::StokesQ | Quantity::StokesU => {
+                let sky = self.polarised_sky(conditions)?;
+                let light = sky.stokes_at(direction, Frame::Vertical, wavelength)?;
+                Ok(match quantity {
+                    Quantity::StokesQ => light.q,
+                    _ => light.u,
+                })
+            }
         }
-        Ok(&self.skies[&key])
     }
+
+    fn sky(&mut self, conditions: Conditions) -> welkin::Result<&Sky> {
+        let (model, clamp) = (self.model, self.clamp);
+        kept(&mut self.skies, conditions, || {
+            model.sky(&reachable(model, clamp, conditions)?)
+        })
+    }
+
+    fn polarised_sky(&mut self, conditions: Conditions) -> welkin::Result<&PolarisedSky> {
+        let (model, clamp) = (self.model, self.clamp);
+        kept(&mut self.polarised, conditions, || {
+            model.polarised_sky(&reachable(model, clamp, conditions)?)
+        })
+    }
+}
+
+fn reachable(model: &Model, clamp: bool, conditions: Conditions) -> welkin::Result<Conditions> {
+    match clamp {
+        true => conditions.clamped(model),
+        false => Ok(conditions),
+    }
+}
+
+/// The sky for these conditions, prepared now or earlier.
+fn kept<T>(
+    skies: &mut HashMap<[u64; 4], T>,
+    conditions: Conditions,
+    prepare: impl FnOnce() -> welkin::Result<T>,
+) -> welkin::Result<&T> {
+    let key = [
+        conditions.solar_elevation,
+        conditions.visibility,
+        conditions.albedo,
+        conditions.altitude,
+    ]
+    .map(f64::to_bits);
+    if !skies.contains_key(&key) {
+        let sky = prepare()?;
+        if skies.len() == MOST_SKIES {
+            skies.clear();
+        }
+        skies.insert(key, sky);
+    }
+    Ok(&skies[&key])
 }
 
 /// Unit vector at a zenith angle and an azimuth from the sun, degrees; exact at the poles and the horizon.

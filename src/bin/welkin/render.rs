@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use welkin::format::replace_file;
-use welkin::{Conditions, Model, Sky};
+use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
-use crate::failure::Result;
-use crate::image::{Planes, exr, png};
+use crate::failure::{Failure, Result};
+use crate::picture::{Picture, View, Wanted};
+use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
 
 /// Luminance of display white over the mean luminance of the sky (a geometric mean), for the automatic exposure.
@@ -79,6 +80,18 @@ pub struct Options {
     /// Write the EXR with one channel per wavelength (W m⁻² sr⁻¹ nm⁻¹) instead of linear sRGB (cd m⁻²).
     #[arg(long)]
     spectral: bool,
+    /// Write the EXR with Stokes layers: S0.R … S3.B, or S0.320nm … S3.760nm with --spectral.
+    #[arg(long)]
+    stokes: bool,
+    /// What the picture shows.
+    #[arg(long, value_enum, default_value = "radiance")]
+    quantity: Quantity,
+    /// Wavelength of the polarisation, nm; that of the luminance if absent.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    wavelength: Option<f64>,
+    /// Axes of q, u and aolp.
+    #[arg(long, value_enum, default_value = "sun")]
+    frame: Axes,
     /// Exposure value of the PNG at ISO 100; automatic if absent.
     #[arg(long, allow_negative_numbers = true, value_name = "EV", value_parser = exposure)]
     exposure: Option<f64>,
@@ -122,21 +135,65 @@ impl Options {
     }
 }
 
+impl Options {
+    fn view(&self) -> Result<View> {
+        if !self.view_azimuth.is_finite() {
+            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
+            return Err(Failure::message(text));
+        }
+        Ok(View {
+            projection: self.projection,
+            size: self.projection.dimensions(self.size.into()),
+            azimuth: self.view_azimuth.to_radians(),
+        })
+    }
+
+    fn picture(
+        &self,
+        view: &View,
+        sky: &Sky,
+        polarised: Option<&PolarisedSky>,
+        white: f32,
+    ) -> Result<Picture> {
+        let [exr, png] = self.outputs().map(|path| path.is_some());
+        let wanted = Wanted { exr, png };
+        match polarised {
+            Some(polarised) if self.quantity != Quantity::Radiance => {
+                let colouring = Colouring {
+                    quantity: self.quantity,
+                    axes: self.frame,
+                    wavelength: self.wavelength,
+                };
+                Picture::of_polarisation(view, polarised, &colouring, white, wanted)
+            }
+            _ => Picture::of_sky(view, sky, polarised, self.spectral, white, wanted),
+        }
+    }
+}
+
 pub fn run(options: &Options) -> Result<()> {
     let start = Instant::now();
     let model = options.source.open()?;
-    let sky = model.sky(&options.conditions(&model)?)?;
+    let conditions = options.conditions(&model)?;
+    let polarised = match options.stokes || options.quantity != Quantity::Radiance {
+        true => Some(model.polarised_sky(&conditions)?),
+        false => None,
+    };
+    let sky = match &polarised {
+        Some(polarised) => polarised.sky().clone(),
+        None => model.sky(&conditions)?,
+    };
     let prepared = start.elapsed();
-    let view = View::new(options)?;
+    let view = options.view()?;
     let rendering = Instant::now();
-    let pixels = view.rgb(&sky)?;
-    let rendered = rendering.elapsed();
     let white = match options.exposure {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),
         None => WHITE_OVER_MEAN * mean_luminance(&sky)?,
     };
-    let written = write(options, &view, &sky, &pixels, white as f32)?;
-    let count = pixels.len();
+    let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32)?;
+    let rendered = rendering.elapsed();
+    let written = write(options, picture)?;
+    let count = view.size[0] * view.size[1];
     report(options, &model, &sky, white, &written)?;
     let mut out = std::io::stdout().lock();
     writeln!(
@@ -155,108 +212,16 @@ pub fn run(options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// The pixels of a picture.
-struct View {
-    projection: Projection,
-    size: [usize; 2],
-    azimuth: f64,
-}
-
-impl View {
-    fn new(options: &Options) -> Result<Self> {
-        if !options.view_azimuth.is_finite() {
-            let text = format!("view azimuth must be finite, got {}", options.view_azimuth);
-            return Err(crate::failure::Failure::message(text));
-        }
-        Ok(Self {
-            projection: options.projection,
-            size: options.projection.dimensions(options.size.into()),
-            azimuth: options.view_azimuth.to_radians(),
-        })
-    }
-
-    fn directions(&self) -> impl Iterator<Item = Option<[f32; 3]>> + '_ {
-        let [width, height] = self.size;
-        let pixels = (0..height).flat_map(move |row| (0..width).map(move |column| [column, row]));
-        pixels.map(|pixel| self.projection.direction(pixel, self.size, self.azimuth))
-    }
-
-    fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
-        let pixel = |direction: Option<[f32; 3]>| match direction {
-            Some(direction) => sky.linear_srgb(direction),
-            None => Ok([0.0; 3]),
-        };
-        self.directions().map(pixel).collect()
-    }
-
-    fn spectral(&self, sky: &Sky) -> welkin::Result<Vec<Vec<f32>>> {
-        let count = self.size[0] * self.size[1];
-        let mut planes = vec![vec![0.0; count]; sky.wavelengths().len()];
-        let mut radiance = vec![0.0; planes.len()];
-        for (i, direction) in self.directions().enumerate() {
-            if let Some(direction) = direction {
-                sky.radiance(direction, &mut radiance)?;
-                planes
-                    .iter_mut()
-                    .zip(&radiance)
-                    .for_each(|(p, &l)| p[i] = l);
-            }
-        }
-        Ok(planes)
-    }
-}
-
-fn write(
-    options: &Options,
-    view: &View,
-    sky: &Sky,
-    pixels: &[[f32; 3]],
-    white: f32,
-) -> Result<Vec<PathBuf>> {
+fn write(options: &Options, picture: Picture) -> Result<Vec<PathBuf>> {
     let [exr_path, png_path] = options.outputs();
     let mut written = Vec::new();
-    let mut save = |path: Option<PathBuf>, bytes: &dyn Fn() -> Result<Vec<u8>>| -> Result<()> {
-        if let Some(path) = path {
-            replace_file(&path, &bytes()?)?;
+    for (path, bytes) in [(exr_path, picture.exr), (png_path, picture.png)] {
+        if let (Some(path), Some(bytes)) = (path, bytes) {
+            replace_file(&path, &bytes)?;
             written.push(path);
         }
-        Ok(())
-    };
-    save(exr_path, &|| exr(planes(options, view, sky, pixels)?))?;
-    save(png_path, &|| png(view.size, pixels, white))?;
-    Ok(written)
-}
-
-fn planes(options: &Options, view: &View, sky: &Sky, pixels: &[[f32; 3]]) -> Result<Planes> {
-    let size = view.size;
-    if options.spectral {
-        let names = sky.wavelengths().iter().map(|&l| channel_name(l));
-        return Ok(Planes {
-            size,
-            planes: names.zip(view.spectral(sky)?).collect(),
-            attributes: vec![
-                ("spectralLayoutVersion", "1.0"),
-                ("emissiveUnits", "W.m^-2.sr^-1.nm^-1"),
-            ],
-            comment: "spectral radiance, W m^-2 sr^-1 nm^-1",
-        });
     }
-    let plane = |i: usize| pixels.iter().map(|p| p[i]).collect();
-    Ok(Planes {
-        size,
-        planes: vec![
-            ("R".to_owned(), plane(0)),
-            ("G".to_owned(), plane(1)),
-            ("B".to_owned(), plane(2)),
-        ],
-        attributes: Vec::new(),
-        comment: "linear sRGB, cd m^-2",
-    })
-}
-
-/// A dot would separate layers, so the decimal mark is a comma.
-fn channel_name(wavelength: f64) -> String {
-    format!("S0.{}nm", wavelength.to_string().replace('.', ","))
+    Ok(written)
 }
 
 /// Geometric mean over the upper hemisphere, cd m⁻².
