@@ -17,7 +17,8 @@ CONDITIONS = ("altitude", "visibility", "albedo", "solar_elevation", "solar_azim
 
 
 def line(query):
-    cells = [query[name] for name in CONDITIONS] + query["direction"] + [query["wavelength"]]
+    cells = [query[name] for name in CONDITIONS] + query["direction"]
+    cells += [query["wavelength"], query["distance"]]
     return "\t".join([query["quantity"]] + [repr(float(cell)) for cell in cells])
 
 
@@ -67,9 +68,11 @@ def main():
     if not reader:
         parser.error("which reader?")
     manifest = json.loads((FOLDER / "manifest.json").read_text())
-    count, worst = 0, 0.0
+    files, count, worst = 0, 0, 0.0
     for case in manifest["cases"]:
-        lacking = any(feature in options.lacks for feature in case["needs"])
+        lacking = [feature for feature in case["needs"] if feature in options.lacks]
+        if lacking and lacking != ["zstd"]:
+            continue
         try:
             answers = ask(reader, FOLDER / case["file"], case["queries"])
         except (ValueError, OSError, subprocess.TimeoutExpired) as error:
@@ -83,8 +86,8 @@ def main():
         if wrong:
             more = f"\n  and {len(wrong) - 5} more" if len(wrong) > 5 else ""
             sys.exit(f"{case['file']} ({case['shows']}):\n" + "\n".join(wrong[:5]) + more)
+        files += 1
         count += len(answers)
-    files = len(manifest["cases"])
     print(f"{' '.join(reader)}: {count} answers about {files} files are right, worst uses {100 * worst:.0f} % of its tolerance")
 
 

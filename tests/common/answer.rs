@@ -1,13 +1,16 @@
 //! One line of the conformance suite's queries, answered by the library.
 
-use welkin::{Conditions, Error, Model};
+use welkin::{Conditions, Error, Frame, Model, Stokes};
 
 /// The values, or the class of the error.
 pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     let (quantity, rest) = line.split_once('\t').unwrap_or((line, ""));
     let numbers: Result<Vec<f64>, _> = rest.split('\t').map(str::parse).collect();
+    let Ok(cells) = numbers else {
+        return Err("query");
+    };
     let Ok(
-        &[
+        [
             altitude,
             visibility,
             albedo,
@@ -17,8 +20,9 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
             y,
             z,
             wavelength,
+            _,
         ],
-    ) = numbers.as_deref()
+    ) = <[f64; 10]>::try_from(cells)
     else {
         return Err("query");
     };
@@ -49,6 +53,16 @@ fn values(
             return Ok(vec![sky.relative_radiance_at(direction, wavelength)?]);
         }
         "radiance_at" => return Ok(vec![sky.radiance_at(direction, wavelength)?]),
+        "stokes" => {
+            let mut light = vec![Stokes::default(); row.len()];
+            let sky = model.polarised_sky(conditions)?;
+            sky.relative_stokes(direction, Frame::Vertical, &mut light)?;
+            let parts: [fn(&Stokes) -> f32; 3] = [|s| s.i, |s| s.q, |s| s.u];
+            return Ok(parts
+                .iter()
+                .flat_map(|part| light.iter().map(part))
+                .collect());
+        }
         "xyz" => return Ok(sky.xyz(direction)?.to_vec()),
         other => panic!("unknown quantity {other}"),
     }

@@ -8,7 +8,7 @@ pub struct Case {
     pub name: String,
     /// What the file is there for.
     pub shows: &'static str,
-    /// Features that a reader may lack: it must then answer with the error "encoding".
+    /// Features that a reader may lack.
     pub needs: Vec<&'static str>,
     pub bytes: Vec<u8>,
     /// The same model with raw chunks, for the oracle.
@@ -69,6 +69,22 @@ pub fn valid() -> Vec<Case> {
         ),
         case("negative", "sums below zero become zero", negative()),
     ];
+    cases.push(Case {
+        needs: vec!["polarisation"],
+        ..case(
+            "polarised",
+            "Stokes vectors in the vertical frame",
+            polarised(0.02),
+        )
+    });
+    cases.push(Case {
+        needs: vec!["polarisation"],
+        ..case(
+            "overpolarised",
+            "Q and U are scaled where they exceed L",
+            polarised(1.0),
+        )
+    });
     cases.push(Case {
         needs: vec!["zstd"],
         raw: raw.clone(),
@@ -201,6 +217,11 @@ fn negative() -> Vec<u8> {
     let mut chunks = common::chunks(&head);
     common::negate_components(&mut chunks);
     encode(&head, &chunks).expect("a valid model")
+}
+
+fn polarised(strength: f32) -> Vec<u8> {
+    let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
+    encode(&head, &common::polarised_chunks(&head, strength)).expect("a valid model")
 }
 
 fn compressed(raw: &[u8]) -> Vec<u8> {

@@ -11,6 +11,8 @@ use crate::files::Case;
 pub const RELATIVE: f64 = 1e-4;
 /// Absolute tolerance in units of the zenith radiance.
 const OF_ZENITH: f64 = 1e-7;
+/// Absolute tolerance of Q and U in units of L.
+const OF_LIGHT: f64 = 2e-4;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
@@ -145,6 +147,9 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
             &oracle.xyz(&zenith).map(|c| c * OF_ZENITH),
         ),
     ];
+    if case.needs.contains(&"polarisation") {
+        queries.push(stokes(ask("stokes"), &oracle, query, &floor));
+    }
     // The logarithm of almost nothing is no test of a reader.
     let firm = |(l, floor): (&f64, &f64)| *l == 0.0 || *l > 1e3 * floor;
     if relative.iter().zip(&floor).all(firm) {
@@ -156,6 +161,16 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
         ));
     }
     queries
+}
+
+/// L, then Q, then U, each at all wavelengths.
+fn stokes(asked: Value, oracle: &Oracle, query: &Query, floor: &[f64]) -> Value {
+    let light = oracle.stokes(query);
+    let part = |i: usize| light.iter().map(move |stokes| stokes[i]);
+    let expected: Vec<f64> = part(0).chain(part(1)).chain(part(2)).collect();
+    let wide = |(l, floor): (f64, &f64)| floor.max(OF_LIGHT * l);
+    let polarised: Vec<f64> = part(0).zip(floor).map(wide).collect();
+    with_values(asked, &expected, &[floor, &polarised, &polarised].concat())
 }
 
 /// Queries outside the model or without a meaning.
@@ -193,6 +208,7 @@ fn value(quantity: &str, query: &Query, wavelength: f64) -> Value {
         "solar_azimuth": query.solar_azimuth,
         "direction": query.direction,
         "wavelength": wavelength,
+        "distance": 0.0,
     })
 }
 
@@ -223,7 +239,7 @@ pub fn line(query: &Value) -> String {
     let direction = direction.iter().map(Value::to_string);
     let numbers: Vec<String> = cells
         .chain(direction)
-        .chain([query["wavelength"].to_string()])
+        .chain(["wavelength", "distance"].map(|name| query[name].to_string()))
         .collect();
     format!(
         "{}\t{}",
