@@ -72,7 +72,7 @@ pub enum Error {
     },
     /// The file lacks a chunk that the conditions need.
     MissingChunk {
-        /// "radiance", "column", "polarisation" …
+        /// "radiance", "column", "transmittance" …
         kind: &'static str,
         /// Altitude of the chunk, m, if it has one.
         altitude: Option<f64>,
@@ -99,6 +99,11 @@ pub enum Error {
         /// The error of the largest table.
         got: f64,
     },
+    /// A point has a coordinate that is not finite or beyond 10⁹ m.
+    Point {
+        /// The refused point, m.
+        got: [f64; 3],
+    },
     /// A direction has length zero or a component that is not finite.
     Direction {
         /// The refused vector.
@@ -122,6 +127,7 @@ impl Error {
             Error::OutOfRange { .. } => "range",
             Error::Tolerance { .. } => "tolerance",
             Error::Direction { .. } => "direction",
+            Error::Point { .. } => "point",
         }
     }
 
@@ -184,7 +190,7 @@ impl fmt::Display for Error {
                     write!(f, " for altitude {altitude} m")?;
                 }
                 if let Some(visibility) = visibility {
-                    write!(f, " and visibility {visibility} m")?;
+                    write!(f, " for visibility {visibility} m")?;
                 }
                 write!(f, ", which these conditions need")
             }
@@ -202,6 +208,10 @@ impl fmt::Display for Error {
             Error::Tolerance { expected, got } => write!(
                 f,
                 "the largest table has an error of {got}, wanted at most {expected}: allow more"
+            ),
+            Error::Point { got: [x, y, z] } => write!(
+                f,
+                "coordinates of a point must lie within ±1e9 m, got ({x}, {y}, {z})"
             ),
             Error::Direction { got: [x, y, z] } => write!(
                 f,

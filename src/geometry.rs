@@ -41,6 +41,12 @@ impl Planet {
         ((altitude * (self.radius + r)).max(0.0).sqrt() / self.radius).atan()
     }
 
+    /// `h + h²/2R`: the altitude in which straight lines are parabolas.
+    #[inline]
+    pub fn squared_altitude(&self, altitude: f64) -> f64 {
+        altitude + altitude * altitude / (2.0 * self.radius)
+    }
+
     /// Describes the ray that leaves `altitude` at `elevation` (rad) above the local horizontal.
     pub fn ray(&self, altitude: f64, elevation: f64) -> Ray {
         self.ray_with_dip(altitude, self.dip(altitude), elevation, elevation.sin())

@@ -32,6 +32,7 @@
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
 //! builds the command `welkin`.
 
+mod air;
 pub mod axis;
 mod baked;
 mod colour;
@@ -39,6 +40,7 @@ mod conditions;
 mod error;
 pub mod format;
 pub mod geometry;
+mod haze;
 mod lanes;
 mod math;
 mod model;
@@ -51,10 +53,12 @@ mod spectrum;
 mod store;
 mod tables;
 
+pub use air::Air;
 pub use baked::{BakeError, BakedColour, BakedSky, Directions};
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
+pub use haze::Haze;
 #[cfg(feature = "default-model")]
 pub use model::DEFAULT_MODEL;
 pub use model::Model;

@@ -7,7 +7,8 @@ use std::path::Path;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    ColumnView, Contents, Entry, Head, Kind, PolarisationBasisView, PolarisationView, RadianceView,
+    ColumnView, Contents, DensityView, Entry, Head, Kind, PolarisationBasisView, PolarisationView,
+    RadianceView, SourceBasisView, SourceView,
 };
 use crate::sky::Sky;
 use crate::source::ReadAt;
@@ -224,6 +225,23 @@ impl Model {
         let rank = self.contents.directory[i].rank;
         let wavelengths = self.head().wavelengths.len();
         PolarisationBasisView::new(self.chunk(i)?, &self.head().shape(), wavelengths, rank)
+    }
+
+    pub(crate) fn density_chunk(&self) -> Result<DensityView<'_>> {
+        let head = self.head();
+        let bytes = self.chunk(self.find(Kind::Transmittance, None, None)?)?;
+        DensityView::new(bytes, head.constituents, head.planet.top)
+    }
+
+    pub(crate) fn source_basis_chunk(&self) -> Result<SourceBasisView<'_>> {
+        let bytes = self.chunk(self.find(Kind::SourceBasis, None, None)?)?;
+        SourceBasisView::new(bytes, self.head().wavelengths.len())
+    }
+
+    pub(crate) fn source_chunk(&self, visibility: usize) -> Result<SourceView<'_>> {
+        let head = self.head();
+        let bytes = self.chunk(self.find(Kind::Source, None, Some(visibility))?)?;
+        SourceView::new(bytes, head.constituents, head.wavelengths.len())
     }
 
     fn find(

@@ -42,6 +42,7 @@ fn head_and_chunks_survive_a_round_trip() {
                     assert_eq!(half::f16::from_bits(bits), half::f16::from_f32(expected));
                 }
             }
+            other => panic!("a chunk that was not written: {other:?}"),
         }
     }
 }

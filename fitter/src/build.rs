@@ -4,6 +4,7 @@ use crate::assess::{self, Error, Quantiles};
 use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
 use crate::decompose::{ElevationScale, Fit, Options, channel_weights, chunk_geometry, fit};
+use crate::finite;
 use crate::orders::{FIELDS, Gatherer, LightField, Medium, NW, SUN_RADIUS, Settings, solve};
 use crate::pack::{Air, head};
 use anyhow::{Context, Result};
@@ -42,7 +43,12 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// What the traced data depend on.
+    /// What the light fields depend on.
+    pub fn light_key(&self) -> String {
+        format!("{UNIT_VERSION} {:?} {WAVELENGTHS:?}", self.settings)
+    }
+
+    /// What the traced tensors and samples depend on.
     pub fn key(&self) -> String {
         let axes = Grid {
             altitudes: vec![],
@@ -50,8 +56,9 @@ impl Plan {
             ..self.grid.clone()
         };
         format!(
-            "{UNIT_VERSION} {axes:?} {:?} {:?} {WAVELENGTHS:?}",
-            self.settings, self.held_out
+            "{} {UNIT_VERSION} {axes:?} {:?}",
+            self.light_key(),
+            self.held_out
         )
     }
 
@@ -64,13 +71,16 @@ impl Plan {
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
 /// Changes whenever the physics or the layout of the units does.
-const UNIT_VERSION: u32 = 2;
+const UNIT_VERSION: u32 = 3;
 
 /// A visibility, solved.
-struct Solved {
-    visibility: f64,
-    medium: Medium,
-    light: LightField,
+pub struct Solved {
+    /// Its value, m.
+    pub visibility: f64,
+    /// Its air.
+    pub medium: Medium,
+    /// Its light field.
+    pub light: LightField,
 }
 
 /// Traced data and its fit.
@@ -85,7 +95,7 @@ struct Fitted {
 pub fn build(plan: &Plan, work: &Path, out: &Path) -> Result<String> {
     let store = plan.store(work)?;
     let started = std::time::Instant::now();
-    let solved = solve_all(plan, &store)?;
+    let solved = solve_all(plan, work)?;
     let traced = trace_all(plan, &store, &solved)?;
     let tracing = started.elapsed();
     let scale = reference_scale(plan, &solved, &traced);
@@ -112,15 +122,18 @@ fn bar(length: usize, what: &str) -> ProgressBar {
         .with_message(what.to_owned())
 }
 
-fn solve_all(plan: &Plan, store: &Store) -> Result<Vec<Solved>> {
+/// The light fields of all visibilities of the grid, from their units in `work` or solved now.
+pub fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
     plan.grid
         .visibilities
         .iter()
-        .map(|&v| solve_one(plan, store, v))
+        .map(|&v| solve_one(plan, work, v))
         .collect()
 }
 
-fn solve_one(plan: &Plan, store: &Store, visibility: f64) -> Result<Solved> {
+/// The light field of a visibility (m), from its unit in `work` or solved now.
+pub fn solve_one(plan: &Plan, work: &Path, visibility: f64) -> Result<Solved> {
+    let store = Store::open(work, plan.light_key())?;
     let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
     let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
     let values = store.unit(&format!("light-{visibility}"), || {
@@ -144,7 +157,7 @@ pub fn between_nodes(
     altitudes: &[f64],
 ) -> Result<Vec<(f64, Vec<Sample>)>> {
     let store = plan.store(work)?;
-    let solved = solve_one(plan, &store, visibility)?;
+    let solved = solve_one(plan, work, visibility)?;
     let gatherer = Gatherer::new(&solved.medium, &solved.light, FINENESS);
     let sample = |&altitude: &f64| {
         let seed = (visibility + altitude) as u64;
@@ -162,7 +175,7 @@ pub fn judged_samples(
     altitudes: &[f64],
     directions: usize,
 ) -> Result<(Atmosphere, Vec<Sample>)> {
-    let solved = solve_one(plan, &plan.store(work)?, visibility)?;
+    let solved = solve_one(plan, work, visibility)?;
     let gatherer = Gatherer::new(&solved.medium, &solved.light, FINENESS);
     let one = |altitude: f64, seed: u64| truth(&gatherer, &solved.light, altitude, [1, 2], seed);
     let samples = altitudes
@@ -307,12 +320,12 @@ fn assemble(
         .collect();
     let gatherer = Gatherer::new(&solved[0].medium, &solved[0].light, FINENESS);
     let mut head = head(&plan.grid, &airs, &gatherer, scale, "{}".into())?;
-    let mut chunks = chunks(plan, solved, fitted);
+    let mut chunks = chunks(plan, solved, fitted)?;
     let model = Model::from_bytes(encode(&head, &chunks)?)?;
     let mut all = vec![];
     for (chunk, f) in chunks
         .iter_mut()
-        .filter(|c| c.visibility.is_some())
+        .filter(|c| matches!(c.payload, Payload::Radiance(_)))
         .zip(fitted)
     {
         let errors = assess::errors(&model, solved[f.visibility].visibility, &f.truth)?;
@@ -326,8 +339,8 @@ fn assemble(
     Ok((encode(&head, &chunks)?, all))
 }
 
-/// Radiance chunks in the order of `fitted`, then columns.
-fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Vec<Chunk> {
+/// Radiance chunks in the order of `fitted`, then columns, then what finite distances need.
+fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Result<Vec<Chunk>> {
     let radiance = fitted.iter().map(|f| Chunk {
         altitude: Some(f.altitude),
         visibility: Some(f.visibility),
@@ -348,7 +361,10 @@ fn chunks(plan: &Plan, solved: &[Solved], fitted: &[Fitted]) -> Vec<Chunk> {
             payload: Payload::Column(ColumnTable { values }),
         }
     });
-    radiance.chain(columns).collect()
+    Ok(radiance
+        .chain(columns)
+        .chain(finite::chunks(solved)?)
+        .collect())
 }
 
 fn metadata(plan: &Plan, head: &Head, errors: &[Vec<Error>]) -> String {

@@ -8,6 +8,7 @@ pub mod build;
 pub mod column;
 pub mod dataset;
 pub mod decompose;
+pub mod finite;
 pub mod judge;
 pub mod orders;
 pub mod pack;

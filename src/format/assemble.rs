@@ -6,7 +6,8 @@ use zerocopy::{FromBytes, IntoBytes};
 use super::encoding::{check_chunk, decode};
 use super::head::Kind;
 use super::layout::*;
-use super::parse::{head_crc, parse};
+use super::parse::{Contents, head_crc, parse};
+use super::write::{Chunk, encode_chunk};
 use crate::error::{Error, Result};
 
 /// The bytes of a file. The fields of `header` and of the entries that depend on the layout are set here.
@@ -52,12 +53,9 @@ pub(crate) fn assemble(
 /// As a reader of the file; [`Error::Encoding`] if this build does not have the feature that the encoding needs.
 pub fn recode(file: &[u8], encoding: u32) -> Result<Vec<u8>> {
     let contents = parse(file)?;
-    let directory = contents.head_length - contents.directory.len() * ENTRY_LENGTH;
-    let (header, _) = Header::read_from_prefix(file).map_err(|_| Error::NotWelkin)?;
-    let raw_entries = file[directory..contents.head_length].chunks_exact(ENTRY_LENGTH);
+    let (header, arrays, raw_entries) = parts(file, &contents)?;
     let mut chunks = Vec::with_capacity(contents.directory.len());
-    for (i, (entry, raw)) in contents.directory.iter().zip(raw_entries).enumerate() {
-        let mut raw = RawEntry::read_from_bytes(raw).map_err(|_| Error::NotWelkin)?;
+    for (i, (entry, mut raw)) in contents.directory.iter().zip(raw_entries).enumerate() {
         let payload = decode(i, entry, &file[entry.offset..entry.offset + entry.length])?;
         let mut stored = payload.into_owned();
         if !matches!(entry.kind, Kind::Unknown(_)) {
@@ -68,7 +66,43 @@ pub fn recode(file: &[u8], encoding: u32) -> Result<Vec<u8>> {
         }
         chunks.push((raw, stored));
     }
-    assemble(header, &file[HEADER_LENGTH..directory], chunks)
+    assemble(header, arrays, chunks)
+}
+
+/// The same file with `chunks` added, in place of chunks of the same kind and nodes. All others are kept as they are.
+///
+/// # Errors
+/// As [`parse`] for `file`, as [`encode`](super::encode()) for `chunks`.
+pub fn extend(file: &[u8], chunks: &[Chunk]) -> Result<Vec<u8>> {
+    let contents = parse(file)?;
+    let (header, arrays, raw_entries) = parts(file, &contents)?;
+    let new = chunks
+        .iter()
+        .map(|chunk| encode_chunk(&contents.head, chunk));
+    let new = new.collect::<Result<Vec<_>>>()?;
+    let key = |raw: &RawEntry| (raw.kind, raw.altitude, raw.visibility);
+    let mut all = Vec::with_capacity(raw_entries.len() + new.len());
+    for (entry, raw) in contents.directory.iter().zip(raw_entries) {
+        if !new.iter().any(|(other, _)| key(other) == key(&raw)) {
+            all.push((
+                raw,
+                file[entry.offset..entry.offset + entry.length].to_vec(),
+            ));
+        }
+    }
+    all.extend(new);
+    assemble(header, arrays, all)
+}
+
+/// Header, head arrays and directory of a parsed file.
+fn parts<'a>(file: &'a [u8], contents: &Contents) -> Result<(Header, &'a [u8], Vec<RawEntry>)> {
+    let directory = contents.head_length - contents.directory.len() * ENTRY_LENGTH;
+    let (header, _) = Header::read_from_prefix(file).map_err(|_| Error::NotWelkin)?;
+    let entries = file[directory..contents.head_length].chunks_exact(ENTRY_LENGTH);
+    let entries =
+        entries.map(|bytes| RawEntry::read_from_bytes(bytes).map_err(|_| Error::NotWelkin));
+    let entries = entries.collect::<Result<Vec<_>>>()?;
+    Ok((header, &file[HEADER_LENGTH..directory], entries))
 }
 
 fn encode(chunk: usize, payload: Vec<u8>, encoding: u32) -> Result<(u32, Vec<u8>)> {

@@ -3,6 +3,7 @@
 use zerocopy::little_endian::U16;
 
 use super::chunk::{ColumnView, RadianceView, widen};
+use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
 use super::parse::parse;
@@ -10,6 +11,7 @@ use super::polarisation::{
     POLARISATION_PARTS, PolarisationBasis, PolarisationBasisView, PolarisationFactors,
     PolarisationView,
 };
+use super::source::{SourceBasis, SourceBasisView, SourceCore, SourceView};
 use super::write::{Chunk, ColumnTable, Payload, RadianceFactors};
 use crate::error::{Error, Result};
 
@@ -42,6 +44,7 @@ impl Selection {
 pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
     let contents = parse(file)?;
     let shape = contents.head.shape();
+    let (nk, nw) = (contents.head.constituents, contents.head.wavelengths.len());
     let mut chunks = Vec::new();
     for (i, entry) in contents.directory.iter().enumerate() {
         let stored = &file[entry.offset..entry.offset + entry.length];
@@ -61,9 +64,16 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
                 Payload::Polarisation(polarisation(&view))
             }
             Kind::PolarisationBasis => {
-                let nw = contents.head.wavelengths.len();
                 let view = PolarisationBasisView::new(&payload, &shape, nw, entry.rank)?;
                 Payload::PolarisationBasis(basis(&view, POLARISATION_PARTS * nw))
+            }
+            Kind::Transmittance => {
+                let view = DensityView::new(&payload, nk, contents.head.planet.top)?;
+                Payload::Transmittance(DensityTable::from(&view))
+            }
+            Kind::Source => Payload::Source(SourceCore::from(&SourceView::new(&payload, nk, nw)?)),
+            Kind::SourceBasis => {
+                Payload::SourceBasis(SourceBasis::from(&SourceBasisView::new(&payload, nw)?))
             }
         };
         chunks.push(Chunk {
@@ -114,7 +124,9 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
             Payload::PolarisationBasis(basis) => {
                 basis.channel = kept(&basis.channel, POLARISATION_PARTS);
             }
-            Payload::Column(_) | Payload::Polarisation(_) => {}
+            Payload::Source(core) => core.keep(nw, &selection.wavelengths),
+            Payload::SourceBasis(basis) => basis.keep(nw, &selection.wavelengths),
+            Payload::Column(_) | Payload::Polarisation(_) | Payload::Transmittance(_) => {}
         }
         true
     });
@@ -165,13 +177,13 @@ fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
 }
 
 /// Rows of a matrix of the given width.
-fn rows<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
+pub(super) fn rows<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
     let row = |&i: &usize| &matrix[i * width..(i + 1) * width];
     indices.iter().flat_map(row).copied().collect()
 }
 
 /// Columns of a matrix of the given width.
-fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
+pub(super) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
     let rows = matrix.chunks_exact(width);
     rows.flat_map(|row| pick(row, indices)).collect()
 }
@@ -217,6 +229,6 @@ fn unpadded(table: &[U16], stride: usize, width: usize) -> Vec<f32> {
         .collect()
 }
 
-fn narrow(values: &[zerocopy::little_endian::F32]) -> Vec<f32> {
+pub(super) fn narrow(values: &[zerocopy::little_endian::F32]) -> Vec<f32> {
     values.iter().map(|v| v.get()).collect()
 }

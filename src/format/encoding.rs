@@ -3,11 +3,13 @@
 use std::borrow::Cow;
 
 use super::chunk::{ColumnView, RadianceView};
+use super::density::DensityView;
 use super::head::{Entry, Head, Kind};
 use super::layout::ENCODING_RAW;
 #[cfg(feature = "zstd")]
 use super::layout::ENCODING_ZSTD;
 use super::polarisation::{PolarisationBasisView, PolarisationView};
+use super::source::{SourceBasisView, SourceView};
 use crate::error::{Error, Result};
 
 /// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are.
@@ -30,18 +32,23 @@ pub(crate) fn decode<'a>(i: usize, entry: &Entry, stored: &'a [u8]) -> Result<Co
     }
 }
 
-/// Checks the payload of chunk `i`: length and finite numbers.
+/// Checks the payload of chunk `i`: length and numbers.
 pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) -> Result<()> {
     let shape = head.shape();
+    let (constituents, wavelengths) = (head.constituents, head.wavelengths.len());
     let finite = match entry.kind {
         Kind::Unknown(_) => return Ok(()),
         Kind::Radiance => RadianceView::new(payload, &shape, entry.rank)?.is_finite(),
         Kind::Column => ColumnView::new(payload, &shape)?.is_finite(),
         Kind::Polarisation => PolarisationView::new(payload, &shape, entry.rank)?.is_finite(),
         Kind::PolarisationBasis => {
-            let wavelengths = head.wavelengths.len();
             PolarisationBasisView::new(payload, &shape, wavelengths, entry.rank)?.is_finite()
         }
+        Kind::Transmittance => {
+            return DensityView::new(payload, constituents, head.planet.top).map(drop);
+        }
+        Kind::Source => return SourceView::new(payload, constituents, wavelengths).map(drop),
+        Kind::SourceBasis => return SourceBasisView::new(payload, wavelengths).map(drop),
     };
     if finite {
         return Ok(());

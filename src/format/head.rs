@@ -1,7 +1,8 @@
 //! The head of a file in owned form: everything except the chunks.
 
 use super::layout::{
-    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, Shape,
+    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_SOURCE,
+    KIND_SOURCE_BASIS, KIND_TRANSMITTANCE, Shape,
 };
 use crate::axis::{ElevationAxis, Ends, coefficients};
 use crate::geometry::Planet;
@@ -133,6 +134,12 @@ pub enum Kind {
     Polarisation,
     /// What the polarisation of all altitudes and visibilities shares.
     PolarisationBasis,
+    /// Densities of the air over altitude.
+    Transmittance,
+    /// Source function of multiply scattered light at one visibility.
+    Source,
+    /// What the sources of all visibilities share.
+    SourceBasis,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -144,6 +151,9 @@ impl Kind {
             KIND_COLUMN => Kind::Column,
             KIND_POLARISATION => Kind::Polarisation,
             KIND_POLARISATION_BASIS => Kind::PolarisationBasis,
+            KIND_TRANSMITTANCE => Kind::Transmittance,
+            KIND_SOURCE => Kind::Source,
+            KIND_SOURCE_BASIS => Kind::SourceBasis,
             other => Kind::Unknown(other),
         }
     }
@@ -155,6 +165,9 @@ impl Kind {
             Kind::Column => "column",
             Kind::Polarisation => "polarisation",
             Kind::PolarisationBasis => "polarisation basis",
+            Kind::Transmittance => "transmittance",
+            Kind::Source => "source",
+            Kind::SourceBasis => "source basis",
             Kind::Unknown(_) => "unknown",
         }
     }

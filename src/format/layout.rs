@@ -25,6 +25,12 @@ pub const ENCODING_RAW: u32 = 0;
 pub const ENCODING_ZSTD: u32 = 1;
 /// `raw_length` may be at most this many times `stored_length`.
 pub const MOST_EXPANSION: usize = 256;
+/// `kind` of a transmittance chunk.
+pub const KIND_TRANSMITTANCE: u32 = 4;
+/// `kind` of a source chunk.
+pub const KIND_SOURCE: u32 = 5;
+/// `kind` of a source basis chunk.
+pub const KIND_SOURCE_BASIS: u32 = 8;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a chunk.

@@ -336,6 +336,10 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         }
         Kind::Column => entry.altitude.is_some() && entry.visibility.is_none(),
         Kind::PolarisationBasis => entry.altitude.is_none() && entry.visibility.is_none(),
+        Kind::Source => entry.altitude.is_none() && entry.visibility.is_some(),
+        Kind::Transmittance | Kind::SourceBasis => {
+            entry.altitude.is_none() && entry.visibility.is_none()
+        }
     };
     let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
         && entry.visibility.is_none_or(|i| i < head.visibilities.len());
@@ -368,15 +372,17 @@ fn check_chunk_length(
     raw: &RawEntry,
     entry: &Entry,
 ) -> core::result::Result<(), String> {
-    let expected = match entry.kind {
-        Kind::Radiance => head.shape().radiance_bytes(entry.rank),
-        Kind::Polarisation => polarisation_bytes(&head.shape(), entry.rank),
-        Kind::PolarisationBasis => {
-            polarisation_basis_bytes(&head.shape(), head.wavelengths.len(), entry.rank)
-        }
-        _ => head.shape().column_bytes(),
-    } as u64;
     let (stored, decoded) = (raw.stored_length.get(), raw.raw_length.get());
+    let expected = match entry.kind {
+        Kind::Radiance => head.shape().radiance_bytes(entry.rank) as u64,
+        Kind::Column => head.shape().column_bytes() as u64,
+        Kind::Polarisation => polarisation_bytes(&head.shape(), entry.rank) as u64,
+        Kind::PolarisationBasis => {
+            polarisation_basis_bytes(&head.shape(), head.wavelengths.len(), entry.rank) as u64
+        }
+        // The payload itself says how long it must be; that is checked at its first touch.
+        _ => decoded,
+    };
     let possible = match entry.encoding {
         ENCODING_RAW => stored == expected,
         _ => expected <= stored.saturating_mul(MOST_EXPANSION as u64),

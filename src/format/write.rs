@@ -6,11 +6,13 @@ use half::f16;
 use zerocopy::IntoBytes;
 use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 
+use super::assemble::assemble;
+use super::density::DensityTable;
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
-use super::parse::head_crc;
 use super::polarisation::{PolarisationBasis, PolarisationFactors};
 use super::replace::replace_file;
+use super::source::{SourceBasis, SourceCore};
 use crate::error::{Error, Result};
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
@@ -52,6 +54,12 @@ pub enum Payload {
     Polarisation(PolarisationFactors),
     /// What the polarisation of all altitudes and visibilities shares.
     PolarisationBasis(PolarisationBasis),
+    /// Densities of the air over altitude.
+    Transmittance(DensityTable),
+    /// Source function of multiply scattered light at one visibility.
+    Source(SourceCore),
+    /// What the sources of all visibilities share.
+    SourceBasis(SourceBasis),
 }
 
 /// A chunk to be written.
@@ -84,26 +92,16 @@ pub fn write(path: impl AsRef<Path>, head: &Head, chunks: &[Chunk]) -> Result<()
 /// is not finite or too large for half precision.
 pub fn encode(head: &Head, chunks: &[Chunk]) -> Result<Vec<u8>> {
     head.validate()?;
-    let mut file = vec![0; HEADER_LENGTH];
-    push_arrays(&mut file, head);
-    let directory = file.len();
-    let head_length = directory + chunks.len() * ENTRY_LENGTH;
-    file.resize(head_length, 0);
-    let mut entries = Vec::with_capacity(chunks.len());
-    for chunk in chunks {
-        let payload = encode_payload(head, &chunk.payload)?;
-        file.resize(file.len().next_multiple_of(CHUNK_ALIGNMENT as usize), 0);
-        entries.push(entry(chunk, file.len(), &payload)?);
-        file.extend_from_slice(&payload);
-    }
-    file[directory..head_length].copy_from_slice(entries.as_bytes());
-    let header = header(head, chunks.len(), file.len(), head_length)?;
-    file[..HEADER_LENGTH].copy_from_slice(header.as_bytes());
-    let crc = head_crc(&file[..head_length]);
-    file[CRC_RANGE].copy_from_slice(&crc.to_le_bytes());
-    // The reader's checks of the directory are the writer's too.
-    super::parse::parse(&file)?;
-    Ok(file)
+    let mut arrays = Vec::new();
+    push_arrays(&mut arrays, head);
+    let chunks = chunks.iter().map(|chunk| encode_chunk(head, chunk));
+    assemble(header(head), &arrays, chunks.collect::<Result<Vec<_>>>()?)
+}
+
+/// Entry, without what depends on the layout of the file, and payload.
+pub(super) fn encode_chunk(head: &Head, chunk: &Chunk) -> Result<(RawEntry, Vec<u8>)> {
+    let payload = encode_payload(head, &chunk.payload)?;
+    Ok((entry(chunk, &payload)?, payload))
 }
 
 fn push_arrays(file: &mut Vec<u8>, head: &Head) {
@@ -149,19 +147,17 @@ fn push_f32(file: &mut Vec<u8>, values: &[f32]) {
 }
 
 /// The counts were validated, so they fit their fields.
-fn header(head: &Head, chunks: usize, file_length: usize, head_length: usize) -> Result<Header> {
+fn header(head: &Head) -> Header {
     let n = |count: usize| U16::new(count as u16);
-    let chunk_count = u32::try_from(chunks)
-        .map_err(|_| Error::invalid("chunk_count", format!("expected 32 bits, got {chunks}")))?;
-    Ok(Header {
+    Header {
         magic: MAGIC,
         version_major: U16::new(VERSION_MAJOR),
         version_minor: U16::new(VERSION_MINOR),
         required_features: U32::ZERO,
-        file_length: U64::new(file_length as u64),
-        head_length: U64::new(head_length as u64),
+        file_length: U64::ZERO,
+        head_length: U64::ZERO,
         head_crc32: U32::ZERO,
-        chunk_count: U32::new(chunk_count),
+        chunk_count: U32::ZERO,
         wavelengths: n(head.wavelengths.len()),
         altitudes: n(head.altitudes.len()),
         visibilities: n(head.visibilities.len()),
@@ -181,15 +177,18 @@ fn header(head: &Head, chunks: usize, file_length: usize, head_length: usize) ->
         elevation_max: F64::new(head.elevation.max),
         elevation_centre: F64::new(head.elevation.centre),
         elevation_width: F64::new(head.elevation.width),
-    })
+    }
 }
 
-fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
+fn entry(chunk: &Chunk, payload: &[u8]) -> Result<RawEntry> {
     let (kind, rank) = match &chunk.payload {
         Payload::Radiance(factors) => (KIND_RADIANCE, factors.rank),
         Payload::Column(_) => (KIND_COLUMN, 0),
         Payload::Polarisation(factors) => (KIND_POLARISATION, factors.rank),
         Payload::PolarisationBasis(basis) => (KIND_POLARISATION_BASIS, basis.rank),
+        Payload::Transmittance(_) => (KIND_TRANSMITTANCE, 0),
+        Payload::Source(_) => (KIND_SOURCE, 0),
+        Payload::SourceBasis(_) => (KIND_SOURCE_BASIS, 0),
     };
     let index = |i: usize| {
         u16::try_from(i)
@@ -200,11 +199,11 @@ fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
         kind: U32::new(kind),
         altitude: chunk.altitude.map_or(Ok(U16::new(NO_INDEX)), index)?,
         visibility: chunk.visibility.map_or(Ok(U16::new(NO_INDEX)), index)?,
-        offset: U64::new(offset as u64),
-        stored_length: U64::new(payload.len() as u64),
+        offset: U64::ZERO,
+        stored_length: U64::ZERO,
         raw_length: U64::new(payload.len() as u64),
         encoding: U32::ZERO,
-        crc32: U32::new(crc32fast::hash(payload)),
+        crc32: U32::ZERO,
         rank: U32::new(rank as u32),
         tier: U32::ZERO,
         error_median: F32::new(chunk.error_median),
@@ -215,11 +214,15 @@ fn entry(chunk: &Chunk, offset: usize, payload: &[u8]) -> Result<RawEntry> {
 
 fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
     let shape = &head.shape();
+    let (constituents, wavelengths) = (head.constituents, head.wavelengths.len());
     match payload {
         Payload::Radiance(factors) => encode_radiance(shape, factors),
         Payload::Column(table) => encode_column(shape, table),
         Payload::Polarisation(factors) => factors.encode(shape),
-        Payload::PolarisationBasis(basis) => basis.encode(shape, head.wavelengths.len()),
+        Payload::PolarisationBasis(basis) => basis.encode(shape, wavelengths),
+        Payload::Transmittance(table) => table.encode(constituents, head.planet.top),
+        Payload::Source(core) => core.encode(constituents, wavelengths),
+        Payload::SourceBasis(basis) => basis.encode(wavelengths),
     }
 }
 
@@ -290,7 +293,7 @@ pub(super) fn push_half(
     Ok(())
 }
 
-fn check(what: &'static str, values: &[f32], expected: usize) -> Result<()> {
+pub(super) fn check(what: &'static str, values: &[f32], expected: usize) -> Result<()> {
     if values.len() != expected {
         return Err(Error::Length {
             what,

@@ -7,14 +7,16 @@
 
 pub mod gather;
 mod medium;
-mod moments;
-mod path;
+pub mod moments;
+pub mod path;
 mod single;
 mod solve;
 pub mod source;
 
+/// The grid of the moments.
+pub use self::moments as grid;
 pub use gather::{FIELDS, Fields, Gatherer};
-pub use medium::{Medium, NW, SUN_RADIUS, Spectrum, rayleigh_phase};
+pub use medium::{DEGREE, Medium, NW, PER_SPHERE, SUN_RADIUS, Spectrum, rayleigh_phase};
 pub use moments::Moments;
 pub use path::Path;
 pub use solve::{LightField, Settings, solve};

@@ -124,6 +124,21 @@ pub const fn order_start(m: usize) -> usize {
     start
 }
 
+/// Degree l of each harmonic in the order of [`polar_harmonics`].
+pub const DEGREES: [usize; HARMONICS] = {
+    let mut out = [0; HARMONICS];
+    let mut m = 0;
+    while m <= ORDERS {
+        let mut i = order_start(m);
+        while i < order_start(m + 1) {
+            out[i] = m + i - order_start(m);
+            i += 1;
+        }
+        m += 1;
+    }
+    out
+};
+
 /// Orthonormal real harmonics without their azimuth factor: `N_lm P_lm(cos θ)`, √2 included for m > 0; sorted by m, then l.
 pub fn polar_harmonics(cosine: f64) -> [f32; HARMONICS] {
     let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();

@@ -2,7 +2,7 @@
 
 use super::medium::{Medium, NW, PER_SPHERE, Spectrum};
 use super::moments::{
-    COUNT, HARMONICS, Moments, ORDERS, SUNS, TENSOR, altitude_stencil, azimuth_harmonics,
+    COUNT, DEGREES, Moments, ORDERS, SUNS, TENSOR, altitude_stencil, azimuth_harmonics,
     order_start, polar_harmonics, sun_taps,
 };
 use super::path::Node;
@@ -189,18 +189,3 @@ fn local_coefficients(medium: &Medium, profiles: &[f32]) -> (Spectrum, Vec<Spect
     }
     (rayleigh, legendre)
 }
-
-/// Degree l of each harmonic in the order of [`polar_harmonics`].
-const DEGREES: [usize; HARMONICS] = {
-    let mut out = [0; HARMONICS];
-    let mut m = 0;
-    while m <= ORDERS {
-        let mut i = order_start(m);
-        while i < order_start(m + 1) {
-            out[i] = m + i - order_start(m);
-            i += 1;
-        }
-        m += 1;
-    }
-    out
-};

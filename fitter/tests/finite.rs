@@ -1,0 +1,153 @@
+//! Transmittance of fitted densities against quadrature, and against the outside references.
+
+use serde_json::Value;
+use std::path::Path;
+use welkin::format::{Chunk, Head, Payload, encode, parse};
+use welkin::{Air, Model};
+use welkin_fitter::atmosphere::json::Case;
+use welkin_fitter::atmosphere::{Atmosphere, VISIBILITIES, real};
+use welkin_fitter::column::ColumnIntegrator;
+use welkin_fitter::dataset::WAVELENGTHS;
+use welkin_fitter::finite::density;
+
+/// A file that holds the densities of one atmosphere and nothing else.
+fn air_of(atmosphere: &Atmosphere) -> Air {
+    let mut atmosphere = atmosphere.clone();
+    if atmosphere.wavelengths.len() == 1 {
+        // A model has at least two wavelengths.
+        for constituent in &mut atmosphere.constituents {
+            constituent.extinction.push(constituent.extinction[0]);
+        }
+        atmosphere.wavelengths = vec![440.0, 450.0];
+    }
+    let table = density::fit(std::slice::from_ref(&atmosphere), density::TOLERANCE).unwrap();
+    let chunk = Chunk {
+        altitude: None,
+        visibility: None,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload: Payload::Transmittance(table),
+    };
+    let file = encode(&head(&atmosphere), &[chunk]).unwrap();
+    Model::from_bytes(file)
+        .unwrap()
+        .air(VISIBILITIES[0])
+        .unwrap()
+}
+
+fn head(air: &Atmosphere) -> Head {
+    let mut head = parse(welkin::DEFAULT_MODEL).unwrap().head;
+    let nw = air.wavelengths.len();
+    head.planet = welkin_fitter::column::planet(air);
+    head.visibilities = vec![VISIBILITIES[0]];
+    head.wavelengths = air.wavelengths.clone();
+    head.constituents = air.constituents.len();
+    head.extinction = air
+        .constituents
+        .iter()
+        .flat_map(|c| c.extinction.clone())
+        .collect();
+    head.spherical_albedo = vec![0.0; nw];
+    head.xyz = vec![[0.0; 3]; nw];
+    head.elevation_scale = vec![0.0; head.shape().elevation * nw];
+    head.fields
+        .iter_mut()
+        .for_each(|field| field.parameter = vec![0.0; nw]);
+    head
+}
+
+/// Largest error of a transmittance and 99th percentile of the relative error of an optical depth.
+struct Errors {
+    transmittance: f64,
+    depths: Vec<f64>,
+}
+
+impl Errors {
+    fn new() -> Self {
+        Self {
+            transmittance: 0.0,
+            depths: vec![],
+        }
+    }
+
+    fn add(&mut self, exact: f64, got: f64) {
+        let error = ((-exact).exp() - (-got).exp()).abs();
+        self.transmittance = self.transmittance.max(error);
+        if exact > 0.0 {
+            self.depths.push((got / exact - 1.0).abs());
+        }
+    }
+
+    fn judge(&mut self, what: &str) {
+        self.depths.sort_by(f64::total_cmp);
+        let quantile = |p: f64| self.depths[(p * (self.depths.len() - 1) as f64) as usize];
+        let [median, p99, max] = [0.5, 0.99, 1.0].map(quantile);
+        println!(
+            "{what}: |ΔT| ≤ {:.1e}; optical depth median {median:.1e} p99 {p99:.1e} max {max:.1e}",
+            self.transmittance
+        );
+        assert!(self.transmittance <= 0.002 && p99 <= 0.01, "{what}");
+    }
+}
+
+fn share(i: usize, step: f64) -> f64 {
+    (i as f64 * step).fract()
+}
+
+/// From 1 m to the whole way, near the horizon, vertical and in all directions.
+#[test]
+fn transmittance_agrees_with_quadrature() {
+    for visibility in [VISIBILITIES[0], VISIBILITIES[3], VISIBILITIES[5]] {
+        let atmosphere = real(visibility, &WAVELENGTHS).unwrap();
+        let air = air_of(&atmosphere);
+        let exact = ColumnIntegrator::new(&atmosphere);
+        let mut errors = Errors::new();
+        for i in 0..12_000 {
+            let altitude = 15_000.0 * share(i, 0.754_877_666);
+            let t = 2.0 * share(i, 0.618_033_989) - 1.0;
+            let elevation = match i % 3 {
+                0 => 0.1 * t.powi(3),
+                1 => t.asin(),
+                _ => std::f64::consts::FRAC_PI_2.copysign(t),
+            };
+            let whole = air.planet().ray(altitude, elevation).length;
+            let length = 10f64.powf(6.5 * share(i, 0.569_840_291)).min(whole);
+            let columns = exact.along(altitude, elevation.sin(), length);
+            let direction = [elevation.cos(), 0.0, elevation.sin()];
+            let start = [0.0, 0.0, altitude];
+            let end = std::array::from_fn(|k| start[k] + length * direction[k]);
+            let mut depths = [0.0; 12];
+            air.optical_depth(start, end, &mut depths).unwrap();
+            for (w, depth) in depths.iter().enumerate() {
+                let parts = atmosphere.constituents.iter().zip(columns);
+                let depth_of = parts.map(|(c, column)| c.extinction[w] * column).sum();
+                errors.add(depth_of, f64::from(*depth));
+            }
+        }
+        errors.judge(&format!("{} km", visibility / 1e3));
+    }
+}
+
+#[test]
+fn transmittance_agrees_with_the_outside_references() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference");
+    let text = std::fs::read_to_string(folder.join("transmittance_open.json")).unwrap();
+    let file: Value = serde_json::from_str(&text).unwrap();
+    let mut errors = Errors::new();
+    for case in file["cases"].as_array().unwrap() {
+        let id = case["atm"].as_str().unwrap();
+        let atmosphere = Case::read(&folder.join(format!("sky_{id}.json")))
+            .unwrap()
+            .atmosphere;
+        let air = air_of(&atmosphere);
+        let number = |name: &str| case[name].as_f64().unwrap();
+        let zenith = number("view_zenith_deg").to_radians();
+        let (start, length) = ([0.0, 0.0, number("alt_m")], number("distance_m"));
+        let direction = [zenith.sin(), 0.0, zenith.cos()];
+        let end = std::array::from_fn(|k| start[k] + length * direction[k]);
+        let mut depths = vec![0.0; air.wavelengths().len()];
+        air.optical_depth(start, end, &mut depths).unwrap();
+        errors.add(number("tau"), f64::from(depths[0]));
+    }
+    errors.judge("references");
+}

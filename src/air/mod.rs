@@ -1,0 +1,194 @@
+//! The air alone: transmittance between any two points. Format specification, section 7.6.
+
+mod layers;
+mod segment;
+
+pub(crate) use layers::{Amounts, Layers, Line};
+pub(crate) use segment::{Segment, dot};
+
+use crate::axis::linear;
+use crate::error::{Error, Result};
+use crate::format::{Head, visibility_node};
+use crate::geometry::Planet;
+use crate::math::{LANES, exp};
+use crate::model::Model;
+
+/// The air at one visibility: transmittance along straight lines, without refraction.
+///
+/// Points are in metres in a world frame whose origin lies on the ground, with +z up there; the planet's centre is at
+/// (0, 0, −R). Nothing blocks the way: the caller has seen what is at its end. Below the ground the air is as
+/// dense as at the ground.
+///
+/// Whatever the file holds, transmittance is 1 over no distance, never grows with distance, is the same in both
+/// directions and multiplies along a line, all but for rounding. Queries allocate nothing. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct Air {
+    pub(crate) layers: Layers,
+    pub(crate) extinction: Extinction,
+    wavelengths: Vec<f64>,
+}
+
+/// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`.
+#[derive(Clone, Debug)]
+pub(crate) struct Extinction {
+    blocks: usize,
+    table: Vec<[f32; LANES]>,
+}
+
+impl Extinction {
+    fn new(head: &Head, visibility: f64) -> Self {
+        let nw = head.wavelengths.len();
+        let rows = head.constituents * nw;
+        let mut row = vec![0.0; rows];
+        for (v, weight) in linear(&head.visibility_nodes(), visibility_node(visibility)).taps() {
+            for (sum, k) in row.iter_mut().zip(&head.extinction[v * rows..]) {
+                *sum += weight * k;
+            }
+        }
+        let lane = |block: &[f64], i: usize| block.get(i).map_or(0.0, |&k| k as f32);
+        let blocks = row.chunks(nw).flat_map(|row| row.chunks(LANES));
+        Self {
+            blocks: nw.div_ceil(LANES),
+            table: blocks
+                .map(|b| core::array::from_fn(|i| lane(b, i)))
+                .collect(),
+        }
+    }
+
+    /// Optical depths of a block of wavelengths.
+    #[inline(always)]
+    pub fn depth(&self, columns: &Amounts, block: usize) -> [f32; LANES] {
+        let mut depth = [0.0; LANES];
+        for (k, row) in self.table.chunks_exact(self.blocks).enumerate() {
+            let column = columns.get(k);
+            depth = core::array::from_fn(|i| depth[i] + row[block][i] * column);
+        }
+        depth
+    }
+}
+
+impl Model {
+    /// Prepares the air at a visibility (m).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the visibility; [`Error::MissingChunk`] if the file has no transmittance;
+    /// [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if that is damaged.
+    pub fn air(&self, visibility: f64) -> Result<Air> {
+        let [min, max] = self.visibility_range();
+        if !(min..=max).contains(&visibility) {
+            return Err(Error::OutOfRange {
+                parameter: "visibility",
+                value: visibility,
+                min,
+                max,
+                unit: "m",
+            });
+        }
+        let head = self.head();
+        Ok(Air {
+            layers: Layers::new(&self.density_chunk()?, head.planet, head.constituents),
+            extinction: Extinction::new(head, visibility),
+            wavelengths: head.wavelengths.clone(),
+        })
+    }
+}
+
+impl Air {
+    /// Wavelengths of the results, nm.
+    pub fn wavelengths(&self) -> &[f64] {
+        &self.wavelengths
+    }
+
+    /// Mean extinction coefficient of each constituent over the wavelengths, m⁻¹.
+    pub(crate) fn grey(&self) -> Amounts {
+        let mut out = Amounts::default();
+        let rows = self.extinction.table.chunks_exact(self.extinction.blocks);
+        for (k, row) in rows.enumerate() {
+            let sum: f32 = row.as_flattened().iter().sum();
+            out.0[k / LANES][k % LANES] = sum / self.wavelengths.len() as f32;
+        }
+        out
+    }
+
+    /// The planet.
+    pub fn planet(&self) -> Planet {
+        self.layers.planet()
+    }
+
+    /// Bytes on the heap.
+    pub fn bytes(&self) -> usize {
+        self.layers.bytes()
+            + size_of_val(self.extinction.table.as_slice())
+            + size_of_val(self.wavelengths.as_slice())
+    }
+
+    /// Transmittance between two points at each of [`Air::wavelengths`].
+    ///
+    /// # Errors
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Length`] unless `out` has one
+    /// element per wavelength.
+    pub fn transmittance(&self, from: [f64; 3], to: [f64; 3], out: &mut [f32]) -> Result<()> {
+        self.optical_depth(from, to, out)?;
+        attenuate(out);
+        Ok(())
+    }
+
+    /// Optical depth between two points at each of [`Air::wavelengths`].
+    ///
+    /// # Errors
+    /// As [`Air::transmittance`].
+    pub fn optical_depth(&self, from: [f64; 3], to: [f64; 3], out: &mut [f32]) -> Result<()> {
+        self.check_output(out)?;
+        let segment = Segment::between(&self.planet(), from, to)?;
+        self.depths(&segment, out);
+        Ok(())
+    }
+
+    /// Transmittance from a point to space in a direction (need not be normalised); zero where the ground is in the way.
+    ///
+    /// # Errors
+    /// As [`Air::transmittance`]; [`Error::Direction`] for a vector that is zero or not finite.
+    pub fn transmittance_to_space(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        self.check_output(out)?;
+        let (segment, ground) = Segment::to_end(&self.planet(), from, direction)?;
+        if ground {
+            out.fill(0.0);
+            return Ok(());
+        }
+        self.depths(&segment, out);
+        attenuate(out);
+        Ok(())
+    }
+
+    fn depths(&self, segment: &Segment, out: &mut [f32]) {
+        let columns = self
+            .layers
+            .columns(segment.line, segment.from, segment.to());
+        for (block, out) in out.chunks_mut(LANES).enumerate() {
+            let depth = self.extinction.depth(&columns, block);
+            out.copy_from_slice(&depth[..out.len()]);
+        }
+    }
+
+    fn check_output(&self, out: &[f32]) -> Result<()> {
+        if out.len() == self.wavelengths.len() {
+            return Ok(());
+        }
+        Err(Error::Length {
+            what: "output",
+            expected: self.wavelengths.len() as u64,
+            got: out.len() as u64,
+        })
+    }
+}
+
+fn attenuate(out: &mut [f32]) {
+    for value in out {
+        *value = exp(-*value);
+    }
+}

@@ -1,0 +1,95 @@
+//! Straight segments above a spherical planet.
+
+use super::layers::Line;
+use crate::error::{Error, Result};
+use crate::geometry::Planet;
+
+/// A point in the world frame, m: the origin on the ground, +z up there.
+pub(crate) type Point = [f64; 3];
+
+/// A directed segment, in terms of its line's closest approach to the planet's centre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment {
+    pub line: Line,
+    /// Distance of the start from the tangent point, negative before it, m.
+    pub from: f64,
+    pub length: f64,
+    /// Unit vector from start to end.
+    pub direction: [f64; 3],
+    /// Start relative to the planet's centre, m.
+    pub start: [f64; 3],
+}
+
+impl Segment {
+    pub fn between(planet: &Planet, a: Point, b: Point) -> Result<Self> {
+        let a = checked(a)?;
+        let b = checked(b)?;
+        let way: [f64; 3] = core::array::from_fn(|i| b[i] - a[i]);
+        let length = dot(way, way).sqrt();
+        let direction = if length > 0.0 {
+            way.map(|v| v / length)
+        } else {
+            [0.0, 0.0, 1.0]
+        };
+        Ok(Self::along(planet, a, direction, length))
+    }
+
+    /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true.
+    pub fn to_end(planet: &Planet, a: Point, direction: [f64; 3]) -> Result<(Self, bool)> {
+        let a = checked(a)?;
+        let square = dot(direction, direction);
+        if !(square > 0.0 && square.is_finite()) {
+            let got = direction.map(|v| v as f32);
+            return Err(Error::Direction { got });
+        }
+        let unit = direction.map(|v| v / square.sqrt());
+        let endless = Self::along(planet, a, unit, 0.0);
+        let diameter = 2.0 * planet.radius;
+        let reach = |w: f64| (w - endless.line.lowest) * diameter;
+        let ground = reach(0.0);
+        if endless.line.lowest < 0.0 && endless.from < 0.0 && endless.from * endless.from >= ground
+        {
+            let length = -endless.from - ground.sqrt();
+            return Ok((Self::along(planet, a, unit, length), true));
+        }
+        let top = reach(planet.squared_altitude(planet.top));
+        let length = (top.max(0.0).sqrt() - endless.from).max(0.0);
+        Ok((Self::along(planet, a, unit, length), false))
+    }
+
+    fn along(planet: &Planet, a: Point, direction: [f64; 3], length: f64) -> Self {
+        let start = [a[0], a[1], a[2] + planet.radius];
+        let from = dot(start, direction);
+        let diameter = 2.0 * planet.radius;
+        // r² − R² over the diameter, without the cancellation of the squares.
+        let w = (dot(a, a) / diameter) + a[2];
+        let line = Line {
+            lowest: w - from * from / diameter,
+        };
+        Self {
+            line,
+            from,
+            length,
+            direction,
+            start,
+        }
+    }
+
+    pub fn to(&self) -> f64 {
+        self.from + self.length
+    }
+}
+
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Farther out there is nothing, and squares stay exact enough.
+const FARTHEST: f64 = 1e9;
+
+fn checked(point: Point) -> Result<Point> {
+    if point.iter().all(|v| v.abs() <= FARTHEST) {
+        return Ok(point);
+    }
+    Err(Error::Point { got: point })
+}

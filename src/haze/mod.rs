@@ -1,0 +1,440 @@
+//! Haze: the light that the air between two points scatters towards the first. Format specification, section 7.7.
+
+mod directions;
+mod harmonics;
+mod nodes;
+mod source;
+mod species;
+mod sunlight;
+
+use crate::air::{Air, Amounts, Segment, dot};
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::format::{Head, Kind, visibility_node};
+use crate::math::{LANES, bound, one_minus_exp_neg};
+use crate::model::Model;
+use crate::phase::SunAngle;
+use directions::{Components, Local};
+use nodes::{MOST_PANELS, Panel, place, point};
+use source::{SourceTable, Spot, blocks, ground_factor};
+use species::Species;
+use sunlight::Sunlight;
+
+/// Most constituents that a file can have.
+const MOST_CONSTITUENTS: usize = 16;
+
+/// Transmittance and in-scattered light of finite segments: aerial perspective.
+///
+/// Points are in metres in the frame of [`Air`]: the origin on the ground, +z up there. The conditions hold at the
+/// origin; the sun is so far away that its direction is the same everywhere, while its elevation above the local horizon is not.
+/// The altitude of the conditions plays no part: one haze serves all observers. Nothing blocks a segment.
+///
+/// The light is integrated along the segment: sunlight scattered once, with the sun's disc setting behind the planet, and a stored
+/// source function of all other light. So it is never negative, vanishes with the length of the segment, adds up along
+/// a ray, and stays what it is beyond the atmosphere.
+///
+/// After [`Model::haze`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct Haze {
+    conditions: Conditions,
+    air: Air,
+    sun: [f64; 3],
+    species: Species,
+    source: SourceTable,
+    /// Mean extinction coefficient of each constituent, m⁻¹: a typical wavelength.
+    grey: Amounts,
+    irradiance: Vec<[f32; LANES]>,
+    /// `[block][X, Y, Z]`.
+    xyz: Vec<[[f32; LANES]; 3]>,
+    /// XYZ of the unattenuated sun, for the transmittance of colours.
+    white: [f32; 3],
+}
+
+impl Model {
+    /// Prepares transmittance and in-scattering for a scene.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for conditions outside the model; [`Error::MissingChunk`] if the file has no transmittance
+    /// or no source; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if one is damaged.
+    pub fn haze(&self, conditions: &Conditions) -> Result<Haze> {
+        let conditions = conditions.checked(self)?;
+        let head = self.head();
+        let nodes = head.visibility_nodes();
+        let x = visibility_node(conditions.visibility);
+        let cubic = crate::axis::hermite(&nodes, x);
+        let sources = cubic.taps().map(|(v, _)| (Kind::Source, None, Some(v)));
+        let shared = [Kind::Transmittance, Kind::SourceBasis].map(|kind| (kind, None, None));
+        self.prefetch(sources.chain(shared))?;
+        let air = self.air(conditions.visibility)?;
+        let linear = crate::axis::linear(&nodes, x);
+        let around: Vec<_> = linear
+            .taps()
+            .map(|(v, weight)| Ok((self.source_chunk(v)?, weight)))
+            .collect::<Result<_>>()?;
+        let ground = ground_factor(head, conditions.visibility, conditions.albedo);
+        let (elevation, azimuth) = (conditions.solar_elevation, conditions.solar_azimuth);
+        Ok(Haze {
+            source: SourceTable::new(self, conditions.visibility, elevation, &ground)?,
+            species: Species::new(head, around.into_iter()),
+            sun: sun_direction(elevation, azimuth),
+            grey: air.grey(),
+            irradiance: blocks(&irradiance(head)).collect(),
+            xyz: xyz(head),
+            white: core::array::from_fn(|c| head.xyz.iter().map(|row| row[c] as f32).sum()),
+            air,
+            conditions,
+        })
+    }
+}
+
+/// What a segment does to light, for one block of wavelengths.
+struct Block {
+    scattered: [f32; LANES],
+    depth: [f32; LANES],
+}
+
+impl Haze {
+    /// The conditions that the haze was prepared for.
+    pub fn conditions(&self) -> &Conditions {
+        &self.conditions
+    }
+
+    /// The air: transmittance alone.
+    pub fn air(&self) -> &Air {
+        &self.air
+    }
+
+    /// Wavelengths of the results, nm.
+    pub fn wavelengths(&self) -> &[f64] {
+        self.air.wavelengths()
+    }
+
+    /// Unit vector towards the sun's centre.
+    pub fn sun_direction(&self) -> [f64; 3] {
+        self.sun
+    }
+
+    /// Memory that the haze holds on the heap, bytes: mostly the source, 16 × altitudes × suns × blocks of four wavelengths ×
+    /// components.
+    pub fn bytes(&self) -> usize {
+        let own = size_of_val(self.irradiance.as_slice()) + size_of_val(self.xyz.as_slice());
+        self.air.bytes() + self.source.bytes() + self.species.bytes() + own
+    }
+
+    /// The same haze with the sun at another azimuth (rad). Costs no preparation.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the azimuth is not finite.
+    pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        if !azimuth.is_finite() {
+            return Err(Error::OutOfRange {
+                parameter: "solar_azimuth",
+                value: azimuth,
+                min: f64::MIN,
+                max: f64::MAX,
+                unit: "rad",
+            });
+        }
+        self.conditions.solar_azimuth = azimuth;
+        self.sun = sun_direction(self.conditions.solar_elevation, azimuth);
+        Ok(())
+    }
+
+    /// Light that the air between `from` and `to` scatters to `from` (W m⁻² sr⁻¹ nm⁻¹), and the transmittance between them, at
+    /// each of [`Haze::wavelengths`].
+    ///
+    /// # Errors
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Length`] unless both outputs have
+    /// one element per wavelength.
+    pub fn in_scatter(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        in_scatter: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.check_outputs(1, in_scatter, transmittance)?;
+        let segment = Segment::between(&self.air.planet(), from, to)?;
+        self.spectral(&segment, in_scatter, transmittance);
+        Ok(())
+    }
+
+    /// As [`Haze::in_scatter`], from a point in a direction (need not be normalised) through all of the air, up to the ground where
+    /// that is in the way.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter`]; [`Error::Direction`] for a vector that is zero or not finite.
+    pub fn to_end(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        in_scatter: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.check_outputs(1, in_scatter, transmittance)?;
+        let (segment, _) = Segment::to_end(&self.air.planet(), from, direction)?;
+        self.spectral(&segment, in_scatter, transmittance);
+        Ok(())
+    }
+
+    /// [`Haze::in_scatter`] from one camera to many points; the outputs are `[points][wavelengths]`.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter`]. What precedes a bad point is written.
+    pub fn aerial_perspective(
+        &self,
+        camera: [f64; 3],
+        points: &[[f64; 3]],
+        in_scatter: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.check_outputs(points.len(), in_scatter, transmittance)?;
+        let n = self.wavelengths().len();
+        let rows = in_scatter
+            .chunks_exact_mut(n)
+            .zip(transmittance.chunks_exact_mut(n));
+        for (&point, (light, through)) in points.iter().zip(rows) {
+            let segment = Segment::between(&self.air.planet(), camera, point)?;
+            self.spectral(&segment, light, through);
+        }
+        Ok(())
+    }
+
+    /// In-scattered light as CIE 1931 XYZ (Y in cd m⁻²), and the factors by which the air changes X, Y and Z of white
+    /// things in the colour of the sun.
+    ///
+    /// # Errors
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m.
+    pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let segment = Segment::between(&self.air.planet(), from, to)?;
+        let mut sums = [[[0f32; LANES]; 3]; 2];
+        self.integrate(&segment, |block, result| {
+            let through = attenuated(&result.depth);
+            for (c, weight) in self.xyz[block].iter().enumerate() {
+                for i in 0..LANES {
+                    sums[0][c][i] += weight[i] * result.scattered[i];
+                    sums[1][c][i] += weight[i] * through[i];
+                }
+            }
+        });
+        let [light, through] = sums.map(|sum| sum.map(|lanes| lanes.iter().sum::<f32>()));
+        let factor = |c: usize| bound(through[c] / self.white[c], 0.0, 1.0);
+        let light = light.map(|v| bound(v, f32::MIN, f32::MAX));
+        Ok((light, core::array::from_fn(factor)))
+    }
+
+    /// In-scattered light in linear sRGB (cd m⁻², not clipped), and the factors by which the air changes red, green and blue
+    /// of white things in the colour of the sun.
+    ///
+    /// # Errors
+    /// As [`Haze::xyz`].
+    pub fn linear_srgb(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let (light, through) = self.xyz(from, to)?;
+        let seen = core::array::from_fn(|c| through[c] * self.white[c]);
+        let [seen, white] = [seen, self.white].map(crate::colour::xyz_to_linear_srgb);
+        let factor = |c: usize| bound(seen[c] / white[c], 0.0, 1.0);
+        let light = crate::colour::xyz_to_linear_srgb(light);
+        Ok((light, core::array::from_fn(factor)))
+    }
+
+    fn spectral(&self, segment: &Segment, in_scatter: &mut [f32], transmittance: &mut [f32]) {
+        self.integrate(segment, |block, result| {
+            let through = attenuated(&result.depth);
+            let sun = &self.irradiance[block];
+            let rows = in_scatter[block * LANES..]
+                .iter_mut()
+                .zip(&mut transmittance[block * LANES..]);
+            for (i, (light, t)) in rows.take(LANES).enumerate() {
+                *light = bound(result.scattered[i] * sun[i], 0.0, f32::MAX);
+                *t = through[i];
+            }
+        });
+    }
+
+    /// Hands what the segment does, per unit of solar irradiance, to `emit` block by block.
+    #[inline]
+    fn integrate(&self, segment: &Segment, mut emit: impl FnMut(usize, Block)) {
+        let layers = &self.air.layers;
+        let constituents = layers.constituents;
+        let mut panels = [Panel::default(); MOST_PANELS];
+        let count = place(layers, segment, &self.grey, &mut panels);
+        let stations = self.stations(segment);
+        let lit: [Lit; MOST_PANELS] = core::array::from_fn(|i| match i < count {
+            true => self.lit(segment, &panels[i], &stations),
+            false => Lit::default(),
+        });
+        let cosine = dot(segment.direction, self.sun);
+        let angle = SunAngle::between(segment.direction, self.sun);
+        debug_assert!(cosine.is_finite());
+        let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
+        for block in 0..self.irradiance.len() {
+            self.species
+                .sunlit(block, angle, &mut sunlit[..constituents]);
+            let mut scattered = [0.0; LANES];
+            let mut total = Amounts::default();
+            let mut through = [1.0; LANES];
+            for (panel, lit) in panels[..count].iter().zip(&lit) {
+                let depth = self.air.extinction.depth(&panel.columns, block);
+                let sunlight = self.air.extinction.depth(&lit.sunlight.columns, block);
+                let light = self.source.scattered(&lit.spot, &lit.seen, block);
+                let mut source = [0.0; LANES];
+                for (k, sunlit) in sunlit[..constituents].iter().enumerate() {
+                    let column = panel.columns.get(k);
+                    let [molecules, particles] = [0, 1].map(|c| self.species.totals(c, k, block));
+                    for i in 0..LANES {
+                        let direct = lit.sunlight.share * sunlit[i] * fade(sunlight[i]);
+                        let diffuse = molecules[i] * light[0][i] + particles[i] * light[1][i];
+                        source[i] += column * (direct + diffuse);
+                    }
+                }
+                for i in 0..LANES {
+                    let absorbed = one_minus_exp_neg(depth[i]);
+                    // Mean transmittance over the panel; the limit is reached before the quotient loses its digits.
+                    let mean = if depth[i] > 1e-4 {
+                        absorbed / depth[i]
+                    } else {
+                        1.0 - 0.5 * depth[i]
+                    };
+                    scattered[i] += source[i] * through[i] * mean;
+                    through[i] *= 1.0 - absorbed;
+                }
+                total.add(&panel.columns, layers.quads);
+            }
+            let depth = self.air.extinction.depth(&total, block);
+            emit(block, Block { scattered, depth });
+        }
+    }
+
+    /// How the components look from points of the segment.
+    fn stations(&self, segment: &Segment) -> Stations {
+        let at = |s: f64| {
+            let local = self.local(segment, s);
+            self.source.directions.at(&local.1)
+        };
+        let middle = segment.from + 0.5 * segment.length;
+        if segment.length < SHORT {
+            return Stations::One(at(middle));
+        }
+        Stations::Three([at(segment.from), at(middle), at(segment.to())])
+    }
+
+    /// Altitude, and the directions of view and sun in the local frame, with the sine of the sun's elevation.
+    #[inline(always)]
+    fn local(&self, segment: &Segment, s: f64) -> (f64, Local, f64) {
+        let (altitude, view) = point(&self.air.layers, segment.line, s);
+        let radius = self.air.planet().radius + altitude;
+        let way = s - segment.from;
+        let place: [f64; 3] =
+            core::array::from_fn(|i| segment.start[i] + way * segment.direction[i]);
+        let sun = (dot(place, self.sun) / radius).clamp(-1.0, 1.0);
+        let between = dot(segment.direction, self.sun);
+        (altitude, Local::new(view, sun, between), sun)
+    }
+
+    #[inline(always)]
+    fn lit(&self, segment: &Segment, panel: &Panel, stations: &Stations) -> Lit {
+        let (altitude, _, sun) = self.local(segment, panel.at);
+        Lit {
+            sunlight: Sunlight::at(&self.air.layers, altitude, sun),
+            spot: self.source.spot(altitude as f32, sun as f32),
+            seen: stations.at(((panel.at - segment.from) / segment.length.max(1e-9)) as f32),
+        }
+    }
+
+    fn check_outputs(&self, points: usize, a: &[f32], b: &[f32]) -> Result<()> {
+        let expected = points.saturating_mul(self.wavelengths().len());
+        for got in [a.len(), b.len()] {
+            if got != expected {
+                return Err(Error::Length {
+                    what: "output",
+                    expected: expected as u64,
+                    got: got as u64,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Segments up to this length (m) see the source in one direction: the vertical turns by a twentieth of a degree.
+const SHORT: f64 = 6000.0;
+
+/// The components in the directions of a segment.
+#[allow(clippy::large_enum_variant)]
+enum Stations {
+    One([Components; 2]),
+    /// At the start, the middle and the end.
+    Three([[Components; 2]; 3]),
+}
+
+impl Stations {
+    #[inline(always)]
+    fn at(&self, t: f32) -> [Components; 2] {
+        match self {
+            Stations::One(seen) => *seen,
+            Stations::Three(seen) => {
+                let weight = [
+                    (1.0 - t) * (1.0 - 2.0 * t),
+                    4.0 * t * (1.0 - t),
+                    t * (2.0 * t - 1.0),
+                ];
+                let mut out = [Components::default(); 2];
+                for (seen, weight) in seen.iter().zip(weight) {
+                    for (out, seen) in out.iter_mut().zip(seen) {
+                        directions::add(out, seen, weight);
+                    }
+                }
+                out
+            }
+        }
+    }
+}
+
+/// The light in a panel.
+#[derive(Clone, Copy)]
+struct Lit {
+    sunlight: Sunlight,
+    spot: Spot,
+    seen: [Components; 2],
+}
+
+impl Default for Lit {
+    fn default() -> Self {
+        Self {
+            sunlight: Sunlight {
+                share: 0.0,
+                columns: Amounts::default(),
+            },
+            spot: Spot::default(),
+            seen: [Components::default(); 2],
+        }
+    }
+}
+
+#[inline(always)]
+fn fade(depth: f32) -> f32 {
+    crate::math::exp(-depth)
+}
+
+fn attenuated(depth: &[f32; LANES]) -> [f32; LANES] {
+    core::array::from_fn(|i| fade(depth[i]))
+}
+
+fn sun_direction(elevation: f64, azimuth: f64) -> [f64; 3] {
+    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
+    [ce * ca, ce * sa, se]
+}
+
+fn irradiance(head: &Head) -> Vec<f64> {
+    head.wavelengths
+        .iter()
+        .map(|&l| head.solar_irradiance_at(l))
+        .collect()
+}
+
+fn xyz(head: &Head) -> Vec<[[f32; LANES]; 3]> {
+    let rows = head.xyz.chunks(LANES);
+    let lane = |row: &[[f64; 3]], i: usize, c: usize| row.get(i).map_or(0.0, |xyz| xyz[c] as f32);
+    rows.map(|row| core::array::from_fn(|c| core::array::from_fn(|i| lane(row, i, c))))
+        .collect()
+}

@@ -1,0 +1,317 @@
+//! The source function of multiply scattered light at the conditions of a scene: every mode but altitude, sun and
+//! component is contracted here. Format specification, section 7.7.
+
+use super::directions::{Components, Directions};
+use crate::axis::{hermite, linear};
+use crate::error::{Error, Result};
+use crate::format::{
+    Head, SOURCE_FIELDS, SourceBasisView, SourceView, altitude_node, visibility_node, widen,
+};
+use crate::math::{LANES, exp};
+use crate::model::Model;
+
+/// Sun nodes of the table.
+const SUNS: usize = 29;
+/// How far the sun's local elevation may be from that at the origin, rad: the farthest points of the atmosphere that
+/// are seen from 15 km stand 14° away.
+const REACH: f64 = 0.25;
+/// How much denser the sun nodes are around the sun of the scene.
+const CROWDING: f64 = 2.0;
+
+/// The source over altitude and the sun's local elevation.
+#[derive(Clone, Debug)]
+pub(crate) struct SourceTable {
+    pub directions: Directions,
+    altitude: Vec<f32>,
+    /// Sines of the sun's elevation.
+    sun: Vec<f32>,
+    blocks: usize,
+    rank: usize,
+    /// `[altitude][sun][block of wavelengths][component]`, over the level.
+    values: Vec<[f32; LANES]>,
+    /// Logarithm of the level, `[sun][block]`.
+    level: Vec<[f32; LANES]>,
+}
+
+/// A place in the table.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spot {
+    /// First row of each of the four neighbours.
+    row: [usize; 4],
+    weight: [f32; 4],
+    level: [usize; 2],
+    share: f32,
+}
+
+impl SourceTable {
+    pub fn new(model: &Model, visibility: f64, sun: f64, ground: &[f64]) -> Result<Self> {
+        let head = model.head();
+        let basis = model.source_basis_chunk()?;
+        let altitude = refine(&basis);
+        let sun = sun_nodes(sun);
+        let weights = Weights::new(&basis, &altitude, &sun);
+        let nw = head.wavelengths.len();
+        let mut values = vec![0.0; altitude.len() * sun.len() * nw * basis.ranks[2]];
+        let mut level = vec![0.0; sun.len() * nw];
+        let stencil = hermite(&head.visibility_nodes(), visibility_node(visibility));
+        for (v, share) in stencil.taps() {
+            let source = model.source_chunk(v)?;
+            if source.ranks != basis.ranks || source.suns != basis.sun.len() {
+                let detail = "ranks or suns differ from those of the source basis";
+                return Err(Error::invalid("source chunk", detail));
+            }
+            let levels = weights.levels(&source, nw);
+            for (sum, value) in level.iter_mut().zip(&levels[0]) {
+                *sum += share * value;
+            }
+            weights.add(&basis, &source, share, &levels, ground, &mut values);
+        }
+        let table = Self {
+            directions: Directions::new(&basis),
+            altitude: altitude.iter().map(|&h| h as f32).collect(),
+            sun: sun.iter().map(|&s| s as f32).collect(),
+            blocks: nw.div_ceil(LANES),
+            rank: basis.ranks[2],
+            values: pack(&values, nw, basis.ranks[2]),
+            level: level.chunks(nw).flat_map(blocks).collect(),
+        };
+        let finite = |rows: &[[f32; LANES]]| rows.as_flattened().iter().all(|v| v.is_finite());
+        if finite(&table.values) && finite(&table.level) {
+            return Ok(table);
+        }
+        let detail = "its values overflow at these conditions: the file is not a sensible sky";
+        Err(Error::invalid("source", detail))
+    }
+
+    pub fn bytes(&self) -> usize {
+        self.directions.bytes()
+            + size_of_val(self.values.as_slice())
+            + size_of_val(self.level.as_slice())
+            + 4 * (self.altitude.len() + self.sun.len())
+    }
+
+    /// Finds a place.
+    #[inline]
+    pub fn spot(&self, altitude: f32, sun: f32) -> Spot {
+        let (a, t) = locate(&self.altitude, altitude);
+        let (s, u) = locate(&self.sun, sun);
+        let row = |a: usize, s: usize| (a * self.sun.len() + s) * self.blocks * self.rank;
+        Spot {
+            row: [row(a, s), row(a, s + 1), row(a + 1, s), row(a + 1, s + 1)],
+            weight: [(1.0 - t) * (1.0 - u), (1.0 - t) * u, t * (1.0 - u), t * u],
+            level: [s * self.blocks, (s + 1) * self.blocks],
+            share: u,
+        }
+    }
+
+    /// What molecules and what particles scatter towards the observer, per unit of scattering coefficient, m⁻¹ sr⁻¹.
+    #[inline(always)]
+    pub fn scattered(
+        &self,
+        spot: &Spot,
+        seen: &[Components; 2],
+        block: usize,
+    ) -> [[f32; LANES]; 2] {
+        let rows = spot
+            .row
+            .map(|row| &self.values[row + block * self.rank..][..self.rank]);
+        let mut sums = [[0.0; LANES]; 2];
+        let [molecules, particles] = [seen[0].as_flattened(), seen[1].as_flattened()];
+        for r in 0..self.rank {
+            let mut value = [0.0; LANES];
+            for (row, weight) in rows.iter().zip(spot.weight) {
+                value = core::array::from_fn(|i| value[i] + weight * row[r][i]);
+            }
+            sums[0] = core::array::from_fn(|i| sums[0][i] + molecules[r] * value[i]);
+            sums[1] = core::array::from_fn(|i| sums[1][i] + particles[r] * value[i]);
+        }
+        let [near, far] = spot.level.map(|level| &self.level[level + block]);
+        let mut level = [0.0; LANES];
+        for i in 0..LANES {
+            level[i] = exp(near[i] + spot.share * (far[i] - near[i]));
+        }
+        // A compressed source may dip below zero where there is next to no light.
+        sums.map(|sum| core::array::from_fn(|i| sum[i].max(0.0) * level[i]))
+    }
+}
+
+/// Interval and position in it; clamped to the ends.
+#[inline(always)]
+fn locate(nodes: &[f32], x: f32) -> (usize, f32) {
+    let i = nodes[1..nodes.len() - 1].partition_point(|&node| node <= x);
+    let t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
+    (i, t.clamp(0.0, 1.0))
+}
+
+/// The altitude nodes of the file with one more between each two, for linear interpolation.
+fn refine(basis: &SourceBasisView) -> Vec<f64> {
+    let nodes = basis.altitude.windows(2);
+    let mut out: Vec<f64> = nodes
+        .flat_map(|n| [n[0].get(), 0.5 * (n[0].get() + n[1].get())])
+        .collect();
+    out.push(basis.altitude[basis.altitude.len() - 1].get());
+    out
+}
+
+/// Sines of the elevations around that of the scene's sun (rad).
+fn sun_nodes(elevation: f64) -> Vec<f64> {
+    let half = (SUNS / 2) as f64;
+    let angle = |i: usize| {
+        let v = i as f64 / half - 1.0;
+        elevation + REACH * v.signum() * v.abs().powf(CROWDING)
+    };
+    let quarter = core::f64::consts::FRAC_PI_2;
+    let mut nodes: Vec<f64> = (0..SUNS)
+        .map(angle)
+        .filter(|a| a.abs() < quarter - 1e-3)
+        .map(f64::sin)
+        .collect();
+    if elevation + REACH >= quarter - 1e-3 {
+        nodes.push(1.0);
+    }
+    nodes
+}
+
+fn sun_coordinate(sine: f64) -> f64 {
+    (12.5 * sine).asinh()
+}
+
+/// Rows of the factor matrices at the nodes of a table.
+struct Weights {
+    /// `[altitude][component]`.
+    altitude: Vec<Vec<f64>>,
+    /// `[sun][component]`.
+    sun: Vec<Vec<f64>>,
+    /// Taps of each sun node.
+    taps: Vec<Vec<(usize, f64)>>,
+}
+
+impl Weights {
+    fn new(basis: &SourceBasisView, altitude: &[f64], sun: &[f64]) -> Self {
+        let coordinates = |nodes: &[zerocopy::little_endian::F64],
+                           map: fn(f64) -> f64|
+         -> Vec<f64> { nodes.iter().map(|n| map(n.get())).collect() };
+        let altitudes = coordinates(basis.altitude, altitude_node);
+        let suns = coordinates(basis.sun, sun_coordinate);
+        let row = |mode: usize, taps: &[(usize, f64)]| -> Vec<f64> {
+            let rank = basis.ranks[mode];
+            let value = |i: usize, r: usize| f64::from(basis.factors[mode][i * rank + r].get());
+            let sum = |r: usize| taps.iter().map(|&(i, w)| w * value(i, r)).sum();
+            (0..rank).map(sum).collect()
+        };
+        let taps: Vec<Vec<(usize, f64)>> = sun
+            .iter()
+            .map(|&s| hermite(&suns, sun_coordinate(s)).taps().collect())
+            .collect();
+        let at_altitude = |&h: &f64| {
+            let taps: Vec<_> = hermite(&altitudes, altitude_node(h)).taps().collect();
+            row(0, &taps)
+        };
+        Self {
+            altitude: altitude.iter().map(at_altitude).collect(),
+            sun: taps.iter().map(|taps| row(1, taps)).collect(),
+            taps,
+        }
+    }
+
+    /// Logarithms of the levels per field, `[sun][wavelength]`.
+    fn levels(&self, source: &SourceView, nw: usize) -> [Vec<f64>; SOURCE_FIELDS] {
+        core::array::from_fn(|field| {
+            let table = &source.level[field * source.suns * nw..];
+            let value = |taps: &[(usize, f64)], w: usize| -> f64 {
+                taps.iter()
+                    .map(|&(i, t)| t * f64::from(table[i * nw + w].get()))
+                    .sum()
+            };
+            let row =
+                |taps: &Vec<(usize, f64)>| (0..nw).map(|w| value(taps, w)).collect::<Vec<_>>();
+            self.taps.iter().flat_map(row).collect()
+        })
+    }
+
+    /// Adds `share` times the source of a visibility to `[altitude][sun][wavelength][component]`.
+    fn add(
+        &self,
+        basis: &SourceBasisView,
+        source: &SourceView,
+        share: f64,
+        levels: &[Vec<f64>; SOURCE_FIELDS],
+        ground: &[f64],
+        out: &mut [f64],
+    ) {
+        let [ra, rs, rm, rc] = basis.ranks;
+        let nw = ground.len();
+        let core: Vec<f64> = source.core.iter().map(|&h| f64::from(widen(h))).collect();
+        let suns = self.sun.len();
+        for (j, sun) in self.sun.iter().enumerate() {
+            // `[channel component][wavelength]`: both fields in terms of the sky's level.
+            let mut channel = vec![0.0; rc * nw];
+            for w in 0..nw {
+                let ratio = (levels[1][j * nw + w] - levels[0][j * nw + w]).exp();
+                for c in 0..rc {
+                    let factor = |row: usize| f64::from(basis.factors[3][row * rc + c].get());
+                    channel[c * nw + w] = factor(w) + ground[w] * ratio * factor(nw + w);
+                }
+            }
+            // `[altitude component][wavelength][moment component]`.
+            let mut seen = vec![0.0; ra * nw * rm];
+            for a in 0..ra {
+                for m in 0..rm {
+                    for c in 0..rc {
+                        let at = |s: usize| core[((a * rs + s) * rm + m) * rc + c];
+                        let sum: f64 = (0..rs).map(|s| sun[s] * at(s)).sum();
+                        for w in 0..nw {
+                            seen[(a * nw + w) * rm + m] += sum * channel[c * nw + w];
+                        }
+                    }
+                }
+            }
+            let factor = share * f64::from(source.scale);
+            for (i, altitude) in self.altitude.iter().enumerate() {
+                let row = &mut out[(i * suns + j) * nw * rm..][..nw * rm];
+                for (seen, weight) in seen.chunks_exact(nw * rm).zip(altitude) {
+                    for (sum, value) in row.iter_mut().zip(seen) {
+                        *sum += factor * weight * value;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `[row][wavelength][component]` as `[row][block][component][lane]`.
+fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<[f32; LANES]> {
+    let mut out = Vec::with_capacity(values.len() / nw * nw.div_ceil(LANES));
+    for row in values.chunks_exact(nw * rank) {
+        for block in 0..nw.div_ceil(LANES) {
+            for r in 0..rank {
+                let lane = |i: usize| row.get((block * LANES + i) * rank + r);
+                out.push(core::array::from_fn(|i| lane(i).map_or(0.0, |&v| v as f32)));
+            }
+        }
+    }
+    out
+}
+
+/// A spectrum in vectors.
+pub(crate) fn blocks(spectrum: &[f64]) -> impl Iterator<Item = [f32; LANES]> + '_ {
+    let lane = |block: &[f64], i: usize| block.get(i).map_or(0.0, |&v| v as f32);
+    spectrum
+        .chunks(LANES)
+        .map(move |block| core::array::from_fn(|i| lane(block, i)))
+}
+
+/// Factor of the light that the ground reflected, per wavelength: A / (1 − A s).
+pub(crate) fn ground_factor(head: &Head, visibility: f64, albedo: f64) -> Vec<f64> {
+    let nw = head.wavelengths.len();
+    let nodes = linear(&head.visibility_nodes(), visibility_node(visibility));
+    let spherical = |w: usize| -> f64 {
+        nodes
+            .taps()
+            .map(|(v, t)| t * head.spherical_albedo[v * nw + w])
+            .sum()
+    };
+    (0..nw)
+        .map(|w| albedo / (1.0 - albedo * spherical(w)))
+        .collect()
+}

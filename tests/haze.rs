@@ -1,0 +1,454 @@
+//! Transmittance and in-scattered light of finite segments, of a model with simple analytic tables.
+
+mod common;
+
+use welkin::format::{
+    Chunk, DensityTable, Head, Payload, PhaseFunction, SOURCE_FIELDS, SourceBasis, SourceCore,
+    encode, extend, harmonics,
+};
+use welkin::{Conditions, Error, Haze, Model};
+
+const SUNS: usize = 5;
+const NW: usize = 6;
+
+fn chunk(visibility: Option<usize>, payload: Payload) -> Chunk {
+    Chunk {
+        altitude: None,
+        visibility,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload,
+    }
+}
+
+/// Densities that fall off with altitude, the second constituent below 4 km only.
+fn densities() -> DensityTable {
+    let edges = vec![0.0, 4000.0, 20_000.0, 100_000.0];
+    let density = vec![
+        1.0, 1.0, 0.8, 0.3, 0.6, 0.0, 0.3, 0.0, 0.08, 0.0, 0.01, 0.0, 0.0, 0.0,
+    ];
+    DensityTable { edges, density }
+}
+
+/// Isotropic light that does not depend on anything but the field.
+fn basis() -> SourceBasis {
+    let moments = 4 + harmonics(2, 1);
+    let mut moment = vec![0.0; moments];
+    moment[..3].fill(0.5);
+    // Y₀₀ = 1/√4π.
+    moment[4] = (4.0 * std::f32::consts::PI).sqrt();
+    SourceBasis {
+        degree: 2,
+        orders: 1,
+        ranks: [1; 4],
+        altitude: vec![0.0, 5000.0, 100_000.0],
+        sun: vec![-0.3, -0.1, 0.0, 0.3, 1.0],
+        factors: [vec![1.0; 3], vec![1.0; SUNS], moment, vec![1.0; 2 * NW]],
+    }
+}
+
+fn source(head: &Head, level: f32) -> SourceCore {
+    let scattering = |k: usize| -> Vec<f32> {
+        let row = &head.extinction[k * NW..(k + 1) * NW];
+        row.iter().map(|&v| 0.9 * v as f32).collect()
+    };
+    let none = vec![0.0; NW];
+    SourceCore {
+        ranks: [1; 4],
+        phase: vec![PhaseFunction::Rayleigh, PhaseFunction::HenyeyGreenstein],
+        parameter: [vec![0.03; NW], vec![0.7; NW]].concat(),
+        scattering: [scattering(0), none.clone(), none, scattering(1)].concat(),
+        level: vec![level; SOURCE_FIELDS * SUNS * NW],
+        core: vec![1.0],
+    }
+}
+
+fn model_with(level: f32) -> Model {
+    let head = common::head(&[0.0], &[20e3]);
+    let chunks = [
+        chunk(None, Payload::Transmittance(densities())),
+        chunk(None, Payload::SourceBasis(basis())),
+        chunk(Some(0), Payload::Source(source(&head, level))),
+    ];
+    Model::from_bytes(encode(&head, &chunks).unwrap()).unwrap()
+}
+
+fn conditions(elevation: f64) -> Conditions {
+    Conditions {
+        solar_elevation: elevation.to_radians(),
+        solar_azimuth: 0.4,
+        visibility: 20e3,
+        albedo: 0.3,
+        altitude: 0.0,
+    }
+}
+
+fn haze(elevation: f64) -> Haze {
+    model_with(-3.0).haze(&conditions(elevation)).unwrap()
+}
+
+fn seen(haze: &Haze, from: [f64; 3], to: [f64; 3]) -> ([f32; NW], [f32; NW]) {
+    let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
+    haze.in_scatter(from, to, &mut light, &mut through).unwrap();
+    (light, through)
+}
+
+/// Grazing lines that dip, steep ones, level ones; from 1 m to beyond the air.
+fn segments() -> Vec<([f64; 3], [f64; 3])> {
+    let mut out = vec![];
+    for i in 0..400 {
+        let u = |step: f64| (f64::from(i) * step).fract();
+        let elevation = match i % 2 {
+            0 => 0.1 * (2.0 * u(0.618_034) - 1.0).powi(3),
+            _ => std::f64::consts::PI * (u(0.618_034) - 0.5),
+        };
+        let length = 10f64.powf(6.2 * u(0.754_878));
+        let azimuth = 6.3 * u(0.569_84);
+        let from = [0.0, 0.0, 12_000.0 * u(0.430_16)];
+        let direction = [
+            elevation.cos() * azimuth.cos(),
+            elevation.cos() * azimuth.sin(),
+            elevation.sin(),
+        ];
+        out.push((
+            from,
+            std::array::from_fn(|k| from[k] + length * direction[k]),
+        ));
+    }
+    out
+}
+
+fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
+}
+
+#[test]
+fn transmittance_is_consistent() {
+    let haze = haze(20.0);
+    let air = haze.air();
+    let t = |a, b| {
+        let mut out = [0.0; NW];
+        air.transmittance(a, b, &mut out).unwrap();
+        out
+    };
+    for (a, b) in segments() {
+        assert_eq!(t(a, a), [1.0; NW]);
+        let (whole, back) = (t(a, b), t(b, a));
+        let middle = between(a, b, 0.37);
+        let (near, far) = (t(a, middle), t(middle, b));
+        let mut last = [1.0; NW];
+        for step in 0..=50 {
+            let now = t(a, between(a, b, f64::from(step) / 50.0));
+            assert!(
+                now.iter().zip(last).all(|(n, l)| *n <= l * (1.0 + 1e-6)),
+                "{a:?} {b:?}"
+            );
+            last = now;
+        }
+        for w in 0..NW {
+            assert!((0.0..=1.0).contains(&whole[w]));
+            if whole[w] < 1e-30 {
+                // Single precision ends here.
+                continue;
+            }
+            let tolerance = 4e-6 * (1.0 - whole[w].ln());
+            assert!((back[w] / whole[w] - 1.0).abs() < tolerance, "{a:?} {b:?}");
+            assert!(
+                (near[w] * far[w] / whole[w] - 1.0).abs() < tolerance,
+                "{a:?} {b:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn space_is_reached_or_the_ground_is_in_the_way() {
+    let haze = haze(20.0);
+    let mut out = [0.5; NW];
+    let air = haze.air();
+    air.transmittance_to_space([0.0, 0.0, 1000.0], [0.1, 0.0, -1.0], &mut out)
+        .unwrap();
+    assert_eq!(out, [0.0; NW]);
+    air.transmittance_to_space([0.0, 0.0, 1000.0], [0.0, 0.0, 3.0], &mut out)
+        .unwrap();
+    let (mut far, up) = ([0.0; NW], [0.0, 0.0, 200_000.0]);
+    air.transmittance([0.0, 0.0, 1000.0], up, &mut far).unwrap();
+    for w in 0..NW {
+        assert!((out[w] / far[w] - 1.0).abs() < 1e-5);
+    }
+}
+
+/// Light of isotropic particles in a thick medium under no sun saturates at the source over the extinction.
+#[test]
+fn a_uniform_source_saturates() {
+    let model = model_with(-3.0);
+    // Sun far below: no direct light, levels and factors are constant.
+    let haze = model.haze(&conditions(-4.2)).unwrap();
+    let head = model.head();
+    let (light, through) = seen(&haze, [0.0, 0.0, 10.0], [300_000.0, 0.0, -7000.0]);
+    for w in 0..NW {
+        let s = head.spherical_albedo[w];
+        let level = (-3f64).exp() * (1.0 + 0.3 / (1.0 - 0.3 * s));
+        let expected = 0.9 * level * head.solar_irradiance_at(head.wavelengths[w]);
+        let opacity = 1.0 - f64::from(through[w]);
+        let got = f64::from(light[w]) / opacity;
+        assert!((got / expected - 1.0).abs() < 2e-3, "{w}: {got} {expected}");
+    }
+}
+
+#[test]
+fn in_scatter_is_linear_at_first_adds_up_and_is_never_negative() {
+    for elevation in [-4.0, 0.0, 8.0, 60.0] {
+        let haze = haze(elevation);
+        let mut worst: f64 = 0.0;
+        for (a, b) in segments() {
+            let (whole, through) = seen(&haze, a, b);
+            assert!(whole.iter().all(|l| *l >= 0.0 && l.is_finite()));
+            assert_eq!(seen(&haze, a, a).0, [0.0; NW]);
+            let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+            let [one, two] = [1.0, 2.0].map(|d| seen(&haze, a, between(a, b, d / length)).0);
+            let middle = between(a, b, 0.4);
+            let (near, t) = seen(&haze, a, middle);
+            let (far, _) = seen(&haze, middle, b);
+            let mut transmittance = [0.0; NW];
+            haze.air().transmittance(a, b, &mut transmittance).unwrap();
+            for w in 0..NW {
+                assert!((two[w] - 2.0 * one[w]).abs() <= 2e-3 * two[w]);
+                assert!((through[w] - transmittance[w]).abs() <= 1e-6);
+                let sum = near[w] + t[w] * far[w];
+                worst = worst.max(f64::from((sum / whole[w].max(1e-20) - 1.0).abs()));
+            }
+        }
+        println!("sun {elevation}°: halves differ from the whole by {worst:.4} at most");
+        assert!(worst < 0.1, "sun {elevation}°: {worst}");
+    }
+}
+
+#[test]
+fn beyond_the_air_nothing_changes() {
+    let haze = haze(15.0);
+    let (from, direction) = ([0.0, 0.0, 500.0], [0.9, 0.1, 0.2]);
+    let at = |d: f64| {
+        seen(
+            &haze,
+            from,
+            std::array::from_fn(|k| from[k] + d * direction[k]),
+        )
+        .0
+    };
+    let (mut end, mut t) = ([0.0; NW], [0.0; NW]);
+    haze.to_end(from, direction, &mut end, &mut t).unwrap();
+    for (a, b) in [(at(2e6), at(9e6)), (at(2e6), end)] {
+        assert!(
+            a.iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-3),
+            "{a:?} {b:?}"
+        );
+    }
+}
+
+#[test]
+fn turning_sun_and_segment_together_changes_nothing() {
+    let mut haze = haze(10.0);
+    let (from, to) = ([10.0, 20.0, 800.0], [9000.0, 3000.0, 2500.0]);
+    let before = seen(&haze, from, to).0;
+    let turn = |[x, y, z]: [f64; 3]| [-y, x, z];
+    haze.set_solar_azimuth(0.4 + std::f64::consts::FRAC_PI_2)
+        .unwrap();
+    let after = seen(&haze, turn(from), turn(to)).0;
+    assert!(
+        before
+            .iter()
+            .zip(after)
+            .all(|(a, b)| (a / b - 1.0).abs() < 1e-5)
+    );
+}
+
+#[test]
+fn batches_and_colours_agree_with_single_queries() {
+    let model = model_with(-3.0);
+    let haze = model.haze(&conditions(10.0)).unwrap();
+    let camera = [0.0, 0.0, 300.0];
+    let points = [[5000.0, 0.0, 100.0], [0.0, 40_000.0, 6000.0]];
+    let (mut light, mut through) = ([0.0; 2 * NW], [0.0; 2 * NW]);
+    haze.aerial_perspective(camera, &points, &mut light, &mut through)
+        .unwrap();
+    for (i, point) in points.into_iter().enumerate() {
+        let single = seen(&haze, camera, point);
+        assert_eq!(light[i * NW..][..NW], single.0);
+        assert_eq!(through[i * NW..][..NW], single.1);
+        let (xyz, factors) = haze.xyz(camera, point).unwrap();
+        let head = model.head();
+        let mut expected = 0.0;
+        for (w, l) in head.wavelengths.iter().enumerate() {
+            expected += f64::from(single.0[w]) / head.solar_irradiance_at(*l) * head.xyz[w][1];
+        }
+        assert!((f64::from(xyz[1]) / expected - 1.0).abs() < 1e-5);
+        assert!(factors.iter().all(|f| (0.0..=1.0).contains(f)));
+    }
+}
+
+#[test]
+fn bad_questions_are_refused() {
+    let haze = haze(10.0);
+    let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
+    let mut ask = |to: [f64; 3]| haze.in_scatter([0.0; 3], to, &mut light, &mut through);
+    for bad in [f64::NAN, f64::INFINITY, 2e9] {
+        assert!(matches!(ask([0.0, bad, 0.0]), Err(Error::Point { .. })));
+    }
+    // Deep underground and far away there is still an answer.
+    ask([0.0, 0.0, -9e8]).unwrap();
+    assert!(through.iter().chain(&light).all(|v| v.is_finite()));
+    let mut short = [0.0; 2];
+    let wrong = haze.in_scatter([0.0; 3], [1.0; 3], &mut short, &mut through);
+    assert!(matches!(wrong, Err(Error::Length { .. })));
+    let nowhere = haze.to_end([0.0; 3], [0.0; 3], &mut light, &mut through);
+    assert!(matches!(nowhere, Err(Error::Direction { .. })));
+    let model = model_with(-3.0);
+    assert!(matches!(model.air(1.0), Err(Error::OutOfRange { .. })));
+    let plain = Model::from_bytes(common::model_bytes()).unwrap();
+    let missing = plain.haze(&Conditions {
+        visibility: 40e3,
+        ..Conditions::default()
+    });
+    assert!(matches!(
+        missing,
+        Err(Error::MissingChunk {
+            kind: "transmittance",
+            ..
+        })
+    ));
+}
+
+#[test]
+fn hostile_payloads_are_typed_errors() {
+    let head = common::head(&[0.0], &[20e3]);
+    let refused = |payload| {
+        let error = encode(&head, &[chunk(None, payload)]).unwrap_err();
+        assert!(
+            matches!(error, Error::Invalid { .. } | Error::Length { .. }),
+            "{error}"
+        );
+    };
+    let density = |change: &dyn Fn(&mut DensityTable)| {
+        let mut table = densities();
+        change(&mut table);
+        refused(Payload::Transmittance(table));
+    };
+    density(&|t| t.edges[1] = f64::NAN);
+    density(&|t| t.edges[1] = 30_000.0);
+    density(&|t| t.edges[3] = 90_000.0);
+    density(&|t| t.density[4] = -1e-3);
+    density(&|t| t.density[4] = f32::NAN);
+    density(&|t| t.density.truncate(5));
+    density(&|t| *t = DensityTable::default());
+    let shared = |change: &dyn Fn(&mut SourceBasis)| {
+        let mut table = basis();
+        change(&mut table);
+        refused(Payload::SourceBasis(table));
+    };
+    shared(&|b| b.degree = 99);
+    shared(&|b| b.orders = 3);
+    shared(&|b| b.ranks[2] = 65);
+    shared(&|b| b.sun[1] = 0.5);
+    shared(&|b| b.altitude[2] = f64::INFINITY);
+    shared(&|b| b.factors[3][2] = f32::NAN);
+    let core = |change: &dyn Fn(&mut SourceCore)| {
+        let mut table = source(&head, 0.0);
+        change(&mut table);
+        let error = encode(&head, &[chunk(Some(0), Payload::Source(table))]).unwrap_err();
+        assert!(
+            matches!(error, Error::Invalid { .. } | Error::Length { .. }),
+            "{error}"
+        );
+    };
+    core(&|c| c.phase[1] = PhaseFunction::None);
+    core(&|c| c.parameter[NW] = 1.0);
+    core(&|c| c.scattering[0] = -1.0);
+    core(&|c| c.core = vec![f32::INFINITY]);
+    core(&|c| c.level.truncate(7));
+    // Bytes that change after writing: no panic, whatever they are.
+    let good = [
+        chunk(None, Payload::Transmittance(densities())),
+        chunk(None, Payload::SourceBasis(basis())),
+        chunk(Some(0), Payload::Source(source(&head, -3.0))),
+    ];
+    let file = encode(&head, &good).unwrap();
+    let contents = welkin::format::parse(&file).unwrap();
+    for (i, entry) in contents.directory.iter().enumerate() {
+        for at in 0..entry.length {
+            for value in [0x00, 0x7f, 0xff] {
+                let mut payload = file[entry.offset..entry.offset + entry.length].to_vec();
+                payload[at] = value;
+                let Ok(model) = Model::from_bytes(common::with_chunk(&file, i, &payload)) else {
+                    continue;
+                };
+                if let Ok(haze) = model.haze(&conditions(3.0)) {
+                    let (light, through) = seen(&haze, [0.0, 0.0, 100.0], [3e5, 0.0, 9e3]);
+                    assert!(
+                        light
+                            .iter()
+                            .chain(&through)
+                            .all(|v| v.is_finite() && *v >= 0.0)
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn sources_that_do_not_fit_their_basis_are_refused() {
+    let head = common::head(&[0.0], &[20e3]);
+    let mut other = source(&head, 0.0);
+    other.ranks = [1, 1, 2, 1];
+    other.core = vec![1.0; 2];
+    let chunks = [
+        chunk(None, Payload::Transmittance(densities())),
+        chunk(None, Payload::SourceBasis(basis())),
+        chunk(Some(0), Payload::Source(other)),
+    ];
+    let model = Model::from_bytes(encode(&head, &chunks).unwrap()).unwrap();
+    let refused = model.haze(&conditions(10.0));
+    assert!(matches!(refused, Err(Error::Invalid { .. })));
+}
+
+#[test]
+fn chunks_are_added_replaced_and_cropped() {
+    let plain = common::model_bytes();
+    let head = welkin::format::parse(&plain).unwrap().head;
+    let (nw, nv) = (head.wavelengths.len(), head.visibilities.len());
+    assert_eq!(nw, NW);
+    let mut new = vec![
+        chunk(None, Payload::Transmittance(densities())),
+        chunk(None, Payload::SourceBasis(basis())),
+    ];
+    new.extend((0..nv).map(|v| chunk(Some(v), Payload::Source(source(&head, -3.0)))));
+    let once = extend(&plain, &new).unwrap();
+    assert_eq!(extend(&once, &new).unwrap(), once);
+    let before = welkin::format::parse(&plain).unwrap().directory.len();
+    let after = welkin::format::parse(&once).unwrap().directory.len();
+    assert_eq!(after, before + new.len());
+    let (mut head, mut chunks) = welkin::format::unpack(&once).unwrap();
+    assert_eq!(encode(&head, &chunks).unwrap(), once);
+    let mut selection = welkin::format::Selection::all(&head);
+    selection.wavelengths = vec![1, 4];
+    welkin::format::crop(&mut head, &mut chunks, &selection).unwrap();
+    let small = Model::from_bytes(encode(&head, &chunks).unwrap()).unwrap();
+    let whole = Model::from_bytes(once).unwrap();
+    let place = Conditions {
+        visibility: 40e3,
+        ..Conditions::default()
+    };
+    let ask = |model: &Model, n: usize| {
+        let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+        let haze = model.haze(&place).unwrap();
+        haze.in_scatter([0.0; 3], [9e3, 0.0, 2e3], &mut light, &mut through)
+            .unwrap();
+        (light, through)
+    };
+    let (cropped, all) = (ask(&small, 2), ask(&whole, NW));
+    for (i, w) in selection.wavelengths.into_iter().enumerate() {
+        assert!((cropped.0[i] / all.0[w] - 1.0).abs() < 0.01);
+        assert!((cropped.1[i] / all.1[w] - 1.0).abs() < 1e-5);
+    }
+}
