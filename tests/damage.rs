@@ -117,6 +117,22 @@ proptest! {
     }
 }
 
+#[cfg(feature = "zstd")]
+#[test]
+fn every_flip_and_truncation_of_a_compressed_file_is_refused_or_changes_nothing() {
+    use welkin::format::{ENCODING_ZSTD, recode};
+    let bytes = recode(&common::tiny_bytes(), ENCODING_ZSTD).unwrap();
+    let expected = answers(bytes.clone()).unwrap();
+    for i in 0..bytes.len() {
+        assert!(answers(bytes[..i].to_vec()).is_err(), "{i} bytes");
+        let mut damaged = bytes.clone();
+        damaged[i] ^= 1 << (i % 8);
+        if let Ok(got) = answers(damaged) {
+            assert_eq!(got, expected, "byte {i}");
+        }
+    }
+}
+
 #[test]
 fn a_small_file_cannot_ask_for_a_large_table() {
     let mut head = common::head(&[0.0], &[50e3]);
