@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::densities;
 use welkin::format::{
     Chunk, DensityTable, Head, Payload, PhaseFunction, SOURCE_FIELDS, SourceBasis, SourceCore,
     encode, extend, harmonics,
@@ -19,15 +20,6 @@ fn chunk(visibility: Option<usize>, payload: Payload) -> Chunk {
         error_p99: 0.0,
         payload,
     }
-}
-
-/// Densities that fall off with altitude, the second constituent below 4 km only.
-fn densities() -> DensityTable {
-    let edges = vec![0.0, 4000.0, 20_000.0, 100_000.0];
-    let density = vec![
-        1.0, 1.0, 0.8, 0.3, 0.6, 0.0, 0.3, 0.0, 0.08, 0.0, 0.01, 0.0, 0.0, 0.0,
-    ];
-    DensityTable { edges, density }
 }
 
 /// Isotropic light that does not depend on anything but the field.

@@ -20,7 +20,7 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
             y,
             z,
             wavelength,
-            _,
+            distance,
         ],
     ) = <[f64; 10]>::try_from(cells)
     else {
@@ -33,6 +33,10 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
         solar_elevation,
         solar_azimuth,
     };
+    if quantity == "transmittance" {
+        let segment = (altitude, [x, y, z], distance);
+        return transmittance(model, visibility, segment).map_err(|error| error.class());
+    }
     let direction = [x, y, z].map(|v| v as f32);
     values(model, quantity, &conditions, direction, wavelength).map_err(|error| error.class())
 }
@@ -66,5 +70,19 @@ fn values(
         "xyz" => return Ok(sky.xyz(direction)?.to_vec()),
         other => panic!("unknown quantity {other}"),
     }
+    Ok(row)
+}
+
+fn transmittance(
+    model: &Model,
+    visibility: f64,
+    (altitude, direction, distance): (f64, [f64; 3], f64),
+) -> Result<Vec<f32>, Error> {
+    let air = model.air(visibility)?;
+    let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let from = [0.0, 0.0, altitude];
+    let to = core::array::from_fn(|i| from[i] + direction[i] / length * distance);
+    let mut row = vec![0.0; air.wavelengths().len()];
+    air.transmittance(from, to, &mut row)?;
     Ok(row)
 }

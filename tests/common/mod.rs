@@ -7,8 +7,8 @@ pub mod oracle;
 
 use welkin::axis::ElevationAxis;
 use welkin::format::{
-    AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction, PolarisationBasis,
-    PolarisationFactors, RadianceFactors, encode,
+    AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
+    PolarisationBasis, PolarisationFactors, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
 
@@ -147,6 +147,15 @@ pub fn polarised_chunks(head: &Head, strength: f32) -> Vec<Chunk> {
         }
     }
     chunks
+}
+
+/// Densities of two constituents that fall off with altitude, the second below 4 km only.
+pub fn densities() -> DensityTable {
+    let edges = vec![0.0, 4000.0, 20_000.0, 100_000.0];
+    let density = vec![
+        1.0, 1.0, 0.8, 0.3, 0.6, 0.0, 0.3, 0.0, 0.08, 0.0, 0.01, 0.0, 0.0, 0.0,
+    ];
+    DensityTable { edges, density }
 }
 
 fn column(head: &Head, a: usize) -> ColumnTable {

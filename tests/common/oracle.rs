@@ -133,6 +133,58 @@ impl<'a> Oracle<'a> {
             .collect()
     }
 
+    /// Transmittance over a distance from the observer, by brute force.
+    pub fn transmittance(&self, q: &Query, distance: f64) -> Vec<f64> {
+        const STEPS: usize = 100_000;
+        let n = &self.n;
+        let radius = self.f64(64, 0);
+        let length = q.direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let mu = q.direction[2] / length;
+        let (at, _) = self.chunk(4, 65535, 65535);
+        let step = distance / STEPS as f64;
+        let mut columns = vec![0.0; n.k];
+        for i in 0..STEPS {
+            let s = (i as f64 + 0.5) * step;
+            let r = radius + q.altitude;
+            let altitude = (r * r + s * s + 2.0 * r * s * mu).sqrt() - radius;
+            for (k, column) in columns.iter_mut().enumerate() {
+                *column += step * self.density(at, altitude, k);
+            }
+        }
+        let inverses = self.axis(self.at.visibility, n.v, f64::recip);
+        let visibility = piecewise(&inverses, 1.0 / q.visibility);
+        let depth = |w: usize| -> f64 {
+            (0..n.k)
+                .map(|k| {
+                    let row = |m: usize| (m * n.k + k) * n.w + w;
+                    let extinction = visibility.iter();
+                    let extinction =
+                        extinction.map(|&(m, t)| t * self.f64(self.at.extinction, row(m)));
+                    columns[k] * extinction.sum::<f64>()
+                })
+                .sum()
+        };
+        (0..n.w).map(|w| (-depth(w)).exp()).collect()
+    }
+
+    /// Profile of a constituent from the chunk of densities at `at`.
+    fn density(&self, at: usize, altitude: f64, k: usize) -> f64 {
+        let layers = u32::from_le_bytes(self.file[at..at + 4].try_into().unwrap()) as usize;
+        let w = |h: f64| h + h * h / (2.0 * self.f64(64, 0));
+        let edge = |i: usize| self.f64(at + 8, i);
+        if altitude > edge(layers) {
+            return 0.0;
+        }
+        let i = (0..layers)
+            .rev()
+            .find(|&i| edge(i) <= altitude)
+            .unwrap_or(0);
+        let (bottom, top) = (w(edge(i)), w(edge(i + 1)));
+        let t = ((w(altitude) - bottom) / (top - bottom)).max(0.0);
+        let d = |j: usize| self.f32(at + 8 + 8 * (layers + 1), (2 * i + j) * self.n.k + k);
+        (1.0 - t).powi(2) * d(0) + 2.0 * t * (1.0 - t) * d(1) + t * t * d(2)
+    }
+
     /// L, Q and U at every wavelength, in the vertical frame.
     pub fn stokes(&self, q: &Query) -> Vec<[f64; 3]> {
         self.light(q, true)

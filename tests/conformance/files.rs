@@ -1,6 +1,6 @@
 //! The valid files.
 
-use welkin::format::{ENCODING_ZSTD, Head, PhaseFunction, encode, recode};
+use welkin::format::{Chunk, ENCODING_ZSTD, Head, Payload, PhaseFunction, encode, recode};
 
 use crate::common;
 
@@ -83,6 +83,14 @@ pub fn valid() -> Vec<Case> {
             "overpolarised",
             "Q and U are scaled where they exceed L",
             polarised(1.0),
+        )
+    });
+    cases.push(Case {
+        needs: vec!["transmittance"],
+        ..case(
+            "air",
+            "transmittance along segments that rise, dip, and leave the air",
+            air(),
         )
     });
     cases.push(Case {
@@ -222,6 +230,19 @@ fn negative() -> Vec<u8> {
 fn polarised(strength: f32) -> Vec<u8> {
     let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
     encode(&head, &common::polarised_chunks(&head, strength)).expect("a valid model")
+}
+
+/// The air alone: without radiance.
+fn air() -> Vec<u8> {
+    let head = small(&[0.0, 900.0], &[25e3, 75e3]);
+    let densities = Chunk {
+        altitude: None,
+        visibility: None,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload: Payload::Transmittance(common::densities()),
+    };
+    encode(&head, &[densities]).expect("a valid model")
 }
 
 fn compressed(raw: &[u8]) -> Vec<u8> {

@@ -20,6 +20,13 @@ const SPREAD: usize = 14;
 pub fn of(case: &Case) -> Vec<Value> {
     let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
     all.extend(special(&case.bytes));
+    if case.needs.contains(&"transmittance") {
+        return all
+            .iter()
+            .enumerate()
+            .map(|(i, query)| through(case, query, i))
+            .collect();
+    }
     let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
     queries.extend(refusals(&case.bytes));
     queries
@@ -161,6 +168,16 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
         ));
     }
     queries
+}
+
+/// Transmittance from the observer over some distance, from a metre to beyond the air.
+fn through(case: &Case, query: &Query, i: usize) -> Value {
+    let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
+    let mut asked = value("transmittance", query, 500.0);
+    asked["distance"] = json!(distance);
+    let expected = Oracle::new(&case.raw).transmittance(query, distance);
+    let absolute = vec![1e-9; expected.len()];
+    with_values(asked, &expected, &absolute)
 }
 
 /// L, then Q, then U, each at all wavelengths.
