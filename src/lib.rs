@@ -51,10 +51,11 @@ mod sky;
 mod source;
 mod spectrum;
 mod store;
+mod sun;
 mod tables;
 
 pub use air::Air;
-pub use baked::{BakeError, BakedColour, BakedSky, Directions};
+pub use baked::{BakeError, BakedColour, BakedSky, Directions, Sample, SkySampler};
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
@@ -66,3 +67,4 @@ pub use polarisation::{Frame, PolarisedSky, Stokes};
 pub use sky::Sky;
 pub use source::ReadAt;
 pub use store::Traffic;
+pub use sun::{SUN_RADIUS, SunDisc};

@@ -321,9 +321,15 @@ impl Tables {
         core::array::from_fn(|i| bound(opacity[i] * scale[i] * sum[i].max(0.0), 0.0, f32::MAX))
     }
 
-    /// 1 − T.
+    /// Optical depth along a ray to its end, `[block]`.
+    pub fn optical_depths(&self, ray: &Ray) -> impl Iterator<Item = [f32; LANES]> {
+        let (side, alpha) = self.alpha(ray);
+        let lengths = side.depths(&alpha, ray.length);
+        (0..self.layout.blocks).map(move |block| self.depth(&lengths, block))
+    }
+
     #[inline(always)]
-    fn opacity(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
+    fn depth(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
         let mut depth = [0.0; LANES];
         let rows = self.extinction.chunks_exact(self.layout.blocks);
         for (row, length) in rows.zip(lengths) {
@@ -331,6 +337,13 @@ impl Tables {
                 depth[i] += row[block][i] * length;
             }
         }
+        depth
+    }
+
+    /// 1 − T.
+    #[inline(always)]
+    fn opacity(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
+        let mut depth = self.depth(lengths, block);
         // A plain loop: `map` over an array is not always inlined, and then does not vectorise.
         for value in &mut depth {
             *value = one_minus_exp_neg(*value);

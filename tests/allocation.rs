@@ -6,7 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 #[cfg(feature = "default-model")]
-use welkin::{BakedSky, Directions};
+use welkin::{BakedSky, Directions, SunDisc};
 use welkin::{Conditions, Frame, Model, Stokes};
 
 struct Counting;
@@ -78,6 +78,9 @@ fn baked_queries_do_not_allocate() {
     let n = baked.wavelengths().len();
     let mut out = vec![0.0; 19 * n];
     let mut rgb = [[0.0; 3]; 19];
+    let mut heroes = [[0.0; 4]; 19];
+    let sun = SunDisc::new(&sky);
+    let sampler = colour.sampler().with_sun(&sun);
     let component: Vec<f32> = (0..19).map(|i| (i as f32).sin()).collect();
     let directions = Directions {
         x: &component,
@@ -97,6 +100,18 @@ fn baked_queries_do_not_allocate() {
         let _ = baked.radiance(direction, &mut out[..n]);
         let _ = colour.linear_srgb(direction);
         let _ = colour.xyz(direction);
+    }
+    let _ = baked.hero_batch(
+        &directions,
+        &[[400.0, 500.0, 600.0, 700.0]; 19],
+        &mut heroes,
+    );
+    let _ = baked.irradiance([0.0, 0.0, 1.0], &mut out[..n]);
+    let _ = sun.radiance(sun.direction(), &mut out[..n]);
+    let _ = sun.irradiance([0.0, 0.0, 1.0], &mut out[..n]);
+    for i in 0..20 {
+        let sample = sampler.sample([0.05 * i as f32, 0.5]);
+        let _ = sampler.pdf(sample.direction);
     }
     let _ = baked.set_solar_azimuth(2.0);
     let _ = colour.set_solar_azimuth(2.0);

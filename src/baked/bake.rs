@@ -1,6 +1,6 @@
 //! Makes the tables of a baked sky from a prepared one.
 
-use super::frame::opaque_length;
+use super::frame::{opaque_length, share};
 use super::simd::Kernel;
 use super::spline::{Start, coefficients, taps};
 use super::table::{Grid, Table};
@@ -127,14 +127,12 @@ impl<const N: usize, C: Channels<N>> Bake<'_, C, N> {
 
     /// The inverse of the height in [`super::frame`].
     fn ray(&self, side: Side, height: f64) -> Ray {
-        let near_pole = 1.0 - height * height;
-        let share = 1.0 - near_pole * near_pole;
         let dip = self.sky.dip();
         let (horizon, sign) = match side {
             Side::Up => (-dip.sin(), 1.0),
             Side::Down => (dip.sin(), -1.0),
         };
-        let sine = (horizon + share * (1.0 - horizon)).clamp(-1.0, 1.0);
+        let sine = (horizon + share(height) * (1.0 - horizon)).clamp(-1.0, 1.0);
         let angle = sine.asin() + sign * dip;
         let altitude = self.sky.conditions().altitude;
         self.sky.planet().ray_beside_horizon(altitude, side, angle)

@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use super::batch::{Directions, Each, One, Sink, check_length};
+use super::frame::Frame;
 use super::simd::dispatch;
 use super::table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
@@ -68,6 +69,10 @@ impl BakedColour {
     /// What baking added to the error of X, Y and Z.
     pub fn bake_error(&self) -> BakeError {
         self.baked.error
+    }
+
+    pub(super) fn frame(&self) -> Frame {
+        self.baked.frame
     }
 
     /// Memory on the heap, bytes.

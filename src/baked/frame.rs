@@ -38,6 +38,12 @@ pub(crate) fn opaque_length(conditions: &Conditions) -> f64 {
     conditions.visibility / 3.912
 }
 
+/// The inverse of [`Points::height`]: the share of the way in z from the horizon to the pole.
+pub(crate) fn share(height: f64) -> f64 {
+    let near_pole = 1.0 - height * height;
+    1.0 - near_pole * near_pole
+}
+
 /// Scales vectors by powers of two, if need be, so that their squares neither over- nor underflow; `None` if one is
 /// zero or not finite.
 #[inline(always)]
@@ -99,6 +105,23 @@ impl Frame {
         self.sun = conditions.sun_direction().map(|v| v as f32);
         let (sine, cosine) = conditions.solar_azimuth.sin_cos();
         self.azimuth = [cosine as f32, sine as f32];
+    }
+
+    /// Cosine and sine of the sun's azimuth.
+    pub fn azimuth(&self) -> [f32; 2] {
+        self.azimuth
+    }
+
+    /// z at the two edges of a row of directions, when heights are divided evenly into `up` rows above the horizon,
+    /// counted from there, and then `down` below.
+    pub fn row(&self, row: usize, up: usize, down: usize) -> [f64; 2] {
+        let (sign, row, rows) = match row < up {
+            true => (1.0, row, up),
+            false => (-1.0, row - up, down),
+        };
+        let horizon = f64::from(self.horizon);
+        let edge = |i: usize| horizon + share(i as f64 / rows as f64) * (sign - horizon);
+        [edge(row), edge(row + 1)]
     }
 
     /// Locates [`prepared`] directions of any length.

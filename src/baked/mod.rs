@@ -9,7 +9,9 @@ mod batch;
 mod colour;
 mod frame;
 mod hero;
+mod irradiance;
 mod quality;
+mod sampler;
 mod simd;
 mod spectral;
 mod spline;
@@ -18,6 +20,7 @@ mod table;
 pub use batch::Directions;
 pub use colour::BakedColour;
 pub use quality::BakeError;
+pub use sampler::{Sample, SkySampler};
 pub use spectral::BakedSky;
 
 use crate::conditions::Conditions;

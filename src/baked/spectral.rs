@@ -1,6 +1,7 @@
 //! A baked sky with all wavelengths.
 
 use super::batch::{Directions, Each, One, Sink, check_length};
+use super::frame::Frame;
 use super::hero::{Heroes, WavelengthAxis};
 use super::simd::dispatch;
 use super::table::{Spots, Table};
@@ -89,6 +90,10 @@ impl BakedSky {
     /// What baking added to the error of the sky.
     pub fn bake_error(&self) -> BakeError {
         self.baked.error
+    }
+
+    pub(super) fn frame(&self) -> &Frame {
+        &self.baked.frame
     }
 
     /// Memory on the heap, bytes.

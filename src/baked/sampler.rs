@@ -1,0 +1,234 @@
+//! Directions drawn in proportion to luminance.
+
+use core::f64::consts::TAU;
+
+use super::BakedColour;
+use super::frame::{Frame, prepared};
+use crate::error::{Error, Result};
+use crate::lanes::Lanes;
+use crate::sun::SunDisc;
+
+/// Rows of cells above and below the horizon, and columns from the sun's azimuth to the opposite one.
+const UP: usize = 48;
+const DOWN: usize = 24;
+const COLUMNS: usize = 48;
+const ROWS: usize = UP + DOWN;
+
+/// A direction and the density that it was drawn with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Unit vector.
+    pub direction: [f32; 3],
+    /// Density per solid angle, sr⁻¹.
+    pub pdf: f32,
+}
+
+/// Draws directions with a density that is the luminance of the sky in cells of a few degrees, of constant density
+/// each, with or without the sun's disc. Draws and densities do not allocate. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct SkySampler {
+    frame: Frame,
+    /// z at the edges of each row, from the horizon to the pole: above, then below.
+    heights: Vec<[f32; 2]>,
+    /// Azimuths from the sun at the edges of the columns, 0..=π.
+    azimuths: Vec<f32>,
+    /// Cumulative probability at the edges of the rows.
+    rows: Vec<f32>,
+    /// Cumulative probability in a row at the edges of the columns, `[row][edge]`.
+    columns: Vec<f32>,
+    /// Density, `[row][column]`.
+    density: Vec<f32>,
+    /// Luminous flux through a sphere, cd sr m⁻².
+    flux: f64,
+    sun: Option<(SunDisc, f32)>,
+}
+
+impl BakedColour {
+    /// Prepares drawing of directions in proportion to the luminance of the sky, without the sun's disc.
+    pub fn sampler(&self) -> SkySampler {
+        let frame = self.frame();
+        let mut sampler = SkySampler {
+            heights: (0..ROWS)
+                .map(|row| frame.row(row, UP, DOWN).map(|z| z as f32))
+                .collect(),
+            azimuths: (0..=COLUMNS)
+                .map(|i| (2.0 * (i as f64 / COLUMNS as f64).asin()) as f32)
+                .collect(),
+            rows: Vec::new(),
+            columns: Vec::new(),
+            density: Vec::new(),
+            flux: 0.0,
+            sun: None,
+            frame,
+        };
+        let cells: Vec<[f64; 2]> = (0..ROWS * COLUMNS)
+            .map(|i| sampler.cell(self, i / COLUMNS, i % COLUMNS))
+            .collect();
+        sampler.fill(&cells);
+        sampler
+    }
+}
+
+impl SkySampler {
+    /// Draws the sun's disc too, as often as its share of the luminous flux is.
+    #[must_use]
+    pub fn with_sun(mut self, sun: &SunDisc) -> Self {
+        let flux = sun.flux();
+        let share = flux / (flux + self.flux);
+        self.sun = (share > 0.0).then(|| (sun.clone(), share as f32));
+        self
+    }
+
+    /// Maps the unit square to a direction and its density. Numbers outside 0..1 are clamped.
+    pub fn sample(&self, [a, b]: [f32; 2]) -> Sample {
+        let (mut a, b) = (into_unit(a), into_unit(b));
+        if let Some((sun, share)) = &self.sun {
+            if a < *share {
+                let (point, _) = sun.point([f64::from(a / share), f64::from(b)]);
+                return self.finish(point.map(|v| v as f32));
+            }
+            a = into_unit((a - share) / (1.0 - share));
+        }
+        let (row, a) = find(&self.rows, a);
+        // Left and right of the sun are alike.
+        let (side, b) = if b < 0.5 {
+            (1.0, 2.0 * b)
+        } else {
+            (-1.0, 2.0 * b - 1.0)
+        };
+        let edges = &self.columns[row * (COLUMNS + 1)..][..COLUMNS + 1];
+        let (column, b) = find(edges, into_unit(b));
+        let [low, high] = self.heights[row];
+        let z = low + a * (high - low);
+        let azimuth = mix(&self.azimuths, column, b);
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        let (sine, cosine) = azimuth.sin_cos();
+        let [x, y] = [r * cosine, r * sine * side];
+        let [cosine, sine] = self.frame.azimuth();
+        self.finish([x * cosine - y * sine, x * sine + y * cosine, z])
+    }
+
+    fn finish(&self, direction: [f32; 3]) -> Sample {
+        // What a caller gets who asks later.
+        let pdf = self.pdf(direction).unwrap_or(0.0);
+        Sample { direction, pdf }
+    }
+
+    /// The density of [`SkySampler::sample`] at a direction, sr⁻¹.
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a vector that is zero or not finite.
+    pub fn pdf(&self, direction: [f32; 3]) -> Result<f32> {
+        let lanes = direction.map(|v| Lanes([v]));
+        let prepared = prepared(lanes).ok_or(Error::Direction { got: direction })?;
+        let point = self.frame.locate(prepared);
+        let place = |x: f32, n: usize| ((x * n as f32) as usize).min(n - 1);
+        let row = match point.side.0[0] >= 0.0 {
+            true => place(point.height.0[0], UP),
+            false => UP + place(point.height.0[0], DOWN),
+        };
+        let sky = self.density[row * COLUMNS + place(point.azimuth.0[0], COLUMNS)];
+        Ok(match &self.sun {
+            None => sky,
+            Some((sun, share)) => {
+                let inside = if sun.covers(direction) { 1.0 } else { 0.0 };
+                let disc = inside / sun.solid_angle() as f32;
+                (1.0 - share) * sky + share * disc
+            }
+        })
+    }
+
+    /// Memory on the heap without the sun's disc, bytes.
+    pub fn bytes(&self) -> usize {
+        let tables = [&self.azimuths, &self.rows, &self.columns, &self.density];
+        let tables: usize = tables.iter().map(|t| size_of_val(t.as_slice())).sum();
+        tables + size_of_val(self.heights.as_slice())
+    }
+
+    /// Mean luminance and solid angle of a cell, on both sides of the sun.
+    fn cell(&self, sky: &BakedColour, row: usize, column: usize) -> [f64; 2] {
+        let [low, high] = self.heights[row];
+        let [cosine, sine] = self.frame.azimuth();
+        let mut luminance = 0.0;
+        for i in 0..4 {
+            let [a, b] = [0.25 + 0.5 * (i / 2) as f32, 0.25 + 0.5 * (i % 2) as f32];
+            let z = low + a * (high - low);
+            let (y, x) = mix(&self.azimuths, column, b).sin_cos();
+            let r = (1.0 - z * z).max(0.0).sqrt();
+            let direction = [r * (x * cosine - y * sine), r * (x * sine + y * cosine), z];
+            luminance += 0.25
+                * sky
+                    .xyz(direction)
+                    .map_or(0.0, |xyz| f64::from(xyz[1].max(0.0)));
+        }
+        let width = f64::from(self.azimuths[column + 1] - self.azimuths[column]);
+        [luminance, 2.0 * width * f64::from((high - low).abs())]
+    }
+
+    fn fill(&mut self, cells: &[[f64; 2]]) {
+        self.flux = cells
+            .iter()
+            .map(|[luminance, angle]| luminance * angle)
+            .sum();
+        // A black sky is drawn evenly.
+        let black = self.flux <= 0.0;
+        let weight = |&[luminance, angle]: &[f64; 2]| if black { angle } else { luminance * angle };
+        let total = if black { 2.0 * TAU } else { self.flux };
+        let mut rows = Vec::new();
+        for row in cells.chunks_exact(COLUMNS) {
+            let weights: Vec<f64> = row.iter().map(weight).collect();
+            rows.push(weights.iter().sum());
+            self.columns.extend(cumulative(&weights));
+            let density = row
+                .iter()
+                .map(|cell| weight(cell) / cell[1].max(1e-12) / total);
+            self.density.extend(density.map(|d| d as f32));
+        }
+        self.rows = cumulative(&rows);
+    }
+}
+
+/// Running sums divided by the total, from 0 to 1; even where all weights are zero.
+fn cumulative(weights: &[f64]) -> Vec<f32> {
+    let total: f64 = weights.iter().sum();
+    let even = total <= 0.0;
+    let mut sum = 0.0;
+    let mut edges = vec![0.0];
+    for weight in weights {
+        sum += if even { 1.0 } else { *weight };
+        edges.push((sum / if even { weights.len() as f64 } else { total }).min(1.0) as f32);
+    }
+    let last = edges.len() - 1;
+    edges[last] = 1.0;
+    edges
+}
+
+/// The interval of cumulative probabilities that holds `x` in 0..1, and the place in it.
+fn find(edges: &[f32], x: f32) -> (usize, f32) {
+    let i = edges
+        .partition_point(|&edge| edge <= x)
+        .clamp(1, edges.len() - 1)
+        - 1;
+    let width = edges[i + 1] - edges[i];
+    (
+        i,
+        if width > 0.0 {
+            (x - edges[i]) / width
+        } else {
+            0.5
+        },
+    )
+}
+
+fn mix(edges: &[f32], i: usize, t: f32) -> f32 {
+    edges[i] + t * (edges[i + 1] - edges[i])
+}
+
+/// 0 ≤ x < 1; NaN becomes 0.
+fn into_unit(x: f32) -> f32 {
+    if x > 0.0 {
+        x.min(1f32.next_down())
+    } else {
+        0.0
+    }
+}
