@@ -72,7 +72,7 @@ pub enum Error {
     },
     /// The file lacks a chunk that the conditions need.
     MissingChunk {
-        /// "radiance", "column", "transmittance" …
+        /// What the chunk holds: "radiance", "column", "polarisation" …
         kind: &'static str,
         /// Altitude of the chunk, m, if it has one.
         altitude: Option<f64>,

@@ -8,7 +8,7 @@ use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
     ColumnView, Contents, DensityView, Entry, Head, Kind, PolarisationBasisView, PolarisationView,
-    RadianceView, SourceBasisView, SourceView,
+    RadianceBasisView, RadianceView, SourceBasisView, SourceView,
 };
 use crate::sky::Sky;
 use crate::source::ReadAt;
@@ -193,6 +193,12 @@ impl Model {
     pub(crate) fn prefetch(&self, keys: impl IntoIterator<Item = Key>) -> Result<()> {
         let present = keys.into_iter().filter_map(|key| self.index.get(&key));
         self.store.fetch(&self.contents, present.copied().collect())
+    }
+
+    pub(crate) fn radiance_basis(&self) -> Result<RadianceBasisView<'_>> {
+        let i = self.find(Kind::RadianceBasis, None, None)?;
+        let rank = self.contents.directory[i].rank;
+        RadianceBasisView::new(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn radiance_chunk(

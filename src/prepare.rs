@@ -4,8 +4,8 @@ use crate::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    Field, Head, Kind, Payload16, PhaseFunction, RadianceView, altitude_node, visibility_node,
-    widen,
+    Field, Head, Kind, Payload16, PhaseFunction, RadianceBasisView, RadianceView, altitude_node,
+    visibility_node, widen,
 };
 use crate::math::LANES;
 use crate::model::{Key, Model};
@@ -27,9 +27,9 @@ impl Sky {
             fold: place.fold(head, conditions.albedo),
             elevation: spline(place.elevation, head.elevation.intervals, Ends::Free),
         };
-        let [up, down] = baker.sides()?;
+        let (scale, [up, down]) = baker.sides()?;
         let tables = Tables {
-            scale: pad(&place.elevation_scale(head)),
+            scale: pad(&scale),
             irradiance: pad(&solar(head)),
             extinction: place.extinction(head),
             xyz: xyz(head),
@@ -73,7 +73,8 @@ impl Place {
             .altitudes
             .taps()
             .map(|(a, _)| (Kind::Column, Some(a), None));
-        self.keys_of(Kind::Radiance).chain(columns)
+        let basis = [(Kind::RadianceBasis, None, None)];
+        self.keys_of(Kind::Radiance).chain(columns).chain(basis)
     }
 
     /// The chunks of a kind that has one for every altitude and visibility.
@@ -111,19 +112,6 @@ impl Place {
         let spherical = self.at_visibility(&head.spherical_albedo, head.wavelengths.len());
         let factor = |s: &f64| (albedo / (1.0 - albedo * s)) as f32;
         spherical.iter().map(factor).collect()
-    }
-
-    /// S(e, λ).
-    fn elevation_scale(&self, head: &Head) -> Vec<f32> {
-        let nw = head.wavelengths.len();
-        let taps = spline(self.elevation, head.elevation.intervals, Ends::Free);
-        let logarithm = |w: usize| -> f64 {
-            let terms = taps.index.iter().zip(taps.weight);
-            terms
-                .map(|(&i, t)| f64::from(t) * f64::from(head.elevation_scale[i * nw + w]))
-                .sum()
-        };
-        (0..nw).map(|w| logarithm(w).exp() as f32).collect()
     }
 
     /// K per constituent, `[constituent][block]`.
@@ -185,12 +173,15 @@ struct Baker<'a> {
 }
 
 impl Baker<'_> {
-    /// The tables above and below the horizon.
-    fn sides(&self) -> Result<[SideTable; 2]> {
+    /// S per wavelength and the tables above and below the horizon.
+    fn sides(&self) -> Result<(Vec<f32>, [SideTable; 2])> {
         let head = self.model.head();
         let shape = head.shape();
-        let mut up = SideTable::zeros(head.up, shape.up, &shape, &self.groups.layout);
-        let mut down = SideTable::zeros(head.down, shape.down, &shape, &self.groups.layout);
+        let basis = self.model.radiance_basis()?;
+        let mut level = vec![0.0; shape.wavelengths];
+        let mut alpha = [shape.up, shape.down].map(|n| vec![0.0; n * basis.rank]);
+        let [mut up, mut down] = [(head.up, shape.up), (head.down, shape.down)]
+            .map(|(axis, n)| SideTable::zeros(axis, n, &shape, &self.groups.layout));
         for (a, altitude_weight) in self.place.altitudes.taps() {
             let column = self.model.column_chunk(a)?.values;
             let (above, below) = column.split_at(shape.up * shape.constituents);
@@ -198,55 +189,86 @@ impl Baker<'_> {
             down.add_columns(below, altitude_weight);
             for (v, visibility_weight) in self.place.visibilities.taps() {
                 let chunk = self.model.radiance_chunk(a, v)?;
-                let components = self.components(&chunk, altitude_weight * visibility_weight);
-                components.add_to(&mut up, chunk.alpha_up);
-                components.add_to(&mut down, chunk.alpha_down);
+                let weight = (altitude_weight * visibility_weight) as f32;
+                self.add_level(&chunk, weight, &mut level);
+                let factor = self.factors(&chunk, weight);
+                add_rows(&mut alpha[0], basis.rank, chunk.alpha_up, &chunk, &factor);
+                add_rows(&mut alpha[1], basis.rank, chunk.alpha_down, &chunk, &factor);
             }
         }
-        Ok([up, down])
+        let patterns = self.patterns(&basis);
+        patterns.expand(&alpha[0], &mut up);
+        patterns.expand(&alpha[1], &mut down);
+        Ok((level.into_iter().map(f32::exp).collect(), [up, down]))
     }
 
-    fn components(&self, chunk: &RadianceView, weight: f64) -> Components {
-        let rank = chunk.rank;
-        let mut channel = vec![Cell::ZERO; self.groups.layout.cells() * rank];
-        for r in 0..rank {
-            let factor = weight as f32 * chunk.scale[r].get() * self.elevation(chunk, r);
-            let values = &chunk.channel[r * chunk.channel_stride..][..self.fold.len()];
-            let positions = self.groups.position.iter().zip(&self.fold);
-            for (&value, (&(cell, place), fold)) in values.iter().zip(positions) {
-                channel[cell * rank + r].0[place] += factor * fold * widen(value);
+    /// Adds the chunk's share of ln S.
+    fn add_level(&self, chunk: &RadianceView, weight: f32, level: &mut [f32]) {
+        let rows = self.elevation.index.iter().zip(self.elevation.weight);
+        for (&i, tap) in rows {
+            let row = &chunk.level[i * level.len()..][..level.len()];
+            for (sum, &value) in level.iter_mut().zip(row) {
+                *sum += weight * tap * widen(value);
             }
         }
-        Components {
+    }
+
+    /// What each component of a chunk is multiplied with: weight, scale and the factor of the solar elevation.
+    fn factors(&self, chunk: &RadianceView, weight: f32) -> Vec<f32> {
+        let rows = || self.elevation.index.iter().zip(self.elevation.weight);
+        let elevation = |r: usize| -> f32 {
+            rows()
+                .map(|(&i, w)| w * widen(chunk.elevation[i * chunk.stride + r]))
+                .sum()
+        };
+        (0..chunk.rank)
+            .map(|r| weight * chunk.scale[r].get() * elevation(r))
+            .collect()
+    }
+
+    /// The shared factor matrices with the light between ground and sky folded in.
+    fn patterns(&self, basis: &RadianceBasisView) -> Patterns {
+        let rank = basis.rank;
+        let mut channel = vec![Cell::ZERO; self.groups.layout.cells() * rank];
+        for r in 0..rank {
+            let values = &basis.channel[r * basis.channel_stride..][..self.fold.len()];
+            let positions = self.groups.position.iter().zip(&self.fold);
+            for (&value, (&(cell, place), fold)) in values.iter().zip(positions) {
+                channel[cell * rank + r].0[place] += fold * widen(value);
+            }
+        }
+        Patterns {
             rank,
-            stride: chunk.stride,
-            phi: widen_rows(chunk.phi, chunk.stride, rank),
+            phi: widen_rows(basis.phi, basis.stride, rank),
             channel,
         }
     }
+}
 
-    /// Value of a component at the solar elevation of the sky.
-    fn elevation(&self, chunk: &RadianceView, r: usize) -> f32 {
-        let terms = self.elevation.index.iter().zip(self.elevation.weight);
-        terms
-            .map(|(&i, w)| w * widen(chunk.elevation[i * chunk.stride + r]))
-            .sum()
+/// Adds rows of a chunk's factor matrix, each component times its factor, to `sum` of width `rank`.
+fn add_rows(sum: &mut [f32], rank: usize, rows: &Payload16, chunk: &RadianceView, factor: &[f32]) {
+    for (sum, row) in sum
+        .chunks_exact_mut(rank)
+        .zip(rows.chunks_exact(chunk.stride))
+    {
+        for (sum, (&value, factor)) in sum.iter_mut().zip(row.iter().zip(factor)) {
+            *sum += factor * widen(value);
+        }
     }
 }
 
-/// The components of one chunk with everything but direction contracted.
-struct Components {
+/// What every component looks like over azimuth and channel.
+struct Patterns {
     rank: usize,
-    stride: usize,
     /// `[phi][rank]`.
     phi: Vec<f32>,
-    /// `[cell][rank]`: weight, scale, elevation and albedo are in it.
+    /// `[cell][rank]`: the albedo is in it.
     channel: Vec<Cell>,
 }
 
-impl Components {
-    fn add_to(&self, side: &mut SideTable, alpha: &Payload16) {
-        let alpha = widen_rows(alpha, self.stride, self.rank);
+impl Patterns {
+    /// Fills the nodes of `side`, given the components' weights `[alpha][rank]`.
+    fn expand(&self, alpha: &[f32], side: &mut SideTable) {
         let cells = self.channel.len() / self.rank;
         let mut factors = vec![0.0; self.rank];
         let mut nodes = side.radiance.chunks_exact_mut(cells);
@@ -256,19 +278,19 @@ impl Components {
                 for (factor, (a, p)) in factors.iter_mut().zip(alpha.iter().zip(phi)) {
                     *factor = a * p;
                 }
-                self.add_node(&factors, node);
+                self.fill(&factors, node);
             }
         }
     }
 
-    /// Adds all components to the cells of a node; the sums stay in registers.
-    fn add_node(&self, factors: &[f32], node: &mut [Cell]) {
+    /// Sums all components in the cells of a node; the sums stay in registers.
+    fn fill(&self, factors: &[f32], node: &mut [Cell]) {
         for (out, channel) in node.iter_mut().zip(self.channel.chunks_exact(self.rank)) {
             let mut sum = Cell::ZERO;
             for (&factor, values) in factors.iter().zip(channel) {
                 sum.add(factor, values);
             }
-            out.add(1.0, &sum);
+            *out = sum;
         }
     }
 }

@@ -186,7 +186,7 @@ fn info_describes_the_file() {
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["file_bytes"], common::polarised_bytes(0.02).len());
     assert_eq!(json["altitudes_m"][1], 120.0);
-    assert_eq!(json["chunks"].as_array().unwrap().len(), 29);
+    assert_eq!(json["chunks"].as_array().unwrap().len(), 30);
     assert_eq!(
         json["metadata"]["provenance"],
         "synthetic model for tests: not a sky"

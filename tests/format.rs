@@ -5,7 +5,8 @@ mod common;
 use proptest::prelude::*;
 use welkin::Error;
 use welkin::format::{
-    ColumnView, Entry, Kind, Payload, RadianceView, VERSION_MAJOR, encode, parse, write,
+    ColumnView, Entry, Kind, Payload, RadianceBasisView, RadianceView, VERSION_MAJOR, encode,
+    parse, write,
 };
 
 fn payload<'a>(bytes: &'a [u8], entry: &Entry) -> &'a [u8] {
@@ -37,9 +38,25 @@ fn head_and_chunks_survive_a_round_trip() {
                 let view = RadianceView::new(bytes, &head.shape(), entry.rank).unwrap();
                 assert_eq!(view.rank, factors.rank);
                 let row = view.stride;
-                for (i, &expected) in factors.phi.iter().enumerate() {
-                    let bits = view.phi[i / factors.rank * row + i % factors.rank].get();
+                for (i, &expected) in factors.elevation.iter().enumerate() {
+                    let bits = view.elevation[i / factors.rank * row + i % factors.rank].get();
                     assert_eq!(half::f16::from_bits(bits), half::f16::from_f32(expected));
+                }
+                for (half, &expected) in view.level.iter().zip(&factors.level) {
+                    let expected = half::f16::from_f32(expected);
+                    assert_eq!(half::f16::from_bits(half.get()), expected);
+                }
+            }
+            Payload::RadianceBasis(basis) => {
+                let view = RadianceBasisView::new(bytes, &head.shape(), entry.rank).unwrap();
+                assert_eq!((view.rank, view.stride), (basis.rank, 16));
+                for (i, &expected) in basis.channel.iter().enumerate() {
+                    let channels = head.shape().channels;
+                    let bits = view.channel[i / channels * view.channel_stride + i % channels];
+                    assert_eq!(
+                        half::f16::from_bits(bits.get()),
+                        half::f16::from_f32(expected)
+                    );
                 }
             }
             other => panic!("a chunk that was not written: {other:?}"),
@@ -69,7 +86,7 @@ fn the_writer_refuses_what_the_reader_would() {
     let good = common::chunks(&head);
     let refuse = |change: &dyn Fn(&mut welkin::format::Chunk)| {
         let mut chunks = good.clone();
-        change(&mut chunks[1]);
+        change(&mut chunks[2]);
         encode(&head, &chunks).unwrap_err()
     };
     let factors = |change: fn(&mut welkin::format::RadianceFactors)| {
@@ -80,12 +97,18 @@ fn the_writer_refuses_what_the_reader_would() {
         })
     };
     assert!(matches!(
-        factors(|f| f.phi[3] = f32::NAN),
-        Error::Invalid { what: "phi", .. }
+        factors(|f| f.alpha_up[3] = f32::NAN),
+        Error::Invalid {
+            what: "alpha_up",
+            ..
+        }
     ));
     assert!(matches!(
-        factors(|f| f.phi[3] = 70e3),
-        Error::Invalid { what: "phi", .. }
+        factors(|f| f.alpha_up[3] = 70e3),
+        Error::Invalid {
+            what: "alpha_up",
+            ..
+        }
     ));
     assert!(matches!(
         factors(|f| f.rank = 0),
@@ -107,6 +130,14 @@ fn the_writer_refuses_what_the_reader_would() {
         refuse(&|c| c.error_p99 = f32::NAN),
         Error::Invalid { .. }
     ));
+    let mut narrow = good.clone();
+    if let Payload::RadianceBasis(basis) = &mut narrow[0].payload {
+        basis.rank -= 1;
+        basis.phi.truncate(basis.rank * head.shape().phi);
+        basis.channel.truncate(basis.rank * head.shape().channels);
+    }
+    let error = encode(&head, &narrow).unwrap_err().to_string();
+    assert!(error.contains("a basis of rank 4"), "{error}");
     let twice = [good.clone(), good.clone()].concat();
     assert!(
         encode(&head, &twice)
@@ -129,12 +160,12 @@ fn foreign_newer_and_short_files_get_errors_of_their_own() {
     let longer = [bytes.clone(), vec![0]].concat();
     assert!(matches!(parse(&longer), Err(Error::Length { .. })));
     let mut newer = bytes.clone();
-    newer[8] = 1;
+    newer[8] = 9;
     assert!(matches!(
         parse(&newer),
         Err(Error::Version {
             expected: VERSION_MAJOR,
-            got: 1
+            got: 9
         })
     ));
     let mut featured = bytes.clone();
@@ -193,7 +224,7 @@ fn frames_that_lie_about_their_length_are_refused() {
         );
     }
     // A few bytes cannot stand for a large payload.
-    let bomb = common::with_chunk(&packed, 1, &[0; 4]);
+    let bomb = common::with_chunk(&packed, 2, &[0; 4]);
     assert!(matches!(
         parse(&bomb),
         Err(Error::Invalid {

@@ -44,7 +44,7 @@ fn a_server_gives_the_same_skies_as_memory() {
 
 /// A model that is longer than the first request, with room for its scenes to be told apart.
 fn long_model() -> Vec<u8> {
-    let altitudes: Vec<f64> = (0..12).map(|i| 200.0 * f64::from(i)).collect();
+    let altitudes: Vec<f64> = (0..24).map(|i| 100.0 * f64::from(i)).collect();
     let head = common::head_with(&altitudes, &[20e3, 40e3, 60e3, 80e3, 130e3], 20);
     welkin::format::encode(&head, &common::chunks(&head)).unwrap()
 }
@@ -57,7 +57,10 @@ fn scenes_cost_their_chunks_and_repeated_scenes_nothing() {
     let head = model.head_bytes();
     assert_eq!(opening.requests, if head > 32 << 10 { 2 } else { 1 });
     assert_eq!(opening.bytes as usize, head.max(32 << 10));
-    let mut before = opening;
+    // The basis that all scenes share came with the head.
+    answers(&model, &at(0.0, 20e3));
+    let mut before = model.traffic();
+    assert_eq!(before.requests, opening.requests);
     // Nodes far behind the first request: the column, the radiance, and at most what stands between them.
     for (altitude, requests) in [(2000.0, 2), (2200.0, 2), (2200.0, 0)] {
         let touched = model.touched_bytes();

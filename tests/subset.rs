@@ -114,7 +114,8 @@ fn a_wider_tolerance_keeps_less_and_is_kept() {
         let small = Model::open(folder.path().join("small.welkin")).unwrap();
         assert_eq!(small.altitude_range(), [0.0, 2000.0]);
     }
-    assert!(last < common::model_bytes().len() / 2);
+    // What all chunks share stays whole.
+    assert!(last < common::model_bytes().len() * 3 / 5, "{last}");
 }
 
 #[test]

@@ -13,5 +13,8 @@ pub mod judge;
 pub mod orders;
 pub mod pack;
 pub mod picture;
+pub mod progress;
 pub mod reference;
+pub mod report;
 pub mod tracer;
+pub mod units;

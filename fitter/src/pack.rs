@@ -1,12 +1,13 @@
-//! The head of a model file: axes, optics, colour, provenance.
+//! What goes into a model file: the head with axes, optics and colour, and the factor matrices as splines.
 
 use crate::atmosphere::table::Table;
 use crate::dataset::{Grid, WAVELENGTHS};
-use crate::decompose::ElevationScale;
-use crate::orders::{Gatherer, Medium, NW, Spectrum};
+use crate::decompose::{Basis, Chunk, Own, row_major, splines};
+use crate::orders::{FIELDS, Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
+use faer::Mat;
 use welkin::axis::hermite;
-use welkin::format::{AlphaAxis, Field, Head, PhaseFunction};
+use welkin::format::{AlphaAxis, Field, Head, PhaseFunction, RadianceBasis, RadianceFactors};
 
 /// Luminous efficacy in the definition of XYZ, lm/W.
 const EFFICACY: f64 = 683.0;
@@ -31,13 +32,7 @@ impl Air {
 }
 
 /// Assembles the head. `airs` has one entry per visibility of the grid; `gatherer` gives the phase functions.
-pub fn head(
-    grid: &Grid,
-    airs: &[Air],
-    gatherer: &Gatherer,
-    scale: &ElevationScale,
-    metadata: String,
-) -> Result<Head> {
+pub fn head(grid: &Grid, airs: &[Air], gatherer: &Gatherer, metadata: String) -> Result<Head> {
     let solar = Table::parse(
         "solar_irradiance_1nm.csv",
         include_str!("../data/solar_irradiance_1nm.csv"),
@@ -73,7 +68,6 @@ pub fn head(
         xyz: xyz(&|nm| sun.at(nm))?,
         solar_start: first,
         solar_step: 1.0,
-        elevation_scale: scale.coefficients(grid.elevation_axis()),
         solar_irradiance: (0..samples)
             .map(|i| sun.at(first + i as f64) as f32)
             .collect(),
@@ -129,4 +123,67 @@ fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
         }
     }
     Ok(out)
+}
+
+/// The shared factor matrices, every column scaled to a largest magnitude of 1; the scales go into the chunks.
+pub struct PackedBasis {
+    /// For the file.
+    pub basis: RadianceBasis,
+    scale: Vec<f64>,
+}
+
+/// Turns the shared factor matrices into splines.
+pub fn pack_basis(grid: &Grid, basis: &Basis) -> PackedBasis {
+    let rank = basis.rank;
+    let mut phi = splines(grid.phi, &basis.phi, rank);
+    let mut channel = Mat::from_fn(FIELDS * NW, rank, |i, r| {
+        f64::from(basis.channel[i * rank + r])
+    });
+    let mut scale = vec![1.0; rank];
+    normalise(&mut [&mut phi], &mut scale);
+    normalise(&mut [&mut channel], &mut scale);
+    PackedBasis {
+        basis: RadianceBasis {
+            rank,
+            phi: row_major(&phi),
+            channel: row_major(&channel.transpose().to_owned()),
+        },
+        scale,
+    }
+}
+
+/// Turns the factor matrices of a chunk into splines.
+pub fn pack_chunk(grid: &Grid, basis: &PackedBasis, chunk: &Chunk, own: &Own) -> RadianceFactors {
+    let rank = basis.basis.rank;
+    let (above, below) = own.view.split_at(grid.up.0.len() * rank);
+    let mut up = splines(grid.up.0, above, rank);
+    let mut down = splines(grid.down.0, below, rank);
+    let mut elevation = splines(grid.elevation_axis(), &own.elevation, rank);
+    let mut scale = basis.scale.clone();
+    normalise(&mut [&mut up, &mut down], &mut scale);
+    normalise(&mut [&mut elevation], &mut scale);
+    RadianceFactors {
+        rank,
+        scale: scale.into_iter().map(|s| s as f32).collect(),
+        alpha_up: row_major(&up),
+        alpha_down: row_major(&down),
+        elevation: row_major(&elevation),
+        level: chunk.level.clone(),
+    }
+}
+
+/// Scales every column to a largest magnitude of 1 over all `matrices`, keeping the product with `scale`.
+fn normalise(matrices: &mut [&mut Mat<f64>], scale: &mut [f64]) {
+    for (r, scale) in scale.iter_mut().enumerate() {
+        let max = matrices
+            .iter()
+            .flat_map(|m| (0..m.nrows()).map(move |i| m[(i, r)].abs()))
+            .fold(1e-300, f64::max);
+        *scale *= max;
+        for m in matrices.iter_mut() {
+            for i in 0..m.nrows() {
+                m[(i, r)] /= max;
+            }
+        }
+    }
 }

@@ -13,27 +13,23 @@ pub type Payload16 = [U16];
 
 /// Factors of the radiance at one altitude and visibility.
 ///
-/// Matrices are row-major and `stride` wide, of which the first `rank` columns count, except `channel`.
+/// Matrices are row-major and `stride` wide, of which the first `rank` columns count, except `level`.
 #[derive(Clone, Copy, Debug)]
 pub struct RadianceView<'a> {
     /// Number of components.
     pub rank: usize,
     /// `rank` rounded up to a multiple of 16.
     pub stride: usize,
-    /// `channels` rounded up to a multiple of 16: the width of `channel`.
-    pub channel_stride: usize,
     /// Weight of each component, `[stride]`.
     pub scale: &'a [F32],
     /// `[up][stride]`.
     pub alpha_up: &'a Payload16,
     /// `[down][stride]`.
     pub alpha_down: &'a Payload16,
-    /// `[phi][stride]`.
-    pub phi: &'a Payload16,
     /// `[elevation][stride]`.
     pub elevation: &'a Payload16,
-    /// `[stride][channel_stride]`.
-    pub channel: &'a Payload16,
+    /// Spline coefficients of ln S, `[elevation][wavelengths]`.
+    pub level: &'a Payload16,
 }
 
 impl<'a> RadianceView<'a> {
@@ -43,31 +39,62 @@ impl<'a> RadianceView<'a> {
     /// [`Error::Length`] if the bytes are not as many as shape and rank say.
     pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance chunk", bytes, shape.radiance_bytes(rank))?;
+        let stride = ceil16(rank);
+        let mut rest = bytes;
+        Ok(Self {
+            rank,
+            stride,
+            scale: take(&mut rest, stride)?,
+            alpha_up: take(&mut rest, shape.up * stride)?,
+            alpha_down: take(&mut rest, shape.down * stride)?,
+            elevation: take(&mut rest, shape.elevation * stride)?,
+            level: take(&mut rest, shape.elevation * shape.wavelengths)?,
+        })
+    }
+
+    /// Whether the payload holds neither NaN nor infinity.
+    pub fn is_finite(&self) -> bool {
+        let tables = [self.alpha_up, self.alpha_down, self.elevation, self.level];
+        self.scale.iter().all(|s| s.get().is_finite()) && tables.iter().all(|t| half_is_finite(t))
+    }
+}
+
+/// Factor matrices that all radiance chunks share.
+#[derive(Clone, Copy, Debug)]
+pub struct RadianceBasisView<'a> {
+    /// Number of components.
+    pub rank: usize,
+    /// `rank` rounded up to a multiple of 16.
+    pub stride: usize,
+    /// `channels` rounded up to a multiple of 16: the width of `channel`.
+    pub channel_stride: usize,
+    /// `[phi][stride]`, of which the first `rank` columns count.
+    pub phi: &'a Payload16,
+    /// `[stride][channel_stride]`: component-major.
+    pub channel: &'a Payload16,
+}
+
+impl<'a> RadianceBasisView<'a> {
+    /// Divides the bytes of a raw radiance basis into its tables.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if the bytes are not as many as shape and rank say.
+    pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+        check_length("radiance basis", bytes, shape.basis_bytes(rank))?;
         let (stride, channel_stride) = (ceil16(rank), ceil16(shape.channels));
         let mut rest = bytes;
         Ok(Self {
             rank,
             stride,
             channel_stride,
-            scale: take(&mut rest, stride)?,
-            alpha_up: take(&mut rest, shape.up * stride)?,
-            alpha_down: take(&mut rest, shape.down * stride)?,
             phi: take(&mut rest, shape.phi * stride)?,
-            elevation: take(&mut rest, shape.elevation * stride)?,
             channel: take(&mut rest, stride * channel_stride)?,
         })
     }
 
     /// Whether the payload holds neither NaN nor infinity.
     pub fn is_finite(&self) -> bool {
-        let tables = [
-            self.alpha_up,
-            self.alpha_down,
-            self.phi,
-            self.elevation,
-            self.channel,
-        ];
-        self.scale.iter().all(|s| s.get().is_finite()) && tables.iter().all(|t| half_is_finite(t))
+        half_is_finite(self.phi) && half_is_finite(self.channel)
     }
 }
 

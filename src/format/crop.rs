@@ -2,7 +2,7 @@
 
 use zerocopy::little_endian::U16;
 
-use super::chunk::{ColumnView, RadianceView, widen};
+use super::chunk::{ColumnView, RadianceBasisView, RadianceView, widen};
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
@@ -12,7 +12,7 @@ use super::polarisation::{
     PolarisationView,
 };
 use super::source::{SourceBasis, SourceBasisView, SourceCore, SourceView};
-use super::write::{Chunk, ColumnTable, Payload, RadianceFactors};
+use super::write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors};
 use crate::error::{Error, Result};
 
 /// Indices of the nodes that [`crop`] keeps, each strictly increasing.
@@ -54,7 +54,11 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
             Kind::Unknown(_) => continue,
             Kind::Radiance => {
                 let view = RadianceView::new(&payload, &shape, entry.rank)?;
-                Payload::Radiance(radiance(&view, shape.channels))
+                Payload::Radiance(radiance(&view))
+            }
+            Kind::RadianceBasis => {
+                let view = RadianceBasisView::new(&payload, &shape, entry.rank)?;
+                Payload::RadianceBasis(radiance_basis(&view, shape.channels))
             }
             Kind::Column => Payload::Column(ColumnTable {
                 values: narrow(ColumnView::new(&payload, &shape)?.values),
@@ -65,7 +69,7 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
             }
             Kind::PolarisationBasis => {
                 let view = PolarisationBasisView::new(&payload, &shape, nw, entry.rank)?;
-                Payload::PolarisationBasis(basis(&view, POLARISATION_PARTS * nw))
+                Payload::PolarisationBasis(polarisation_basis(&view, POLARISATION_PARTS * nw))
             }
             Kind::Transmittance => {
                 let view = DensityView::new(&payload, nk, contents.head.planet.top)?;
@@ -120,7 +124,10 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
         };
         (chunk.altitude, chunk.visibility) = (altitude, visibility);
         match &mut chunk.payload {
-            Payload::Radiance(factors) => factors.channel = kept(&factors.channel, nf),
+            Payload::Radiance(factors) => {
+                factors.level = columns(&factors.level, nw, &selection.wavelengths);
+            }
+            Payload::RadianceBasis(basis) => basis.channel = kept(&basis.channel, nf),
             Payload::PolarisationBasis(basis) => {
                 basis.channel = kept(&basis.channel, POLARISATION_PARTS);
             }
@@ -153,7 +160,6 @@ fn crop_head(head: &mut Head, selection: &Selection) {
         wavelengths,
     );
     head.spherical_albedo = columns(&rows(&head.spherical_albedo, nw), nw, wavelengths);
-    head.elevation_scale = columns(&head.elevation_scale, nw, wavelengths);
     for field in &mut head.fields {
         field.parameter = pick(&field.parameter, wavelengths);
     }
@@ -188,17 +194,24 @@ pub(super) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) ->
     rows.flat_map(|row| pick(row, indices)).collect()
 }
 
-fn radiance(view: &RadianceView, channels: usize) -> RadianceFactors {
+fn radiance(view: &RadianceView) -> RadianceFactors {
     let rank = view.rank;
     let rows = |table: &[U16]| unpadded(table, view.stride, rank);
-    let channel = &view.channel[..rank * view.channel_stride];
     RadianceFactors {
         rank,
         scale: narrow(&view.scale[..rank]),
         alpha_up: rows(view.alpha_up),
         alpha_down: rows(view.alpha_down),
-        phi: rows(view.phi),
         elevation: rows(view.elevation),
+        level: view.level.iter().map(|&h| widen(h)).collect(),
+    }
+}
+
+fn radiance_basis(view: &RadianceBasisView, channels: usize) -> RadianceBasis {
+    let channel = &view.channel[..view.rank * view.channel_stride];
+    RadianceBasis {
+        rank: view.rank,
+        phi: unpadded(view.phi, view.stride, view.rank),
         channel: unpadded(channel, view.channel_stride, channels),
     }
 }
@@ -214,7 +227,7 @@ fn polarisation(view: &PolarisationView) -> PolarisationFactors {
     }
 }
 
-fn basis(view: &PolarisationBasisView, channels: usize) -> PolarisationBasis {
+fn polarisation_basis(view: &PolarisationBasisView, channels: usize) -> PolarisationBasis {
     let channel = &view.channel[..view.rank * view.channel_stride];
     PolarisationBasis {
         rank: view.rank,

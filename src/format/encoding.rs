@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::chunk::{ColumnView, RadianceView};
+use super::chunk::{ColumnView, RadianceBasisView, RadianceView};
 use super::density::DensityView;
 use super::head::{Entry, Head, Kind};
 use super::layout::ENCODING_RAW;
@@ -49,6 +49,7 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
         }
         Kind::Source => return SourceView::new(payload, constituents, wavelengths).map(drop),
         Kind::SourceBasis => return SourceBasisView::new(payload, wavelengths).map(drop),
+        Kind::RadianceBasis => RadianceBasisView::new(payload, &shape, entry.rank)?.is_finite(),
     };
     if finite {
         return Ok(());

@@ -1,8 +1,8 @@
 //! The head of a file in owned form: everything except the chunks.
 
 use super::layout::{
-    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_SOURCE,
-    KIND_SOURCE_BASIS, KIND_TRANSMITTANCE, Shape,
+    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
+    KIND_SOURCE, KIND_SOURCE_BASIS, KIND_TRANSMITTANCE, Shape,
 };
 use crate::axis::{ElevationAxis, Ends, coefficients};
 use crate::geometry::Planet;
@@ -71,8 +71,6 @@ pub struct Head {
     pub solar_start: f64,
     /// Step of the solar spectrum, nm.
     pub solar_step: f64,
-    /// Spline coefficients over the elevation axis of ln S, `[elevation coefficients][wavelengths]`.
-    pub elevation_scale: Vec<f32>,
     /// Solar spectral irradiance, W m⁻² nm⁻¹.
     pub solar_irradiance: Vec<f32>,
     /// The fields of which the radiance is the sum.
@@ -89,6 +87,7 @@ impl Head {
             down: coefficients(self.down.intervals, Ends::Free),
             phi: coefficients(self.phi_intervals, Ends::Mirrored),
             elevation: coefficients(self.elevation.intervals, Ends::Free),
+            wavelengths: self.wavelengths.len(),
             channels: self.fields.len() * self.wavelengths.len(),
             constituents: self.constituents,
         }
@@ -140,6 +139,8 @@ pub enum Kind {
     Source,
     /// What the sources of all visibilities share.
     SourceBasis,
+    /// Factor matrices that all radiance chunks share.
+    RadianceBasis,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -154,6 +155,7 @@ impl Kind {
             KIND_TRANSMITTANCE => Kind::Transmittance,
             KIND_SOURCE => Kind::Source,
             KIND_SOURCE_BASIS => Kind::SourceBasis,
+            KIND_RADIANCE_BASIS => Kind::RadianceBasis,
             other => Kind::Unknown(other),
         }
     }
@@ -168,6 +170,7 @@ impl Kind {
             Kind::Transmittance => "transmittance",
             Kind::Source => "source",
             Kind::SourceBasis => "source basis",
+            Kind::RadianceBasis => "radiance basis",
             Kind::Unknown(_) => "unknown",
         }
     }

@@ -6,7 +6,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 /// First eight bytes of every file.
 pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
 /// The major version that this crate reads and writes.
-pub const VERSION_MAJOR: u16 = 0;
+pub const VERSION_MAJOR: u16 = 1;
 /// The minor version that this crate writes.
 pub const VERSION_MINOR: u16 = 0;
 /// Alignment of chunks in the file.
@@ -31,6 +31,8 @@ pub const KIND_TRANSMITTANCE: u32 = 4;
 pub const KIND_SOURCE: u32 = 5;
 /// `kind` of a source basis chunk.
 pub const KIND_SOURCE_BASIS: u32 = 8;
+/// `kind` of the basis that all radiance chunks share.
+pub const KIND_RADIANCE_BASIS: u32 = 3;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a chunk.
@@ -118,6 +120,8 @@ pub struct Shape {
     pub phi: usize,
     /// Coefficients of the solar elevation axis.
     pub elevation: usize,
+    /// Wavelengths.
+    pub wavelengths: usize,
     /// Fields × wavelengths.
     pub channels: usize,
     /// Constituents of the air.
@@ -127,8 +131,13 @@ pub struct Shape {
 impl Shape {
     /// Raw bytes of a radiance chunk of the given rank.
     pub fn radiance_bytes(&self, rank: usize) -> usize {
-        let rows = self.up + self.down + self.phi + self.elevation;
-        ceil16(rank) * (4 + 2 * rows + 2 * ceil16(self.channels))
+        let rows = self.up + self.down + self.elevation;
+        ceil16(rank) * (4 + 2 * rows) + 2 * self.elevation * self.wavelengths
+    }
+
+    /// Raw bytes of a radiance basis of the given rank.
+    pub fn basis_bytes(&self, rank: usize) -> usize {
+        2 * ceil16(rank) * (self.phi + ceil16(self.channels))
     }
 
     /// Raw bytes of a column chunk.

@@ -132,7 +132,7 @@ fn counted_head_length(header: &Header) -> u64 {
         + nf * nw
         + 3 * nw
         + 2;
-    let u32s = (n(header.elevation_intervals) + 3) * nw + n(header.solar_samples) + nf;
+    let u32s = n(header.solar_samples) + nf;
     let arrays = 8 * f64s + 4 * u32s + u64::from(header.metadata_length.get());
     HEADER_LENGTH as u64
         + arrays.next_multiple_of(8)
@@ -205,7 +205,6 @@ fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
     let parameters = cursor.f64s(nf * nw)?;
     let xyz = cursor.f64s(3 * nw)?;
     let solar = cursor.f64s(2)?;
-    let elevation_scale = cursor.f32s((ne + 3) * nw)?;
     let solar_irradiance = cursor.f32s(header.solar_samples.get().into())?;
     let codes = cursor.array(nf, U32::get)?;
     let metadata = cursor.take(header.metadata_length.get() as usize)?;
@@ -241,7 +240,6 @@ fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
         xyz: xyz.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
         solar_start: solar[0],
         solar_step: solar[1],
-        elevation_scale,
         solar_irradiance,
         fields: fields(&codes, &parameters, nw)?,
         metadata: metadata.to_owned(),
@@ -285,6 +283,7 @@ fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Resu
         }
         entries.push(entry);
     }
+    check_ranks(&entries)?;
     if end == file as u64 {
         return Ok(entries);
     }
@@ -293,6 +292,24 @@ fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Resu
         expected: end,
         got: file as u64,
     })
+}
+
+/// No radiance chunk has more components than the basis.
+fn check_ranks(entries: &[Entry]) -> Result<()> {
+    let rank_of = |kind| {
+        entries
+            .iter()
+            .filter(move |e| e.kind == kind)
+            .map(|e| e.rank)
+            .max()
+    };
+    match (rank_of(Kind::RadianceBasis), rank_of(Kind::Radiance)) {
+        (Some(basis), Some(rank)) if rank > basis => {
+            let detail = format!("a radiance chunk of rank {rank} with a basis of rank {basis}");
+            Err(Error::invalid("directory", detail))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Checks that the chunk follows its predecessor without hole or overlap; returns its end.
@@ -335,9 +352,8 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
             entry.altitude.is_some() && entry.visibility.is_some()
         }
         Kind::Column => entry.altitude.is_some() && entry.visibility.is_none(),
-        Kind::PolarisationBasis => entry.altitude.is_none() && entry.visibility.is_none(),
         Kind::Source => entry.altitude.is_none() && entry.visibility.is_some(),
-        Kind::Transmittance | Kind::SourceBasis => {
+        Kind::RadianceBasis | Kind::PolarisationBasis | Kind::Transmittance | Kind::SourceBasis => {
             entry.altitude.is_none() && entry.visibility.is_none()
         }
     };
@@ -350,7 +366,9 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         ));
     }
     let ranks = match entry.kind {
-        Kind::Radiance | Kind::Polarisation | Kind::PolarisationBasis => 1..=MAX_RANK,
+        Kind::Radiance | Kind::RadianceBasis | Kind::Polarisation | Kind::PolarisationBasis => {
+            1..=MAX_RANK
+        }
         _ => 0..=0,
     };
     if !ranks.contains(&entry.rank) {
@@ -375,6 +393,7 @@ fn check_chunk_length(
     let (stored, decoded) = (raw.stored_length.get(), raw.raw_length.get());
     let expected = match entry.kind {
         Kind::Radiance => head.shape().radiance_bytes(entry.rank) as u64,
+        Kind::RadianceBasis => head.shape().basis_bytes(entry.rank) as u64,
         Kind::Column => head.shape().column_bytes() as u64,
         Kind::Polarisation => polarisation_bytes(&head.shape(), entry.rank) as u64,
         Kind::PolarisationBasis => {

@@ -47,8 +47,6 @@ impl Head {
         )?;
         length("spherical_albedo", self.spherical_albedo.len(), nv * nw)?;
         length("xyz", self.xyz.len(), nw)?;
-        let scale = self.shape().elevation * nw;
-        length("elevation_scale", self.elevation_scale.len(), scale)?;
         self.fields
             .iter()
             .try_for_each(|f| length("phase_parameter", f.parameter.len(), nw))
@@ -98,11 +96,6 @@ impl Head {
         let below_one = 1f64.next_down();
         f64s("spherical_albedo", &self.spherical_albedo, 0.0, below_one)?;
         f64s("xyz", self.xyz.as_flattened(), -1e30, 1e30)?;
-        f32s(
-            "elevation_scale",
-            &self.elevation_scale,
-            -f64::from(f32::MAX),
-        )?;
         f32s("solar_irradiance", &self.solar_irradiance, 0.0)
     }
 }

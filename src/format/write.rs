@@ -28,10 +28,19 @@ pub struct RadianceFactors {
     pub alpha_up: Vec<f32>,
     /// `[down][rank]`.
     pub alpha_down: Vec<f32>,
-    /// `[phi][rank]`.
-    pub phi: Vec<f32>,
     /// `[elevation][rank]`.
     pub elevation: Vec<f32>,
+    /// Spline coefficients of ln S, `[elevation][wavelengths]`.
+    pub level: Vec<f32>,
+}
+
+/// Factor matrices that all radiance chunks share, unpadded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RadianceBasis {
+    /// Number of components.
+    pub rank: usize,
+    /// `[phi][rank]`.
+    pub phi: Vec<f32>,
     /// `[rank][channels]`, channel = field · wavelengths + wavelength.
     pub channel: Vec<f32>,
 }
@@ -60,14 +69,16 @@ pub enum Payload {
     Source(SourceCore),
     /// What the sources of all visibilities share.
     SourceBasis(SourceBasis),
+    /// Factor matrices that all radiance chunks share.
+    RadianceBasis(RadianceBasis),
 }
 
 /// A chunk to be written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chunk {
-    /// Index into the altitudes of the head; `None` for what serves all altitudes.
+    /// Index into the altitudes of the head; `None` for what all altitudes share.
     pub altitude: Option<usize>,
-    /// Index into the visibilities of the head; `None` for what serves all visibilities.
+    /// Index into the visibilities of the head; `None` for what all visibilities share.
     pub visibility: Option<usize>,
     /// Median error against the traced data, 0 if not measured: relative, or of the degree of polarisation.
     pub error_median: f32,
@@ -119,7 +130,6 @@ fn push_arrays(file: &mut Vec<u8>, head: &Head) {
         .for_each(|f| push_f64(file, &f.parameter));
     push_f64(file, head.xyz.as_flattened());
     push_f64(file, &[head.solar_start, head.solar_step]);
-    push_f32(file, &head.elevation_scale);
     push_f32(file, &head.solar_irradiance);
     for field in &head.fields {
         let phase = match field.phase {
@@ -189,16 +199,20 @@ fn entry(chunk: &Chunk, payload: &[u8]) -> Result<RawEntry> {
         Payload::Transmittance(_) => (KIND_TRANSMITTANCE, 0),
         Payload::Source(_) => (KIND_SOURCE, 0),
         Payload::SourceBasis(_) => (KIND_SOURCE_BASIS, 0),
+        Payload::RadianceBasis(basis) => (KIND_RADIANCE_BASIS, basis.rank),
     };
-    let index = |i: usize| {
+    let index = |i: Option<usize>| {
+        let Some(i) = i else {
+            return Ok(U16::new(NO_INDEX));
+        };
         u16::try_from(i)
             .map(U16::new)
             .map_err(|_| Error::invalid("directory", format!("index {i} does not fit 16 bits")))
     };
     Ok(RawEntry {
         kind: U32::new(kind),
-        altitude: chunk.altitude.map_or(Ok(U16::new(NO_INDEX)), index)?,
-        visibility: chunk.visibility.map_or(Ok(U16::new(NO_INDEX)), index)?,
+        altitude: index(chunk.altitude)?,
+        visibility: index(chunk.visibility)?,
         offset: U64::ZERO,
         stored_length: U64::ZERO,
         raw_length: U64::new(payload.len() as u64),
@@ -220,6 +234,7 @@ fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
         Payload::Column(table) => encode_column(shape, table),
         Payload::Polarisation(factors) => factors.encode(shape),
         Payload::PolarisationBasis(basis) => basis.encode(shape, wavelengths),
+        Payload::RadianceBasis(basis) => encode_basis(shape, basis),
         Payload::Transmittance(table) => table.encode(constituents, head.planet.top),
         Payload::Source(core) => core.encode(constituents, wavelengths),
         Payload::SourceBasis(basis) => basis.encode(wavelengths),
@@ -233,16 +248,20 @@ fn encode_radiance(shape: &Shape, factors: &RadianceFactors) -> Result<Vec<u8>> 
     push_scale(&mut bytes, &factors.scale, r)?;
     push_half(&mut bytes, "alpha_up", &factors.alpha_up, shape.up, r)?;
     push_half(&mut bytes, "alpha_down", &factors.alpha_down, shape.down, r)?;
-    push_half(&mut bytes, "phi", &factors.phi, shape.phi, r)?;
-    push_half(
-        &mut bytes,
-        "elevation",
-        &factors.elevation,
-        shape.elevation,
-        r,
-    )?;
-    push_half(&mut bytes, "channel", &factors.channel, r, shape.channels)?;
-    bytes.resize(shape.radiance_bytes(r), 0);
+    let rows = shape.elevation;
+    push_half(&mut bytes, "elevation", &factors.elevation, rows, r)?;
+    check("level", &factors.level, rows * shape.wavelengths)?;
+    push_halves(&mut bytes, "level", &factors.level)?;
+    Ok(bytes)
+}
+
+fn encode_basis(shape: &Shape, basis: &RadianceBasis) -> Result<Vec<u8>> {
+    let r = basis.rank;
+    check_rank(r)?;
+    let mut bytes = Vec::with_capacity(shape.basis_bytes(r));
+    push_half(&mut bytes, "phi", &basis.phi, shape.phi, r)?;
+    push_half(&mut bytes, "channel", &basis.channel, r, shape.channels)?;
+    bytes.resize(shape.basis_bytes(r), 0);
     Ok(bytes)
 }
 
@@ -280,15 +299,20 @@ pub(super) fn push_half(
 ) -> Result<()> {
     check(what, values, rows * columns)?;
     for row in values.chunks_exact(columns) {
-        for &value in row {
-            let half = f16::from_f32(value);
-            if !half.is_finite() {
-                let detail = format!("{value} overflows half precision: move the size into scale");
-                return Err(Error::invalid(what, detail));
-            }
-            bytes.extend_from_slice(U16::new(half.to_bits()).as_bytes());
-        }
+        push_halves(bytes, what, row)?;
         bytes.resize(bytes.len() + 2 * (ceil16(columns) - columns), 0);
+    }
+    Ok(())
+}
+
+fn push_halves(bytes: &mut Vec<u8>, what: &'static str, values: &[f32]) -> Result<()> {
+    for &value in values {
+        let half = f16::from_f32(value);
+        if !half.is_finite() {
+            let detail = format!("{value} overflows half precision: move the size into scale");
+            return Err(Error::invalid(what, detail));
+        }
+        bytes.extend_from_slice(U16::new(half.to_bits()).as_bytes());
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ pub mod oracle;
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
-    PolarisationBasis, PolarisationFactors, RadianceFactors, encode,
+    PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
 
@@ -69,9 +69,6 @@ pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) ->
             .collect(),
         solar_start: 300.0,
         solar_step: 2.0,
-        elevation_scale: (0..(ne + 3) * nw)
-            .map(|i| -3.0 + 0.25 * (i / nw) as f32 - 0.05 * (i % nw) as f32)
-            .collect(),
         solar_irradiance: (0..251)
             .map(|i| 1.0 + 0.5 * (0.1 * i as f32).sin())
             .collect(),
@@ -87,9 +84,15 @@ pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) ->
     }
 }
 
-/// Column and radiance chunks for every altitude and visibility of `head`.
+/// The basis, then column and radiance chunks for every altitude and visibility of `head`.
 pub fn chunks(head: &Head) -> Vec<Chunk> {
-    let mut chunks = Vec::new();
+    let mut chunks = vec![Chunk {
+        altitude: None,
+        visibility: None,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload: Payload::RadianceBasis(basis(head)),
+    }];
     for a in 0..head.altitudes.len() {
         chunks.push(Chunk {
             altitude: Some(a),
@@ -171,25 +174,39 @@ fn column(head: &Head, a: usize) -> ColumnTable {
     ColumnTable { values }
 }
 
-/// Smooth positive factors that differ between chunks.
+fn wave(rows: usize, columns: usize, speed: f32, phase: f32) -> Vec<f32> {
+    (0..rows * columns)
+        .map(|i| {
+            let (x, y) = ((i / columns) as f32, (i % columns) as f32);
+            1.2 + (speed * x + 1.3 * y + phase).sin()
+        })
+        .collect()
+}
+
+fn basis(head: &Head) -> RadianceBasis {
+    let shape = head.shape();
+    RadianceBasis {
+        rank: RANK,
+        phi: wave(shape.phi, RANK, 0.5, 0.0),
+        channel: wave(RANK, shape.channels, 0.7, 0.0),
+    }
+}
+
+/// Smooth positive factors that differ between chunks; higher chunks have fewer components.
 fn factors(head: &Head, a: usize, v: usize) -> RadianceFactors {
     let shape = head.shape();
-    let wave = |rows: usize, columns: usize, speed: f32| -> Vec<f32> {
-        (0..rows * columns)
-            .map(|i| {
-                let (x, y) = ((i / columns) as f32, (i % columns) as f32);
-                1.2 + (speed * x + 1.3 * y + 0.2 * a as f32 - 0.1 * v as f32).sin()
-            })
-            .collect()
-    };
+    let rank = if a > 2 { RANK - 1 } else { RANK };
+    let phase = 0.2 * a as f32 - 0.1 * v as f32;
+    let nw = shape.wavelengths;
     RadianceFactors {
-        rank: RANK,
-        scale: (0..RANK).map(|r| 0.02 / (1.0 + r as f32)).collect(),
-        alpha_up: wave(shape.up, RANK, 0.3),
-        alpha_down: wave(shape.down, RANK, 0.4),
-        phi: wave(shape.phi, RANK, 0.5),
-        elevation: wave(shape.elevation, RANK, 0.2),
-        channel: wave(RANK, shape.channels, 0.7),
+        rank,
+        scale: (0..rank).map(|r| 0.02 / (1.0 + r as f32)).collect(),
+        alpha_up: wave(shape.up, rank, 0.3, phase),
+        alpha_down: wave(shape.down, rank, 0.4, phase),
+        elevation: wave(shape.elevation, rank, 0.2, phase),
+        level: (0..shape.elevation * nw)
+            .map(|i| -3.0 + 0.25 * (i / nw) as f32 - 0.05 * (i % nw) as f32 + 0.3 * phase)
+            .collect(),
     }
 }
 
@@ -243,7 +260,6 @@ pub fn tiny_bytes() -> Vec<u8> {
     head.down.intervals = 1;
     head.phi_intervals = 1;
     head.elevation.intervals = 1;
-    head.elevation_scale.truncate(4 * head.wavelengths.len());
     encode(&head, &polarised_chunks(&head, 0.02)).expect("the tiny model is valid")
 }
 

@@ -32,7 +32,6 @@ struct Offsets {
     parameter: usize,
     xyz: usize,
     solar_axis: usize,
-    scale: usize,
     solar: usize,
     field: usize,
     directory: usize,
@@ -78,7 +77,6 @@ impl<'a> Oracle<'a> {
             parameter: place(8 * n.f * n.w),
             xyz: place(24 * n.w),
             solar_axis: place(16),
-            scale: place(4 * (n.e + 3) * n.w),
             solar: place(4 * n.s),
             field: place(4 * n.f),
             directory: (place(u32(60)) + u32(60)).next_multiple_of(8),
@@ -108,7 +106,7 @@ impl<'a> Oracle<'a> {
         (0..n).map(|i| map(self.f64(at, i))).collect()
     }
 
-    /// Offset and rank of a chunk.
+    /// Offset and rank of a chunk; 65535 stands for no index.
     fn chunk(&self, kind: u32, altitude: usize, visibility: usize) -> (usize, usize) {
         (0..self.n.chunks)
             .map(|i| &self.file[self.at.directory + 64 * i..][..64])
@@ -269,10 +267,12 @@ impl<'a> Oracle<'a> {
                     .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
                     .sum::<f64>()
                     * d;
-                let s: f64 = e
-                    .iter()
-                    .map(|&(i, t)| t * self.f32(self.at.scale, i * n.w + w))
-                    .sum();
+                let mut s = 0.0;
+                for &(j, aj) in &a {
+                    for &(m, bm) in &b {
+                        s += aj * bm * self.level(j, m, &e, w);
+                    }
+                }
                 let spherical = at_visibility(self.at.spherical, n.w, w);
                 let (mut total, mut dipole) = (0.0, 0.0);
                 let ground = q.albedo / (1.0 - q.albedo * spherical);
@@ -365,25 +365,35 @@ impl<'a> Oracle<'a> {
     ) -> f64 {
         let n = &self.n;
         let (at, rank) = self.chunk(1, altitude, visibility);
-        let q = rank.div_ceil(16) * 16;
-        let c = (n.f * n.w).div_ceil(16) * 16;
+        let (basis, basis_rank) = self.chunk(3, 65535, 65535);
+        let pad = |n: usize| n.div_ceil(16) * 16;
+        let (q, basis_q) = (pad(rank), pad(basis_rank));
         let up_at = at + 4 * q;
         let down_at = up_at + 2 * q * (n.u + 3);
-        let phi_at = down_at + 2 * q * (n.d + 3);
-        let e_at = phi_at + 2 * q * (n.p + 1);
-        let channel_at = e_at + 2 * q * (n.e + 3);
-        let along = |at: usize, taps: &[(usize, f64)], r: usize| -> f64 {
+        let e_at = down_at + 2 * q * (n.d + 3);
+        let channel_at = basis + 2 * basis_q * (n.p + 1);
+        let along = |at: usize, taps: &[(usize, f64)], q: usize, r: usize| -> f64 {
             taps.iter().map(|&(i, w)| w * self.f16(at, i * q + r)).sum()
         };
         (0..rank)
             .map(|r| {
                 self.f32(at, r)
-                    * along(if up { up_at } else { down_at }, alpha, r)
-                    * along(phi_at, phi, r)
-                    * along(e_at, e, r)
-                    * self.f16(channel_at, r * c + channel)
+                    * along(if up { up_at } else { down_at }, alpha, q, r)
+                    * along(basis, phi, basis_q, r)
+                    * along(e_at, e, q, r)
+                    * self.f16(channel_at, r * pad(n.f * n.w) + channel)
             })
             .sum()
+    }
+
+    /// ln S of a chunk.
+    fn level(&self, altitude: usize, visibility: usize, e: &[(usize, f64)], w: usize) -> f64 {
+        let n = &self.n;
+        let (at, rank) = self.chunk(1, altitude, visibility);
+        let q = rank.div_ceil(16) * 16;
+        let at = at + 4 * q + 2 * q * (n.u + 3 + n.d + 3 + n.e + 3);
+        let term = |&(i, t): &(usize, f64)| t * self.f16(at, i * n.w + w);
+        e.iter().map(term).sum()
     }
 
     /// Relative radiance between wavelengths, and the solar irradiance there.

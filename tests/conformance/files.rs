@@ -122,7 +122,6 @@ pub fn small(altitudes: &[f64], visibilities: &[f64]) -> Head {
     head.down.intervals = 2;
     head.phi_intervals = 2;
     head.elevation.intervals = 3;
-    head.elevation_scale.truncate(6 * head.wavelengths.len());
     head.solar_start = 310.0;
     head.solar_step = 50.0;
     head.solar_irradiance = (0..10).map(|i| 1.0 + 0.1 * (i % 4) as f32).collect();
@@ -139,7 +138,6 @@ pub fn minimal() -> Vec<u8> {
     head.down.intervals = 1;
     head.phi_intervals = 1;
     head.elevation.intervals = 1;
-    head.elevation_scale.truncate(4 * head.wavelengths.len());
     head.solar_start = 320.0;
     head.solar_step = 440.0;
     head.solar_irradiance = vec![1.0, 1.5];
@@ -167,7 +165,6 @@ fn wide() -> Vec<u8> {
     head.down.intervals = 1;
     head.phi_intervals = 3;
     head.elevation.intervals = 1;
-    head.elevation_scale.truncate(4 * head.wavelengths.len());
     head.fields = (0..16)
         .map(|f| {
             let mut field = head.fields[f % 5].clone();

@@ -102,7 +102,7 @@ fn damaged(good: &[u8]) -> Vec<Case> {
             "chunk-damaged",
             "a flipped bit in a chunk",
             "checksum",
-            flipped(contents.directory[1].offset + 3),
+            flipped(contents.directory[2].offset + 3),
         ),
     ]
 }
@@ -116,12 +116,7 @@ fn good_in_text_mode(good: &[u8]) -> Vec<u8> {
 fn forgeries(good: &[u8]) -> Vec<Forgery> {
     let contents = parse(good).expect("a valid file");
     let head = &contents.head;
-    let (nw, nf, nk, ne) = (
-        head.wavelengths.len(),
-        head.fields.len(),
-        head.constituents,
-        head.elevation.intervals,
-    );
+    let (nw, nf, nk) = (head.wavelengths.len(), head.fields.len(), head.constituents);
     let wavelength = 128;
     let altitude = wavelength + 8 * nw;
     let visibility = altitude + 8;
@@ -130,13 +125,12 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
     let parameter = spherical + 8 * nw;
     let xyz = parameter + 8 * nf * nw;
     let solar = xyz + 24 * nw;
-    let scale = solar + 16;
-    let irradiance = scale + 4 * (ne + 3) * nw;
+    let irradiance = solar + 16;
     let field = irradiance + 4 * head.solar_irradiance.len();
     let metadata = field + 4 * nf;
     let padding = metadata + head.metadata.len();
     let entry = |i: usize| contents.head_length - 64 * (contents.directory.len() - i);
-    let column = &contents.directory[0];
+    let column = &contents.directory[1];
     let forge = |name, shows, class, at, bytes: &[u8]| Forgery {
         name,
         shows,
@@ -218,7 +212,6 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
             solar + 8,
             10.0,
         ),
-        single("scale-nan", "NaN in elevation_scale", scale, f32::NAN),
         single("solar-negative", "a negative irradiance", irradiance, -1.0),
         forge(
             "field-phase",
@@ -255,50 +248,50 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
             "entry-offset",
             "a hole between chunks",
             "value",
-            entry(1) + 8,
-            &(contents.directory[1].offset as u64 + 64).to_le_bytes(),
+            entry(2) + 8,
+            &(contents.directory[2].offset as u64 + 64).to_le_bytes(),
         ),
         forge(
             "entry-length",
             "a chunk that reaches beyond the file",
             "value",
-            entry(1) + 16,
+            entry(2) + 16,
             &u64::MAX.to_le_bytes(),
         ),
         forge(
             "entry-raw-length",
             "raw_length is not what the shape gives",
             "value",
-            entry(0) + 24,
+            entry(1) + 24,
             &(column.raw_length as u64 + 4).to_le_bytes(),
         ),
         forge(
             "entry-altitude",
             "an index beyond the altitude axis",
             "value",
-            entry(0) + 4,
+            entry(1) + 4,
             &1u16.to_le_bytes(),
         ),
         forge(
             "entry-visibility",
             "a column with a visibility",
             "value",
-            entry(0) + 6,
+            entry(1) + 6,
             &0u16.to_le_bytes(),
         ),
         forge(
             "entry-tier",
             "a tier other than 0",
             "value",
-            entry(0) + 44,
+            entry(1) + 44,
             &1u32.to_le_bytes(),
         ),
-        single("entry-error", "a negative error", entry(0) + 48, -0.5),
+        single("entry-error", "a negative error", entry(1) + 48, -0.5),
         forge(
             "entry-encoding",
             "an unknown encoding",
             "encoding",
-            entry(0) + 32,
+            entry(1) + 32,
             &77u32.to_le_bytes(),
         ),
         single(
@@ -310,7 +303,7 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
         single(
             "factor-infinite",
             "infinity in a radiance chunk",
-            contents.directory[1].offset,
+            contents.directory[2].offset,
             f32::INFINITY,
         ),
     ];

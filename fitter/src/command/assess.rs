@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use std::path::PathBuf;
 use welkin::Model;
 use welkin_fitter::assess::{self, table};
-use welkin_fitter::build::{Plan, between_nodes};
+use welkin_fitter::units::Plan;
 
 /// Compares a model with freshly traced radiance at visibilities and altitudes between its nodes.
 #[derive(clap::Args)]
@@ -38,10 +38,12 @@ pub fn run(args: &Args) -> Result<()> {
         .filter(|h| (lowest..=highest).contains(h))
         .collect();
     let mut all = vec![];
+    let plan = Plan::default();
+    let store = plan.store(&args.work)?;
     for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
-        for (altitude, samples) in
-            between_nodes(&Plan::default(), &args.work, visibility, &altitudes)?
-        {
+        let solved = plan.solve(&args.work, visibility, &|_| {})?;
+        for &altitude in &altitudes {
+            let samples = plan.held_out(&store, &solved, altitude)?;
             let errors = assess::errors(&model, visibility, &samples)?;
             println!(
                 "visibility {} km, altitude {altitude} m\n{}",

@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use std::path::PathBuf;
-use welkin_fitter::build::{Plan, build};
+use welkin_fitter::build::{Fitting, build};
+use welkin_fitter::units::Plan;
 
 /// Traces and fits a model file. Without arguments it rebuilds the embedded default model.
 #[derive(clap::Args)]
@@ -25,11 +26,14 @@ pub struct Args {
     /// Sweeps of the decomposition.
     #[arg(long)]
     sweeps: Option<usize>,
+    /// Passes of the refinement in relative radiance.
+    #[arg(long)]
+    refinements: Option<usize>,
 }
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
-    let mut plan = Plan::default();
+    let (mut plan, mut fitting) = (Plan::default(), Fitting::default());
     if let Some(altitudes) = &args.altitudes {
         plan.grid.altitudes = altitudes.clone();
     }
@@ -39,9 +43,10 @@ pub fn run(args: &Args) -> Result<()> {
     plan.grid.check()?;
     if let Some(rank) = args.rank {
         anyhow::ensure!((1..=4096).contains(&rank), "--rank must be 1..=4096");
-        plan.options.rank = rank;
+        fitting.options.rank = rank;
     }
-    plan.options.sweeps = args.sweeps.unwrap_or(plan.options.sweeps);
-    print!("{}", build(&plan, &args.work, &args.out)?);
+    fitting.options.sweeps = args.sweeps.unwrap_or(fitting.options.sweeps);
+    fitting.refinements = args.refinements.unwrap_or(fitting.refinements);
+    print!("{}", build(&plan, fitting, &args.work, &args.out)?);
     Ok(())
 }

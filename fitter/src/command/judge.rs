@@ -3,8 +3,8 @@
 use anyhow::Result;
 use indicatif::ProgressBar;
 use std::path::PathBuf;
-use welkin_fitter::build::{Plan, judged_samples};
 use welkin_fitter::judge::{judge, table};
+use welkin_fitter::units::Plan;
 
 /// Compares traced data with the unbiased tracer at random points of an atmosphere.
 #[derive(clap::Args)]
@@ -29,13 +29,8 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let visibility = 1e3 * args.visibility;
-    let (air, samples) = judged_samples(
-        &Plan::default(),
-        &args.work,
-        visibility,
-        &args.altitudes,
-        args.directions,
-    )?;
+    let (air, samples) =
+        Plan::default().judged_samples(&args.work, visibility, &args.altitudes, args.directions)?;
     let progress = ProgressBar::new(samples.len() as u64).with_message("judging");
     let differences = judge(&air, &samples, args.target_error, &|| progress.inc(1))?;
     progress.finish();

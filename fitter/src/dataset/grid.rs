@@ -1,6 +1,5 @@
 //! Where the sky is sampled: the axes of the model and the points on them.
 
-use crate::atmosphere::VISIBILITIES;
 use crate::orders::NW;
 use anyhow::{Result, ensure};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -10,6 +9,18 @@ use welkin::geometry::{Planet, Side};
 /// Wavelength nodes, nm: 320, 360 … 760, so that any wavelength of the paper's 11 bands can be asked.
 pub const WAVELENGTHS: [f64; NW] = [
     320.0, 360.0, 400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0, 720.0, 760.0,
+];
+
+/// Observer altitudes, m: densest about the inversion at 2 km and where the aerosol ends, at 12 km.
+pub const ALTITUDES: [f64; 24] = [
+    0.0, 30.0, 120.0, 310.0, 645.0, 960.0, 1150.0, 1365.0, 1650.0, 1875.0, 2100.0, 2350.0, 2600.0,
+    3000.0, 3650.0, 4600.0, 5700.0, 7000.0, 8400.0, 10_050.0, 11_500.0, 12_300.0, 13_300.0,
+    15_000.0,
+];
+
+/// Visibilities, m: those of the paper's Table 2 and one more where the air changes fastest.
+pub const VISIBILITIES: [f64; 7] = [
+    20_000.0, 23_500.0, 27_600.0, 40_000.0, 59_400.0, 90_000.0, 131_800.0,
 ];
 
 /// A spline axis with its sample sites.
@@ -72,7 +83,7 @@ impl Default for Grid {
             ends: Ends::Free,
         };
         Self {
-            altitudes: vec![0.0, 40.0, 120.0, 1000.0, 1500.0, 2000.0],
+            altitudes: ALTITUDES.to_vec(),
             visibilities: VISIBILITIES.to_vec(),
             up: (free(40), 3.0),
             down: (free(24), 3.0),

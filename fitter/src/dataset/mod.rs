@@ -7,5 +7,5 @@ mod truth;
 
 pub use checkpoint::Store;
 pub use grid::{Axis, Grid, WAVELENGTHS};
-pub use tensor::{Tensor, trace_tensor};
+pub use tensor::{CHANNELS, Tensor, trace_tensor};
 pub use truth::{Sample, truth};

@@ -2,11 +2,11 @@
 
 use super::grid::Grid;
 use crate::orders::source::Sun;
-use crate::orders::{FIELDS, Gatherer, NW};
+use crate::orders::{FIELDS, Gatherer, NW, POLARISED};
 use rayon::prelude::*;
 
-/// Channels of the tensor: field · NW + wavelength.
-pub const CHANNELS: usize = FIELDS * NW;
+/// Channels of a traced tensor: field · NW + wavelength; intensities first.
+pub const CHANNELS: usize = (FIELDS + POLARISED) * NW;
 
 /// Values `[view][phi][elevation][channel]` at the sites of a grid, per unit of solar irradiance, phase functions taken out.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub fn trace_tensor(gatherer: &Gatherer, grid: &Grid, a: usize) -> Tensor {
         .flat_map_iter(|&(side, elevation)| {
             let path = gatherer.path(altitude, elevation, side);
             let fields = gatherer.fields(&path, elevation.sin(), &suns);
-            let channels = fields.into_iter().flat_map(|f| f.intensities().map(|s| *s));
+            let channels = fields.into_iter().flat_map(|f| f.spectra().map(|s| *s));
             channels.flatten().collect::<Vec<f32>>()
         })
         .collect();

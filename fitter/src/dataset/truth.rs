@@ -1,7 +1,7 @@
 //! Traced radiance at random, held-out conditions, to judge a fit by.
 
 use crate::orders::source::Sun;
-use crate::orders::{Fields, Gatherer, LightField, NW, gather, rayleigh_phase};
+use crate::orders::{Fields, Gatherer, LightField, NW, gather, rayleigh_phase, single};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -23,6 +23,8 @@ pub struct Sample {
     pub albedo: f64,
     /// Traced radiance per unit of solar irradiance, sr⁻¹.
     pub radiance: [f64; NW],
+    /// Its second and third Stokes components against (e1, e2): e1 in the vertical plane of the ray, e2 horizontal.
+    pub polarisation: [[f64; NW]; 2],
 }
 
 /// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns and albedos.
@@ -74,6 +76,7 @@ fn skies(altitude: f64, count: usize, seed: u64) -> Vec<Sample> {
                 solar_elevation: lowest + uniform(&mut rng) * (highest - lowest),
                 albedo: uniform(&mut rng),
                 radiance: [0.0; NW],
+                polarisation: [[0.0; NW]; 2],
             }
         })
         .collect()
@@ -98,6 +101,7 @@ fn view(gatherer: &Gatherer, light: &LightField, skies: &[Sample], seed: u64) ->
     for ((sample, fields), sun) in samples.iter_mut().zip(&fields).zip(&suns) {
         let cosine = gather::scattering_cosine(mu, sun);
         sample.radiance = total(gatherer, light, fields, cosine, sample.albedo);
+        sample.polarisation = polarisation(gatherer, light, fields, (mu, sun), sample.albedo);
     }
     samples
 }
@@ -133,8 +137,26 @@ pub fn total(
     })
 }
 
+/// Q and U from the fields, for the zenith cosine of the ray and a sun.
+fn polarisation(
+    gatherer: &Gatherer,
+    light: &LightField,
+    fields: &Fields,
+    (mu, sun): (f64, &Sun),
+    albedo: f64,
+) -> [[f64; NW]; 2] {
+    let single = single::polarisation(gatherer.polarising(), &fields.rayleigh, mu, sun);
+    std::array::from_fn(|s| {
+        std::array::from_fn(|w| {
+            let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));
+            f64::from(single[s][w] + fields.multiple[s + 1][w])
+                + ground * f64::from(fields.ground[s + 1][w])
+        })
+    })
+}
+
 /// Length of a sample in a file.
-const SAMPLE: usize = 5 + NW;
+const SAMPLE: usize = 5 + 3 * NW;
 
 impl Sample {
     /// As numbers for a file.
@@ -146,7 +168,8 @@ impl Sample {
             self.solar_elevation,
             self.albedo,
         ];
-        let mut values = head.into_iter().chain(self.radiance);
+        let polarisation = self.polarisation.into_iter().flatten();
+        let mut values = head.into_iter().chain(self.radiance).chain(polarisation);
         std::array::from_fn(|_| values.next().unwrap_or(0.0) as f32)
     }
 
@@ -168,6 +191,7 @@ impl Sample {
             solar_elevation: v[3],
             albedo: v[4],
             radiance: std::array::from_fn(|w| v[5 + w]),
+            polarisation: std::array::from_fn(|s| std::array::from_fn(|w| v[5 + (s + 1) * NW + w])),
         }
     }
 

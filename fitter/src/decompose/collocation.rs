@@ -7,6 +7,7 @@ use welkin::axis::spline;
 
 /// The factorised collocation matrix of an axis.
 pub struct Collocation {
+    matrix: Mat<f64>,
     lu: PartialPivLu<f64>,
 }
 
@@ -22,7 +23,13 @@ impl Collocation {
         }
         Self {
             lu: matrix.partial_piv_lu(),
+            matrix,
         }
+    }
+
+    /// Values `[site][column]` of the splines with these coefficients.
+    pub fn values(&self, coefficients: &Mat<f64>) -> Mat<f64> {
+        &self.matrix * coefficients
     }
 
     /// Coefficients `[coefficient][column]` whose splines take `values[site][column]` at the sites.

@@ -1,14 +1,18 @@
-//! From a traced tensor to the factors of the file: normalise, compress, decompose, turn node values into spline coefficients.
+//! From traced tensors to the factors of the file: normalise, compress, decompose together, refine, turn node values into splines.
 
-mod als;
+mod chunk;
 mod collocation;
+mod coupled;
 mod fit;
 mod normalise;
+mod refine;
 mod tucker;
 mod weights;
 
-pub use als::Options;
+pub use chunk::Chunk;
 pub use collocation::Collocation;
-pub use fit::{Fit, fit};
-pub use normalise::{ChunkGeometry, ElevationScale, chunk_geometry};
-pub use weights::channel_weights;
+pub use coupled::{Options, decompose};
+pub use fit::{Fit, decompose_all, refine_all, row_major, splines};
+pub use normalise::{ChunkGeometry, chunk_geometry};
+pub use refine::{Basis, Own, errors};
+pub use tucker::{Dense, Tucker, compress_together};

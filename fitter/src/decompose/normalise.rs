@@ -1,8 +1,9 @@
 //! What the evaluator multiplies back: transmittance of the view ray and the scale of a solar elevation.
 
+use super::collocation::Collocation;
+use super::fit::row_major;
 use crate::column::ColumnIntegrator;
 use crate::dataset::{Axis, Grid, Tensor};
-use crate::decompose::Collocation;
 use crate::orders::{FIELDS, Medium, NW};
 use faer::Mat;
 use welkin::geometry::{Planet, Side};
@@ -75,71 +76,62 @@ impl ChunkGeometry {
     }
 }
 
-/// The rows of a matrix one after the other.
-pub fn row_major(matrix: &Mat<f64>) -> Vec<f32> {
-    (0..matrix.nrows())
-        .flat_map(|i| (0..matrix.ncols()).map(move |j| matrix[(i, j)] as f32))
-        .collect()
+/// S(e, λ): the typical source function of a chunk at each elevation site.
+pub struct Level {
+    /// Spline coefficients of ln S as the file has them, `[elevation coefficient][wavelength]`.
+    pub coefficients: Vec<f32>,
+    /// S, `[elevation site][wavelength]`.
+    scale: Mat<f64>,
 }
 
-/// S(e, λ): the typical source function at each elevation site.
-#[derive(Clone, Debug)]
-pub struct ElevationScale {
-    /// ln S, `[elevation][wavelength]`.
-    log_scale: Mat<f64>,
-}
-
-impl ElevationScale {
-    /// From the tensor of one altitude and visibility: the mean over view directions of ln (L / (1 − T)).
-    pub fn new(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium) -> Self {
-        let [views, phis, elevations, channels] = tensor.shape;
-        let mut log_scale = Mat::zeros(elevations, NW);
-        for v in 0..views {
-            let opacity: [f64; NW] = std::array::from_fn(|w| geometry.opacity(medium, v, w));
-            for p in 0..phis {
-                for e in 0..elevations {
-                    let cell =
-                        &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
-                    for w in 0..NW {
-                        let sum: f64 = (0..FIELDS)
-                            .map(|f| f64::from(cell[f * NW + w].max(0.0)))
-                            .sum();
-                        log_scale[(e, w)] +=
-                            (sum / opacity[w]).max(1e-20).ln() / (views * phis) as f64;
-                    }
-                }
-            }
+impl Level {
+    /// The mean over view directions of ln (L / (1 − T)), rounded to half precision: the fit takes the rounding into account.
+    pub fn new(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium, axis: Axis) -> Self {
+        let collocation = Collocation::new(axis);
+        let exact = collocation.solve(&mean_logarithm(tensor, geometry, medium));
+        let round = |v: f64| f64::from(half::f16::from_f64(v));
+        let rounded = Mat::from_fn(exact.nrows(), exact.ncols(), |i, j| round(exact[(i, j)]));
+        let sites = collocation.values(&rounded);
+        Self {
+            coefficients: row_major(&rounded),
+            scale: Mat::from_fn(sites.nrows(), sites.ncols(), |i, j| sites[(i, j)].exp()),
         }
-        Self { log_scale }
-    }
-
-    /// Spline coefficients `[elevation coefficient][wavelength]`.
-    pub fn coefficients(&self, axis: Axis) -> Vec<f32> {
-        row_major(&Collocation::new(axis).solve(&self.log_scale))
     }
 }
 
-/// Divides by opacity and scale: values of order one, `[view][phi][elevation][channel]`.
+fn mean_logarithm(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium) -> Mat<f64> {
+    let [views, phis, elevations, channels] = tensor.shape;
+    let mut mean = Mat::zeros(elevations, NW);
+    for (site, cell) in tensor.values.chunks_exact(channels).enumerate() {
+        let (v, e) = (site / (phis * elevations), site % elevations);
+        for w in 0..NW {
+            let fields = (0..FIELDS).map(|f| f64::from(cell[f * NW + w].max(0.0)));
+            let source = fields.sum::<f64>() / geometry.opacity(medium, v, w);
+            mean[(e, w)] += source.max(1e-20).ln() / (views * phis) as f64;
+        }
+    }
+    mean
+}
+
+/// Intensities divided by opacity and level: values of order one, `[view][phi][elevation][field][wavelength]`.
 pub fn normalise(
     tensor: &Tensor,
     geometry: &ChunkGeometry,
     medium: &Medium,
-    scale: &ElevationScale,
-) -> Vec<f64> {
+    level: &Level,
+) -> Vec<f32> {
     let [views, phis, elevations, channels] = tensor.shape;
-    let mut out = Vec::with_capacity(tensor.values.len());
-    for v in 0..views {
-        let opacity: [f64; NW] = std::array::from_fn(|w| geometry.opacity(medium, v, w));
-        for p in 0..phis {
-            for e in 0..elevations {
-                let cell =
-                    &tensor.values[((v * phis + p) * elevations + e) * channels..][..channels];
-                out.extend(cell.iter().enumerate().map(|(c, value)| {
-                    let w = c % NW;
-                    f64::from(*value) / (opacity[w] * scale.log_scale[(e, w)].exp())
-                }));
-            }
+    let mut out = Vec::with_capacity(views * phis * elevations * FIELDS * NW);
+    let mut opacity = [0.0; NW];
+    for (site, cell) in tensor.values.chunks_exact(channels).enumerate() {
+        let (v, e) = (site / (phis * elevations), site % elevations);
+        if site % (phis * elevations) == 0 {
+            opacity = std::array::from_fn(|w| geometry.opacity(medium, v, w));
         }
+        out.extend(cell[..FIELDS * NW].iter().enumerate().map(|(c, value)| {
+            let w = c % NW;
+            (f64::from(*value) / (opacity[w] * level.scale[(e, w)])) as f32
+        }));
     }
     out
 }

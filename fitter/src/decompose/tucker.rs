@@ -1,6 +1,7 @@
 //! Higher-order SVD: an orthogonal basis per mode and a small core, so that the decomposition works on little data.
 
 use faer::{Mat, Side};
+use rayon::prelude::*;
 
 /// A dense tensor of four modes, row-major.
 pub struct Dense {
@@ -18,15 +19,41 @@ pub struct Tucker {
     pub core: Dense,
 }
 
-/// Compresses `tensor`, leaving out at most the share `tolerance` of its energy per mode.
-pub fn compress(tensor: Dense, tolerance: f64) -> Tucker {
-    let mut core = tensor;
-    let bases = std::array::from_fn(|mode| {
-        let basis = principal_basis(&core.unfold(mode), tolerance);
-        core = core.project(mode, &basis);
-        basis
+impl Tucker {
+    /// A tensor in its own coordinates.
+    pub fn new(core: Dense) -> Self {
+        let bases = core.shape.map(|n| Mat::identity(n, n));
+        Self { bases, core }
+    }
+
+    /// Compresses `mode`, leaving out at most the share `tolerance` of the energy.
+    pub fn compress(&mut self, mode: usize, tolerance: f64) {
+        let basis = principal_basis(&gram(&self.core, mode), tolerance);
+        self.project(mode, &basis);
+    }
+
+    fn project(&mut self, mode: usize, basis: &Mat<f64>) {
+        self.core = self.core.project(mode, basis);
+        self.bases[mode] = &self.bases[mode] * basis;
+    }
+}
+
+/// Compresses `mode` of all tensors with one basis, to which every tensor contributes alike.
+pub fn compress_together(tensors: &mut [Tucker], mode: usize, tolerance: f64) {
+    let grams = tensors.iter().map(|t| {
+        let energy: f64 = t.core.values.iter().map(|v| v * v).sum();
+        gram(&t.core, mode) * faer::Scale(1.0 / energy.max(1e-300))
     });
-    Tucker { bases, core }
+    let Some(sum) = grams.reduce(|a, b| a + b) else {
+        return;
+    };
+    let basis = principal_basis(&sum, tolerance);
+    tensors.par_iter_mut().for_each(|t| t.project(mode, &basis));
+}
+
+fn gram(tensor: &Dense, mode: usize) -> Mat<f64> {
+    let matrix = tensor.unfold(mode);
+    &matrix * matrix.transpose()
 }
 
 impl Dense {
@@ -63,13 +90,12 @@ impl Dense {
     }
 }
 
-/// Eigenvectors of the Gram matrix that hold all but `tolerance` of its trace.
-fn principal_basis(matrix: &Mat<f64>, tolerance: f64) -> Mat<f64> {
-    let gram = matrix * matrix.transpose();
-    let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else {
-        return Mat::identity(matrix.nrows(), matrix.nrows());
-    };
+/// Eigenvectors of a Gram matrix that hold all but `tolerance` of its trace.
+fn principal_basis(gram: &Mat<f64>, tolerance: f64) -> Mat<f64> {
     let n = gram.nrows();
+    let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else {
+        return Mat::identity(n, n);
+    };
     let values: Vec<f64> = (0..n)
         .map(|i| eigen.S().column_vector()[i].max(0.0))
         .collect();
@@ -103,7 +129,10 @@ mod tests {
             }
         }
         let energy: f64 = values.iter().map(|v| v * v).sum();
-        let tucker = compress(Dense { shape, values }, 1e-12);
+        let mut tucker = Tucker::new(Dense { shape, values });
+        for mode in 0..4 {
+            tucker.compress(mode, 1e-12);
+        }
         assert_eq!(tucker.core.shape, [2, 2, 2, 2]);
         let kept: f64 = tucker.core.values.iter().map(|v| v * v).sum();
         assert!((kept / energy - 1.0).abs() < 1e-9);

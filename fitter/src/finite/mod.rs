@@ -4,7 +4,7 @@ pub mod density;
 mod modes;
 pub mod source;
 
-use crate::build::Solved;
+use crate::units::Solved;
 use anyhow::Result;
 use welkin::format::{Chunk, Payload, Ranks};
 

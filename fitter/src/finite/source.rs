@@ -5,8 +5,8 @@
 //! local mixture's phase function. Divided by a level per sun and wavelength, both are smooth in every variable.
 
 use super::modes::{Tensor, gram, leading, project};
-use crate::build::Solved;
 use crate::orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
+use crate::units::Solved;
 use faer::Mat;
 use grid::{ALTITUDES, COUNT, ORDERS, SUNS, TENSOR};
 use welkin::format::{PhaseFunction, Ranks, SOURCE_FIELDS, SourceBasis, SourceCore};

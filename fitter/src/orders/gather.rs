@@ -10,6 +10,8 @@ use welkin::geometry::{Planet, Side};
 
 /// Number of fields.
 pub const FIELDS: usize = 5;
+/// Number of fields of Q and U.
+pub const POLARISED: usize = 4;
 
 /// Light along a view ray, divided by what the evaluator multiplies back.
 ///
@@ -30,14 +32,12 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// The five intensities in the order of the file.
-    pub fn intensities(&self) -> [&Spectrum; FIELDS] {
+    /// The five intensities in the order of the file, then Q and U of the multiply scattered light and of the light from the ground.
+    pub fn spectra(&self) -> [&Spectrum; FIELDS + POLARISED] {
+        let ([i, q, u], [ground_i, ground_q, ground_u]) = (&self.multiple, &self.ground);
+        let (rayleigh, fine, coarse) = (&self.rayleigh, &self.fine, &self.coarse);
         [
-            &self.rayleigh,
-            &self.fine,
-            &self.coarse,
-            &self.multiple[0],
-            &self.ground[0],
+            rayleigh, fine, coarse, i, ground_i, q, u, ground_q, ground_u,
         ]
     }
 }
@@ -63,6 +63,16 @@ impl<'a> Gatherer<'a> {
             planet: planet(&medium.atmosphere),
             fineness,
         }
+    }
+
+    /// The air.
+    pub fn medium(&self) -> &Medium {
+        self.medium
+    }
+
+    /// The light in it.
+    pub fn light(&self) -> &LightField {
+        self.light
     }
 
     /// The planet.

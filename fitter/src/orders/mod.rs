@@ -9,13 +9,13 @@ pub mod gather;
 mod medium;
 pub mod moments;
 pub mod path;
-mod single;
+pub mod single;
 mod solve;
 pub mod source;
 
 /// The grid of the moments.
 pub use self::moments as grid;
-pub use gather::{FIELDS, Fields, Gatherer};
+pub use gather::{FIELDS, Fields, Gatherer, POLARISED};
 pub use medium::{DEGREE, Medium, NW, PER_SPHERE, SUN_RADIUS, Spectrum, rayleigh_phase};
 pub use moments::Moments;
 pub use path::Path;

@@ -38,20 +38,30 @@ fn weighted<'a>(terms: impl Iterator<Item = (&'a Spectrum, &'a Spectrum)>) -> Sp
     out
 }
 
-/// Stokes vector of all singly scattered light on a ray of zenith cosine `mu`, from its line integrals.
-pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes {
+/// Q and U of single Rayleigh scattering with the line integral `dipole`, on a ray of zenith cosine `mu`.
+pub fn polarisation(polarising: &Spectrum, dipole: &Spectrum, mu: f64, sun: &Sun) -> [Spectrum; 2] {
     let ((ce, se), (ca, sa)) = (sun.elevation, sun.azimuth);
     let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
-    let cosine = (sine * ce * ca + mu * se) as f32;
     // Components of the sun's direction along the ray's polarisation axes.
     let (along, across) = ((mu * ce * ca - sine * se) as f32, -(ce * sa) as f32);
+    let strength = |w: usize| 0.75 * polarising[w] * dipole[w];
+    [
+        std::array::from_fn(|w| strength(w) * (across * across - along * along)),
+        std::array::from_fn(|w| strength(w) * -2.0 * along * across),
+    ]
+}
+
+/// Stokes vector of all singly scattered light on a ray of zenith cosine `mu`, from its line integrals.
+pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes {
+    let ((ce, se), (ca, _)) = (sun.elevation, sun.azimuth);
+    let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
+    let cosine = (sine * ce * ca + mu * se) as f32;
     let mut out = DARK;
     let dipole = rayleigh(medium, sums);
+    [out[1], out[2]] = polarisation(&medium.polarising, &dipole, mu, sun);
     for w in 0..NW {
         let d = medium.polarising[w];
         out[0][w] += dipole[w] * (0.75 * d * (1.0 + cosine * cosine) + 1.0 - d);
-        out[1][w] += dipole[w] * 0.75 * d * (across * across - along * along);
-        out[2][w] -= dipole[w] * 1.5 * d * along * across;
     }
     for (part, sum) in medium.parts.iter().zip(sums) {
         for species in &part.aerosols {

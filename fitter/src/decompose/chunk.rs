@@ -1,0 +1,163 @@
+//! The normalised fields of one (altitude, visibility) with what turns them into relative radiance.
+
+use super::normalise::{Level, chunk_geometry, normalise};
+use crate::dataset::{Grid, Tensor};
+use crate::orders::source::Sun;
+use crate::orders::{FIELDS, Gatherer, NW, Spectrum, gather, rayleigh_phase};
+use std::f64::consts::FRAC_PI_2;
+use welkin::geometry::Side;
+
+/// A chunk as the fit sees it.
+pub struct Chunk {
+    /// Lengths of the view, azimuth and elevation axes.
+    pub sites: [usize; 3],
+    /// Normalised fields `[view][phi][elevation][field][wavelength]`.
+    values: Vec<f32>,
+    /// Cosine of the angle to the sun, `[view][phi][elevation]`.
+    cosine: Vec<f32>,
+    /// Root weights of the views and of the solar elevations.
+    weight: [Vec<f32>; 2],
+    polarising: Spectrum,
+    asymmetry: [Spectrum; 2],
+    spherical_albedo: Spectrum,
+    /// Spline coefficients of ln S.
+    pub level: Vec<f32>,
+    seed: u64,
+}
+
+/// Share of the weight that is spread evenly over the sites instead of over solid angle and solar elevation.
+const EVEN: f64 = 0.4;
+/// How much more sites within 15° of the sun count.
+const AUREOLE: f32 = 2.0;
+
+impl Chunk {
+    /// From the traced tensor of altitude `a`; `seed` tells chunks apart.
+    pub fn new(tensor: &Tensor, gatherer: &Gatherer, grid: &Grid, a: usize, seed: u64) -> Self {
+        let [views, phis, elevations, _] = tensor.shape;
+        let medium = gatherer.medium();
+        let geometry = chunk_geometry(medium, gatherer.planet(), grid, a);
+        let level = Level::new(tensor, &geometry, medium, grid.elevation_axis());
+        Self {
+            sites: [views, phis, elevations],
+            values: normalise(tensor, &geometry, medium, &level),
+            level: level.coefficients,
+            cosine: cosines(gatherer, grid, a),
+            weight: [view_weights(gatherer, grid, a), elevation_weights(grid)],
+            polarising: *gatherer.polarising(),
+            asymmetry: [gatherer.asymmetry(0), gatherer.asymmetry(1)],
+            spherical_albedo: gatherer.light().spherical_albedo,
+            seed,
+        }
+    }
+
+    /// Tells chunks apart.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Index of a site.
+    pub fn site(&self, view: usize, phi: usize, elevation: usize) -> usize {
+        (view * self.sites[1] + phi) * self.sites[2] + elevation
+    }
+
+    /// A normalised field.
+    pub fn value(&self, site: usize, field: usize, wavelength: usize) -> f32 {
+        self.values[site * FIELDS * NW + field * NW + wavelength]
+    }
+
+    /// All normalised fields.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// Factors that turn fields into radiance relative to the traced one.
+    pub fn radiance_equation(&self, site: usize, w: usize, albedo: f32) -> (usize, [f32; FIELDS]) {
+        let c = self.cosine[site];
+        let share = [
+            rayleigh_phase(&[self.polarising[w]; NW], c)[0],
+            one_phase(self.asymmetry[0][w], c),
+            one_phase(self.asymmetry[1][w], c),
+            1.0,
+            albedo / (1.0 - albedo * self.spherical_albedo[w]),
+        ];
+        let total: f32 = (0..FIELDS).map(|f| share[f] * self.value(site, f, w)).sum();
+        let total = total.max(1e-12);
+        (w, share.map(|s| s / total))
+    }
+
+    /// Root of the weight of a site.
+    pub fn weight(&self, site: usize) -> f32 {
+        let [_, phis, elevations] = self.sites;
+        let (v, e) = (site / (phis * elevations), site % elevations);
+        let near = if self.cosine[site] > 0.966 {
+            AUREOLE.sqrt()
+        } else {
+            1.0
+        };
+        self.weight[0][v] * self.weight[1][e] * near
+    }
+}
+
+fn one_phase(g: f32, c: f32) -> f32 {
+    let x = 1.0 + g * g - 2.0 * g * c;
+    (1.0 - g * g) / (x * x.sqrt())
+}
+
+fn cosines(gatherer: &Gatherer, grid: &Grid, a: usize) -> Vec<f32> {
+    let (phi, elevation) = (grid.phi_sites(), grid.elevation_sites());
+    let mut out = vec![];
+    for (_, view) in grid.view_sites(gatherer.planet(), a) {
+        for p in &phi {
+            for e in &elevation {
+                let sun = Sun {
+                    elevation: (e.cos(), e.sin()),
+                    azimuth: (p.cos(), p.sin()),
+                };
+                out.push(gather::scattering_cosine(view.sin(), &sun));
+            }
+        }
+    }
+    out
+}
+
+/// Mixes weights of mean 1 with even ones and takes the root.
+fn blend(measure: Vec<f64>) -> Vec<f32> {
+    let mean = measure.iter().sum::<f64>() / measure.len() as f64;
+    measure
+        .iter()
+        .map(|m| ((1.0 - EVEN) * m / mean + EVEN).sqrt() as f32)
+        .collect()
+}
+
+/// Solid angle per site of the view axes.
+fn view_weights(gatherer: &Gatherer, grid: &Grid, a: usize) -> Vec<f32> {
+    let dip = gatherer.planet().dip(grid.traced_altitude(a));
+    let measure = grid.view_sites(gatherer.planet(), a).into_iter();
+    let measure = measure.map(|(side, elevation)| {
+        let ((axis, exponent), range) = match side {
+            Side::Up => (grid.up, FRAC_PI_2 + dip),
+            Side::Down => (grid.down, FRAC_PI_2 - dip),
+        };
+        let share = ((elevation + dip).abs() / range).max(1e-9);
+        let step = range * exponent * share.powf(1.0 - 1.0 / exponent) / axis.intervals as f64;
+        elevation.cos() * step
+    });
+    blend(measure.collect())
+}
+
+/// Half of the weight is spread evenly over all solar elevations, half over those below 12°.
+fn elevation_weights(grid: &Grid) -> Vec<f32> {
+    let axis = grid.elevation;
+    let sites = grid.elevation_axis().sites();
+    let measure = sites.into_iter().map(|u| {
+        let step = axis.elevation(u + 0.5) - axis.elevation(u - 0.5);
+        let low = 12f64.to_radians();
+        let dense = if axis.elevation(u) < low {
+            1.0 / (low - axis.min)
+        } else {
+            0.0
+        };
+        step * (1.0 / (axis.max - axis.min) + dense)
+    });
+    blend(measure.collect())
+}
