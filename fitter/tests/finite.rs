@@ -49,7 +49,6 @@ fn head(air: &Atmosphere) -> Head {
         .collect();
     head.spherical_albedo = vec![0.0; nw];
     head.xyz = vec![[0.0; 3]; nw];
-    head.elevation_scale = vec![0.0; head.shape().elevation * nw];
     head.fields
         .iter_mut()
         .for_each(|field| field.parameter = vec![0.0; nw]);
