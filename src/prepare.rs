@@ -12,6 +12,7 @@ use crate::model::{Key, Model};
 use crate::phase::PhaseTable;
 use crate::sky::Sky;
 use crate::tables::{Cell, Layout, SideTable, Tables};
+use zerocopy::little_endian::F32;
 
 impl Sky {
     pub(crate) fn prepare(model: &Model, conditions: &Conditions) -> Result<Self> {
@@ -191,9 +192,14 @@ impl Baker<'_> {
                 let chunk = self.model.radiance_chunk(a, v)?;
                 let weight = (altitude_weight * visibility_weight) as f32;
                 self.add_level(&chunk, weight, &mut level);
-                let factor = self.factors(&chunk, weight);
-                add_rows(&mut alpha[0], basis.rank, chunk.alpha_up, &chunk, &factor);
-                add_rows(&mut alpha[1], basis.rank, chunk.alpha_down, &chunk, &factor);
+                let own = Own {
+                    rank: chunk.rank,
+                    stride: chunk.stride,
+                    scale: chunk.scale,
+                    elevation: chunk.elevation,
+                    alpha: [chunk.alpha_up, chunk.alpha_down],
+                };
+                own.add_to(&mut alpha, basis.rank, &self.elevation, weight);
             }
         }
         let patterns = self.patterns(&basis);
@@ -211,19 +217,6 @@ impl Baker<'_> {
                 *sum += weight * tap * widen(value);
             }
         }
-    }
-
-    /// What each component of a chunk is multiplied with: weight, scale and the factor of the solar elevation.
-    fn factors(&self, chunk: &RadianceView, weight: f32) -> Vec<f32> {
-        let rows = || self.elevation.index.iter().zip(self.elevation.weight);
-        let elevation = |r: usize| -> f32 {
-            rows()
-                .map(|(&i, w)| w * widen(chunk.elevation[i * chunk.stride + r]))
-                .sum()
-        };
-        (0..chunk.rank)
-            .map(|r| weight * chunk.scale[r].get() * elevation(r))
-            .collect()
     }
 
     /// The shared factor matrices with the light between ground and sky folded in.
@@ -245,14 +238,36 @@ impl Baker<'_> {
     }
 }
 
-/// Adds rows of a chunk's factor matrix, each component times its factor, to `sum` of width `rank`.
-fn add_rows(sum: &mut [f32], rank: usize, rows: &Payload16, chunk: &RadianceView, factor: &[f32]) {
-    for (sum, row) in sum
-        .chunks_exact_mut(rank)
-        .zip(rows.chunks_exact(chunk.stride))
-    {
-        for (sum, (&value, factor)) in sum.iter_mut().zip(row.iter().zip(factor)) {
-            *sum += factor * widen(value);
+/// The factor matrices of a chunk that belong to it alone.
+pub(crate) struct Own<'a> {
+    pub rank: usize,
+    pub stride: usize,
+    pub scale: &'a [F32],
+    pub elevation: &'a Payload16,
+    /// Above and below the horizon.
+    pub alpha: [&'a Payload16; 2],
+}
+
+impl Own<'_> {
+    /// Adds the rows over the angle from the horizon, each component times weight, scale and the factor of the solar
+    /// elevation, to `sums`, which are as wide as the rank of the basis.
+    pub fn add_to(&self, sums: &mut [Vec<f32>; 2], rank: usize, elevation: &Taps, weight: f32) {
+        let at_sun = |r: usize| -> f32 {
+            let taps = elevation.index.iter().zip(elevation.weight);
+            taps.map(|(&i, w)| w * widen(self.elevation[i * self.stride + r]))
+                .sum()
+        };
+        let scales = self.scale.iter().take(self.rank).enumerate();
+        let factors: Vec<f32> = scales
+            .map(|(r, scale)| weight * scale.get() * at_sun(r))
+            .collect();
+        for (sums, matrix) in sums.iter_mut().zip(self.alpha) {
+            let rows = matrix.chunks_exact(self.stride);
+            for (sum, row) in sums.chunks_exact_mut(rank).zip(rows) {
+                for (sum, (&value, factor)) in sum.iter_mut().zip(row.iter().zip(&factors)) {
+                    *sum += factor * widen(value);
+                }
+            }
         }
     }
 }
@@ -296,7 +311,7 @@ impl Patterns {
 }
 
 /// Half-precision rows of width `stride` as single-precision rows of width `rank`.
-fn widen_rows(table: &Payload16, stride: usize, rank: usize) -> Vec<f32> {
+pub(crate) fn widen_rows(table: &Payload16, stride: usize, rank: usize) -> Vec<f32> {
     let rows = table.chunks_exact(stride);
     rows.flat_map(|row| row[..rank].iter().map(|&h| widen(h)))
         .collect()

@@ -3,10 +3,10 @@
 use super::table::{Pair, Polarisation};
 use crate::axis::{Ends, spline};
 use crate::error::{Error, Result};
-use crate::format::{Payload16, PolarisationBasisView, PolarisationView, widen};
+use crate::format::{PolarisationBasisView, widen};
 use crate::math::LANES;
 use crate::model::Model;
-use crate::prepare::Place;
+use crate::prepare::{Own, Place, widen_rows};
 use crate::tables::Layout;
 
 /// Prepares the polarisation at `place` over a ground of the given albedo. `layout` is that of the radiance.
@@ -19,53 +19,35 @@ pub(super) fn prepare(
     let head = model.head();
     let basis = model.polarisation_basis()?;
     let shape = head.shape();
-    let mut up = vec![0.0; shape.up * basis.rank];
-    let mut down = vec![0.0; shape.down * basis.rank];
-    let taps = spline(place.elevation, head.elevation.intervals, Ends::Free);
+    let mut alpha = [shape.up, shape.down].map(|n| vec![0.0; n * basis.rank]);
+    let elevation = spline(place.elevation, head.elevation.intervals, Ends::Free);
     for (a, altitude_weight) in place.altitudes.taps() {
         for (v, visibility_weight) in place.visibilities.taps() {
             let chunk = model.polarisation_chunk(a, v)?;
-            if chunk.rank != basis.rank {
-                let detail = format!("expected {} of the basis, got {}", basis.rank, chunk.rank);
+            if chunk.rank > basis.rank {
+                let detail = format!("at most {} as the basis, got {}", basis.rank, chunk.rank);
                 return Err(Error::invalid("rank of a polarisation chunk", detail));
             }
+            let own = Own {
+                rank: chunk.rank,
+                stride: chunk.stride,
+                scale: chunk.scale,
+                elevation: chunk.elevation,
+                alpha: [chunk.alpha_up, chunk.alpha_down],
+            };
             let weight = (altitude_weight * visibility_weight) as f32;
-            let factors: Vec<f32> = (0..chunk.rank)
-                .map(|r| weight * chunk.scale[r].get() * elevation(&chunk, &taps, r))
-                .collect();
-            add(&mut up, chunk.alpha_up, chunk.stride, &factors);
-            add(&mut down, chunk.alpha_down, chunk.stride, &factors);
+            own.add_to(&mut alpha, basis.rank, &elevation, weight);
         }
     }
     let applied = Basis::new(&basis, &place.ground(head, albedo), layout);
-    let polarisation = Polarisation {
-        up: applied.apply(&up),
-        down: applied.apply(&down),
-    };
+    let [up, down] = alpha.map(|alpha| applied.apply(&alpha));
+    let polarisation = Polarisation { up, down };
     let mut pairs = polarisation.up.iter().chain(&polarisation.down);
     if pairs.all(Pair::is_finite) {
         return Ok(polarisation);
     }
     let detail = "its polarisation overflows at these conditions: the file is not a sensible sky";
     Err(Error::invalid("model", detail))
-}
-
-/// Value of a component at the solar elevation of the sky.
-fn elevation(chunk: &PolarisationView, taps: &crate::axis::Taps, r: usize) -> f32 {
-    let terms = taps.index.iter().zip(taps.weight);
-    terms
-        .map(|(&i, w)| w * widen(chunk.elevation[i * chunk.stride + r]))
-        .sum()
-}
-
-/// Adds the rows of a factor matrix, each component times its factor.
-fn add(sum: &mut [f32], matrix: &Payload16, stride: usize, factors: &[f32]) {
-    let rows = sum.chunks_exact_mut(factors.len());
-    for (row, values) in rows.zip(matrix.chunks_exact(stride)) {
-        for (sum, (&value, factor)) in row.iter_mut().zip(values.iter().zip(factors)) {
-            *sum += factor * widen(value);
-        }
-    }
 }
 
 /// The shared factors with the albedo applied.
@@ -94,12 +76,10 @@ impl<'a> Basis<'a> {
                 pair[LANES + w % LANES] = sum(1);
             }
         }
-        let rows = view.phi.chunks_exact(view.stride);
-        let phi = rows.flat_map(|row| row[..rank].iter().map(|&h| widen(h)));
         Self {
             rank,
             layout,
-            phi: phi.collect(),
+            phi: widen_rows(view.phi, view.stride, rank),
             channel,
         }
     }
