@@ -132,3 +132,36 @@ pub fn table(errors: &[Error]) -> String {
     }
     out
 }
+
+/// Bands of solar elevation (degrees) that are reported apart.
+const BANDS: [(f64, f64); 6] = [
+    (-4.2, -2.0),
+    (-2.0, 0.0),
+    (0.0, 3.0),
+    (3.0, 12.0),
+    (12.0, 40.0),
+    (40.0, 90.0),
+];
+
+/// Median / 99th percentile in percent by visibility (m) and altitude (m) down, band of solar elevation across.
+pub fn band_table(rows: &[(f64, f64, Vec<Error>)]) -> String {
+    let mut out = format!("{:>8} {:>9}", "V, km", "h, m");
+    for (low, high) in BANDS {
+        out += &format!("{:>15}", format!("{low}..{high}°"));
+    }
+    for (visibility, altitude, errors) in rows {
+        out += &format!("\n{:>8.1} {altitude:>9}", visibility / 1e3);
+        for (low, high) in BANDS {
+            let inside = |e: &&Error| (low..high).contains(&e.solar_elevation.to_degrees());
+            let band = errors.iter().filter(inside).map(|e| e.relative);
+            out += &match Quantiles::of(band) {
+                Some(q) => format!(
+                    "{:>15}",
+                    format!("{:.2} / {:.2}", 100.0 * q.median, 100.0 * q.p99)
+                ),
+                None => format!("{:>15}", "-"),
+            };
+        }
+    }
+    out + "\n"
+}

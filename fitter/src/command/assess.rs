@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use std::path::PathBuf;
 use welkin::Model;
-use welkin_fitter::assess::{self, table};
+use welkin_fitter::assess::{self, Error, band_table, table};
 use welkin_fitter::units::Plan;
 
 /// Compares a model with freshly traced radiance at visibilities and altitudes between its nodes.
@@ -16,13 +16,13 @@ pub struct Args {
     #[arg(long, default_value = "work")]
     work: PathBuf,
     /// Visibilities, km.
-    #[arg(long, value_delimiter = ',', default_value = "24,48,75,110")]
+    #[arg(long, value_delimiter = ',', default_value = "22,25.5,33,49,75,110")]
     visibilities: Vec<f64>,
     /// Altitudes, m; those beyond the model are left out.
     #[arg(
         long,
         value_delimiter = ',',
-        default_value = "8,70,300,800,1620,1940,2800,5700,8400,14000"
+        default_value = "8,70,210,480,800,1250,1760,2220,2800,4100,6300,9200,11900,14000"
     )]
     altitudes: Vec<f64>,
 }
@@ -37,7 +37,7 @@ pub fn run(args: &Args) -> Result<()> {
         .copied()
         .filter(|h| (lowest..=highest).contains(h))
         .collect();
-    let mut all = vec![];
+    let mut rows = vec![];
     let plan = Plan::default();
     let store = plan.store(&args.work)?;
     for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
@@ -45,14 +45,11 @@ pub fn run(args: &Args) -> Result<()> {
         for &altitude in &altitudes {
             let samples = plan.held_out(&store, &solved, altitude)?;
             let errors = assess::errors(&model, visibility, &samples)?;
-            println!(
-                "visibility {} km, altitude {altitude} m\n{}",
-                visibility / 1e3,
-                table(&errors)
-            );
-            all.extend(errors);
+            rows.push((visibility, altitude, errors));
         }
     }
+    println!("{}", band_table(&rows));
+    let all: Vec<Error> = rows.into_iter().flat_map(|(_, _, errors)| errors).collect();
     println!("all conditions\n{}", table(&all));
     Ok(())
 }
