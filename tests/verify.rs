@@ -5,7 +5,7 @@ mod common;
 
 use std::process::{Command, Output};
 
-use welkin::format::{parse, verify};
+use welkin::format::{Kind, parse, verify};
 
 fn run(bytes: &[u8], arguments: &[&str]) -> Output {
     let file = tempfile::NamedTempFile::new().unwrap();
@@ -63,6 +63,24 @@ fn every_problem_is_told_with_its_place_and_class() {
         .map(|p| (p["chunk"].as_u64().unwrap(), p["class"].as_str().unwrap()))
         .collect();
     assert_eq!(found, [(2, "checksum"), (4, "checksum"), (7, "value")]);
+}
+
+#[test]
+fn padding_must_be_zero_though_readers_do_not_look() {
+    let bytes = common::tiny_bytes();
+    let contents = parse(&bytes).unwrap();
+    let rank = common::RANK;
+    // Behind the weights of the components, and behind the first row of the azimuth factors.
+    for (kind, at) in [(Kind::Radiance, 4 * rank), (Kind::RadianceBasis, 2 * rank)] {
+        let entry = contents.directory.iter().find(|e| e.kind == kind).unwrap();
+        let mut padded = bytes.clone();
+        padded[entry.offset + at] = 1;
+        common::seal(&mut padded, &bytes);
+        let problems = verify(&padded);
+        assert_eq!(problems.len(), 1);
+        assert!(problems[0].error.to_string().contains("padding"));
+        welkin::Model::from_bytes(padded).unwrap().verify().unwrap();
+    }
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
+use super::chunk::{Payload16, RadianceBasisView, RadianceView};
 use super::encoding::{check_chunk, decode};
-use super::head::{Entry, Kind};
+use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
+use super::polarisation::{POLARISATION_PARTS, PolarisationBasisView, PolarisationView};
 use crate::error::Error;
 
 /// A rule of the format specification that a file breaks.
@@ -65,5 +67,51 @@ fn check_reserved(contents: &Contents, file: &[u8], i: usize, entry: &Entry) -> 
 fn check_payload(contents: &Contents, file: &[u8], i: usize, entry: &Entry) -> Result<(), Error> {
     let stored = &file[entry.offset..entry.offset + entry.length];
     let payload = decode(i, entry, stored)?;
-    check_chunk(&contents.head, i, entry, &payload)
+    check_chunk(&contents.head, i, entry, &payload)?;
+    check_padding(&contents.head, entry, &payload)
+}
+
+/// Columns beyond the rank and beyond the channels.
+fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error> {
+    let (shape, rank) = (head.shape(), entry.rank);
+    let parts = POLARISATION_PARTS * head.wavelengths.len();
+    let zero = match entry.kind {
+        Kind::Radiance => {
+            let view = RadianceView::new(payload, &shape, rank)?;
+            let scale = view.scale[rank..].iter().all(|s| s.get() == 0.0);
+            let matrices = [view.alpha_up, view.alpha_down, view.elevation];
+            scale && matrices.iter().all(|m| is_zero(m, view.stride, rank))
+        }
+        Kind::Polarisation => {
+            let view = PolarisationView::new(payload, &shape, rank)?;
+            let scale = view.scale[rank..].iter().all(|s| s.get() == 0.0);
+            let matrices = [view.alpha_up, view.alpha_down, view.elevation];
+            scale && matrices.iter().all(|m| is_zero(m, view.stride, rank))
+        }
+        Kind::RadianceBasis => {
+            let view = RadianceBasisView::new(payload, &shape, rank)?;
+            let (channel, rest) = view.channel.split_at(rank * view.channel_stride);
+            is_zero(view.phi, view.stride, rank)
+                && is_zero(channel, view.channel_stride, shape.channels)
+                && is_zero(rest, view.channel_stride, 0)
+        }
+        Kind::PolarisationBasis => {
+            let view = PolarisationBasisView::new(payload, &shape, head.wavelengths.len(), rank)?;
+            let (channel, rest) = view.channel.split_at(rank * view.channel_stride);
+            is_zero(view.phi, view.stride, rank)
+                && is_zero(channel, view.channel_stride, parts)
+                && is_zero(rest, view.channel_stride, 0)
+        }
+        _ => true,
+    };
+    if zero {
+        return Ok(());
+    }
+    Err(Error::invalid("padding of a payload", "expected zeros"))
+}
+
+/// Whether the columns of a matrix from `width` on are zero.
+fn is_zero(matrix: &Payload16, stride: usize, width: usize) -> bool {
+    let mut rows = matrix.chunks_exact(stride);
+    rows.all(|row| row[width..].iter().all(|h| h.get() == 0))
 }

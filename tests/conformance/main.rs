@@ -115,3 +115,25 @@ fn this_reader_agrees_with_the_suite() {
         }
     }
 }
+
+#[test]
+fn the_example_in_the_specification_is_the_minimal_file() {
+    let text = include_str!("../../format-spec/SPEC.md");
+    let (_, appendix) = text.split_once("## Appendix A").unwrap();
+    let dump = appendix.split("```").nth(1).unwrap();
+    let mut bytes = Vec::new();
+    for line in dump.trim().lines().filter(|line| *line != "*") {
+        let (offset, row) = line.split_once("  ").unwrap();
+        let offset = usize::from_str_radix(offset, 16).unwrap();
+        let row: Vec<u8> = row
+            .split(' ')
+            .map(|byte| u8::from_str_radix(byte, 16).unwrap())
+            .collect();
+        // A star stands for lines like the one before it.
+        while bytes.len() < offset {
+            bytes.extend_from_within(bytes.len() - 16..);
+        }
+        bytes.extend(row);
+    }
+    assert!(bytes == files::minimal());
+}
