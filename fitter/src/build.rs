@@ -29,10 +29,10 @@ impl Default for Fitting {
         Self {
             options: Options {
                 rank: 160,
-                sweeps: 300,
+                sweeps: 150,
                 seed: 1,
             },
-            refinements: 8,
+            refinements: 12,
         }
     }
 }

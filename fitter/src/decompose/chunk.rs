@@ -28,7 +28,7 @@ pub struct Chunk {
 /// Share of the weight that is spread evenly over the sites instead of over solid angle and solar elevation.
 const EVEN: f64 = 0.4;
 /// How much more sites within 15° of the sun count.
-const AUREOLE: f32 = 2.0;
+const AUREOLE: f32 = 5.0;
 
 impl Chunk {
     /// From the traced tensor of altitude `a`; `seed` tells chunks apart.
