@@ -67,6 +67,16 @@ pub fn valid() -> Vec<Case> {
             "metadata in UTF-8, not a multiple of eight bytes",
             metadata(),
         ),
+        case(
+            "ranks",
+            "a basis of rank 20 with chunks of the ranks 20, 17 and 3",
+            ranks(),
+        ),
+        case(
+            "no-basis",
+            "without a radiance basis all radiance is missing",
+            without_basis(),
+        ),
         case("negative", "sums below zero become zero", negative()),
     ];
     cases.push(Case {
@@ -191,6 +201,51 @@ fn sparse() -> Vec<u8> {
 
 fn head_only() -> Vec<u8> {
     encode(&small(&[0.0], &[20e3]), &[]).expect("a valid model")
+}
+
+/// Chunks that use the first components of a larger basis.
+fn ranks() -> Vec<u8> {
+    let head = small(&[0.0], &[20e3, 40e3, 80e3]);
+    let mut chunks = common::chunks(&head);
+    for chunk in &mut chunks {
+        let rank = [20, 17, 3][chunk.visibility.unwrap_or(0)];
+        match &mut chunk.payload {
+            Payload::RadianceBasis(basis) => {
+                basis.phi = widened(&basis.phi, common::RANK, rank);
+                let channels = basis.channel.len() / common::RANK;
+                basis.channel = basis.channel.repeat(rank / common::RANK);
+                assert_eq!(basis.channel.len(), rank * channels);
+                basis.rank = rank;
+            }
+            Payload::Radiance(factors) => {
+                for matrix in [
+                    &mut factors.scale,
+                    &mut factors.alpha_up,
+                    &mut factors.alpha_down,
+                    &mut factors.elevation,
+                ] {
+                    *matrix = widened(matrix, common::RANK, rank);
+                }
+                factors.rank = rank;
+            }
+            _ => {}
+        }
+    }
+    encode(&head, &chunks).expect("a valid model")
+}
+
+/// Each row of a matrix cut or repeated to another width.
+fn widened(matrix: &[f32], from: usize, to: usize) -> Vec<f32> {
+    let rows = matrix.chunks_exact(from);
+    rows.flat_map(|row| row.iter().cycle().take(to))
+        .copied()
+        .collect()
+}
+
+fn without_basis() -> Vec<u8> {
+    let head = small(&[0.0], &[20e3]);
+    let chunks = common::chunks(&head);
+    encode(&head, &chunks[1..]).expect("a valid model")
 }
 
 /// The last chunk of a file twice, the copy with a kind and an entry that no reader knows.

@@ -280,6 +280,20 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
             &0u16.to_le_bytes(),
         ),
         forge(
+            "entry-rank",
+            "a radiance chunk of rank 0",
+            "value",
+            entry(2) + 40,
+            &0u32.to_le_bytes(),
+        ),
+        forge(
+            "basis-rank",
+            "a basis of a smaller rank than its chunks",
+            "value",
+            entry(0) + 40,
+            &4u32.to_le_bytes(),
+        ),
+        forge(
             "entry-tier",
             "a tier other than 0",
             "value",
