@@ -1,0 +1,1673 @@
+/* welkin.h: reads clear-sky radiance files of the welkin format, version 1.
+ *
+ * In exactly one C file: #define WELKIN_IMPLEMENTATION, then include this header. Link with -lm.
+ *
+ * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and every number of the
+ * file is checked before use. Bytes may be unaligned; the host may have either byte order. Numbers must be IEEE 754, so do not
+ * compile the implementation with -ffast-math.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ */
+#ifndef WELKIN_H
+#define WELKIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifndef WELKIN_API
+#define WELKIN_API extern
+#endif
+
+/* The classes of errors of the specification, and one for a scratch that is too small. */
+typedef enum welkin_error {
+    WELKIN_OK = 0,
+    WELKIN_ERROR_MAGIC,
+    WELKIN_ERROR_VERSION,
+    WELKIN_ERROR_FEATURE,
+    WELKIN_ERROR_LENGTH,
+    WELKIN_ERROR_CHECKSUM,
+    WELKIN_ERROR_VALUE,
+    WELKIN_ERROR_ENCODING,
+    WELKIN_ERROR_RANGE,
+    WELKIN_ERROR_MISSING,
+    WELKIN_ERROR_DIRECTION,
+    WELKIN_ERROR_SCRATCH
+} welkin_error;
+
+#define WELKIN_MAX_WAVELENGTHS 256
+#define WELKIN_MAX_FIELDS 16
+#define WELKIN_MAX_CONSTITUENTS 16
+#define WELKIN_MAX_RANK 4096
+
+/* A checked file. The public members are for reading only. */
+typedef struct welkin_file {
+    uint32_t wavelengths, altitudes, visibilities, fields, constituents;
+    double planet_radius, top_altitude, elevation_min, elevation_max;
+    const char *metadata; /* UTF-8, not terminated */
+    uint32_t metadata_length;
+
+    /* private */
+    const unsigned char *bytes;
+    size_t length;
+    uint32_t up_intervals, down_intervals, phi_intervals, elevation_intervals;
+    uint32_t solar_samples, chunk_count;
+    double up_exponent, down_exponent, elevation_centre, elevation_width;
+    size_t wavelength_at, altitude_at, visibility_at, extinction_at, albedo_at, phase_at, xyz_at;
+    size_t solar_range_at, solar_at, field_at, metadata_at, directory_at;
+    uint32_t rank, polarisation_rank; /* of the bases, 0 if absent */
+} welkin_file;
+
+typedef struct welkin_conditions {
+    double altitude;        /* m */
+    double visibility;      /* m */
+    double albedo;          /* 0..=1 */
+    double solar_elevation; /* rad, geometric */
+    double solar_azimuth;   /* rad, counter-clockwise from +x */
+} welkin_conditions;
+
+/* Flags of a prepared sky. */
+#define WELKIN_POLARISED 1u /* can answer welkin_stokes */
+#define WELKIN_DENSE 2u     /* takes longer to prepare and more memory, answers faster */
+
+/* Sums of products of spline coefficients, private. */
+typedef struct welkin_table {
+    uint32_t rank, row, channels; /* row: floats per component row; channels: floats per channel row */
+    float *alpha, *phi, *channel; /* [up + down][row], [phi][row], [row][channels] */
+    float *dense;                 /* [up + down][phi][channels], or null */
+} welkin_table;
+
+/* A sky under fixed conditions; private. May be shared by threads. */
+typedef struct welkin_sky {
+    const welkin_file *file;
+    double altitude, dip, sun[3], cos_azimuth, sin_azimuth;
+    float *column, *extinction, *level, *bounce, *phase;
+    welkin_table radiance, polarisation;
+    unsigned flags;
+} welkin_sky;
+
+/* The air at one visibility, for transmittances; private. */
+typedef struct welkin_air {
+    const welkin_file *file;
+    const unsigned char *edges, *densities;
+    uint32_t layers;
+    uint32_t visibility_node[2];
+    double visibility_weight[2];
+} welkin_air;
+
+/* The name of an error's class. */
+WELKIN_API const char *welkin_error_name(welkin_error error);
+
+/* Checks the head of a file. The bytes must stay as they are while the file or skies of it are in use. */
+WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length);
+
+WELKIN_API double welkin_wavelength(const welkin_file *file, uint32_t index);
+WELKIN_API double welkin_altitude(const welkin_file *file, uint32_t index);
+WELKIN_API double welkin_visibility(const welkin_file *file, uint32_t index);
+
+/* How many floats welkin_prepare needs. */
+WELKIN_API size_t welkin_scratch_floats(const welkin_file *file, unsigned flags);
+
+/* Reads and checks what the conditions need. The scratch and the file must outlive the sky. */
+WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions, unsigned flags,
+                                       float *scratch, size_t scratch_floats);
+
+/* Radiance per unit of solar irradiance, sr^-1, at every wavelength of the file. The direction need not be normalised. */
+WELKIN_API welkin_error welkin_radiance(const welkin_sky *sky, const double direction[3], float *radiance);
+
+/* Stokes components in the vertical frame; the sky must be prepared with WELKIN_POLARISED. */
+WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q, float *u);
+
+/* CIE 1931 X, Y, Z in cd m^-2 of a radiance that welkin_radiance gave. */
+WELKIN_API void welkin_xyz(const welkin_file *file, const float *radiance, double xyz[3]);
+
+/* A radiance that welkin_radiance gave, between the wavelengths of the file. */
+WELKIN_API welkin_error welkin_radiance_at(const welkin_file *file, const float *radiance, double wavelength, double *value);
+
+/* Stokes components that welkin_stokes gave, between the wavelengths of the file: L, Q, U. */
+WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *radiance, const float *q, const float *u, double wavelength,
+                                         double stokes[3]);
+
+/* Solar irradiance, W m^-2 nm^-1. */
+WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *file, double wavelength, double *value);
+
+/* Reads and checks the profiles of the air. */
+WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *file, double visibility);
+
+/* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction. */
+WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
+                                             float *transmittance);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* WELKIN_H */
+
+#ifdef WELKIN_IMPLEMENTATION
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define WELKIN__HEADER 128u
+#define WELKIN__ENTRY 64u
+#define WELKIN__NONE 65535u
+#define WELKIN__HALF_PI 1.57079632679489661923
+
+enum {
+    WELKIN__RADIANCE = 1,
+    WELKIN__COLUMN = 2,
+    WELKIN__BASIS = 3,
+    WELKIN__TRANSMITTANCE = 4,
+    WELKIN__SOURCE = 5,
+    WELKIN__POLARISATION = 6,
+    WELKIN__POLARISATION_BASIS = 7,
+    WELKIN__SOURCE_BASIS = 8,
+    WELKIN__KINDS = 9
+};
+
+/* ---- bytes ---- */
+
+static uint32_t welkin__u16(const unsigned char *p) { return (uint32_t)p[0] | (uint32_t)p[1] << 8; }
+
+static uint32_t welkin__u32(const unsigned char *p) { return welkin__u16(p) | welkin__u16(p + 2) << 16; }
+
+static uint64_t welkin__u64(const unsigned char *p) { return (uint64_t)welkin__u32(p) | (uint64_t)welkin__u32(p + 4) << 32; }
+
+static float welkin__float(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static float welkin__f32(const unsigned char *p) { return welkin__float(welkin__u32(p)); }
+
+static double welkin__f64(const unsigned char *p)
+{
+    uint64_t bits = welkin__u64(p);
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static float welkin__f16(const unsigned char *p)
+{
+    uint32_t bits = welkin__u16(p);
+    uint32_t sign = (bits & 0x8000u) << 16, exponent = bits >> 10 & 31u, fraction = bits & 1023u;
+    if (exponent == 0) {
+        float value = (float)fraction * (1.0f / 16777216.0f);
+        return sign ? -value : value;
+    }
+    exponent = exponent == 31u ? 255u : exponent + 112u;
+    return welkin__float(sign | exponent << 23 | fraction << 13);
+}
+
+static uint32_t welkin__crc_byte(uint32_t crc, uint32_t byte)
+{
+    static const uint32_t nibble[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu, 0x76DC4190u, 0x6B6B51F4u,
+                                        0x4DB26158u, 0x5005713Cu, 0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,
+                                        0x9B64C2B0u, 0x86D3D2D4u, 0xA00AE278u, 0xBDBDF21Cu};
+    crc ^= byte;
+    crc = crc >> 4 ^ nibble[crc & 15u];
+    return crc >> 4 ^ nibble[crc & 15u];
+}
+
+static uint32_t welkin__crc(uint32_t crc, const unsigned char *p, size_t n)
+{
+    size_t i;
+    for (i = 0; i < n; i++) crc = welkin__crc_byte(crc, p[i]);
+    return crc;
+}
+
+static uint32_t welkin__head_crc(const unsigned char *p, size_t head)
+{
+    static const unsigned char zeros[4] = {0, 0, 0, 0};
+    uint32_t crc = welkin__crc(0xFFFFFFFFu, p, 32);
+    crc = welkin__crc(crc, zeros, 4);
+    return ~welkin__crc(crc, p + 36, head - 36);
+}
+
+static uint32_t welkin__ceil16(uint32_t n) { return (n + 15u) & ~15u; }
+
+/* Narrowing a double that a float cannot hold would be undefined. */
+static float welkin__narrow(double value)
+{
+    if (value > (double)FLT_MAX) return FLT_MAX;
+    if (value < -(double)FLT_MAX) return -FLT_MAX;
+    return (float)value;
+}
+
+static int welkin__within(double value, double low, double high) { return value >= low && value <= high; }
+
+/* ---- head ---- */
+
+static welkin_error welkin__check_start(const unsigned char *p, size_t length)
+{
+    static const unsigned char magic[8] = {0x89, 0x57, 0x4C, 0x4B, 0x0D, 0x0A, 0x1A, 0x0A};
+    if (length < sizeof magic || memcmp(p, magic, sizeof magic) != 0) return WELKIN_ERROR_MAGIC;
+    if (length < WELKIN__HEADER) return WELKIN_ERROR_LENGTH;
+    if (welkin__u16(p + 8) != 1) return WELKIN_ERROR_VERSION;
+    if (welkin__u32(p + 12) != 0) return WELKIN_ERROR_FEATURE;
+    if (welkin__u64(p + 16) != length) return WELKIN_ERROR_LENGTH;
+    return WELKIN_OK;
+}
+
+static void welkin__read_header(welkin_file *file)
+{
+    const unsigned char *p = file->bytes;
+    file->chunk_count = welkin__u32(p + 36);
+    file->wavelengths = welkin__u16(p + 40);
+    file->altitudes = welkin__u16(p + 42);
+    file->visibilities = welkin__u16(p + 44);
+    file->fields = welkin__u16(p + 46);
+    file->constituents = welkin__u16(p + 48);
+    file->up_intervals = welkin__u16(p + 50);
+    file->down_intervals = welkin__u16(p + 52);
+    file->phi_intervals = welkin__u16(p + 54);
+    file->elevation_intervals = welkin__u16(p + 56);
+    file->solar_samples = welkin__u16(p + 58);
+    file->metadata_length = welkin__u32(p + 60);
+    file->planet_radius = welkin__f64(p + 64);
+    file->top_altitude = welkin__f64(p + 72);
+    file->up_exponent = welkin__f64(p + 80);
+    file->down_exponent = welkin__f64(p + 88);
+    file->elevation_min = welkin__f64(p + 96);
+    file->elevation_max = welkin__f64(p + 104);
+    file->elevation_centre = welkin__f64(p + 112);
+    file->elevation_width = welkin__f64(p + 120);
+}
+
+static int welkin__counts_are_good(const welkin_file *f)
+{
+    uint64_t sky;
+    if (f->wavelengths < 2 || f->wavelengths > WELKIN_MAX_WAVELENGTHS) return 0;
+    if (f->altitudes < 1 || f->altitudes > 1024 || f->visibilities < 1 || f->visibilities > 1024) return 0;
+    if (f->fields < 1 || f->fields > WELKIN_MAX_FIELDS) return 0;
+    if (f->constituents < 1 || f->constituents > WELKIN_MAX_CONSTITUENTS) return 0;
+    if (f->up_intervals < 1 || f->up_intervals > 1024 || f->down_intervals < 1 || f->down_intervals > 1024) return 0;
+    if (f->phi_intervals < 1 || f->phi_intervals > 1024) return 0;
+    if (f->elevation_intervals < 1 || f->elevation_intervals > 1024) return 0;
+    if (f->solar_samples < 2 || f->solar_samples > 16384) return 0;
+    sky = (uint64_t)(f->up_intervals + f->down_intervals + 6) * (f->phi_intervals + 1) * f->fields * f->wavelengths;
+    return sky <= 1u << 24;
+}
+
+static int welkin__header_numbers_are_good(const welkin_file *f)
+{
+    double last = welkin__f64(f->bytes + f->altitude_at + 8 * (size_t)(f->altitudes - 1));
+    return welkin__within(f->planet_radius, 1e3, 1e9) && f->top_altitude > last && f->top_altitude <= 1e9 &&
+           welkin__within(f->up_exponent, 1, 8) && welkin__within(f->down_exponent, 1, 8) && f->elevation_min >= -WELKIN__HALF_PI &&
+           f->elevation_max > f->elevation_min && f->elevation_max <= WELKIN__HALF_PI &&
+           welkin__within(f->elevation_centre, -WELKIN__HALF_PI, WELKIN__HALF_PI) && welkin__within(f->elevation_width, 1e-6, 1e6);
+}
+
+static size_t welkin__take(uint64_t *offset, uint64_t bytes)
+{
+    size_t at = (size_t)*offset;
+    *offset += bytes;
+    return at;
+}
+
+/* Sets where the head arrays are, and returns the length of the head. Counts are 16 and 32 bits wide: nothing overflows. */
+static uint64_t welkin__place_arrays(welkin_file *f)
+{
+    uint64_t offset = WELKIN__HEADER, nw = f->wavelengths, nv = f->visibilities;
+    f->wavelength_at = welkin__take(&offset, 8 * nw);
+    f->altitude_at = welkin__take(&offset, 8 * (uint64_t)f->altitudes);
+    f->visibility_at = welkin__take(&offset, 8 * nv);
+    f->extinction_at = welkin__take(&offset, 8 * nv * f->constituents * nw);
+    f->albedo_at = welkin__take(&offset, 8 * nv * nw);
+    f->phase_at = welkin__take(&offset, 8 * nw * f->fields);
+    f->xyz_at = welkin__take(&offset, 24 * nw);
+    f->solar_range_at = welkin__take(&offset, 16);
+    f->solar_at = welkin__take(&offset, 4 * (uint64_t)f->solar_samples);
+    f->field_at = welkin__take(&offset, 4 * (uint64_t)f->fields);
+    f->metadata_at = welkin__take(&offset, f->metadata_length);
+    offset = (offset + 7) & ~(uint64_t)7;
+    f->directory_at = welkin__take(&offset, (uint64_t)WELKIN__ENTRY * f->chunk_count);
+    return offset;
+}
+
+static int welkin__f64s_are_within(const unsigned char *p, size_t n, double low, double high)
+{
+    size_t i;
+    for (i = 0; i < n; i++)
+        if (!welkin__within(welkin__f64(p + 8 * i), low, high)) return 0;
+    return 1;
+}
+
+static int welkin__increases(const unsigned char *p, size_t n)
+{
+    size_t i;
+    for (i = 1; i < n; i++)
+        if (!(welkin__f64(p + 8 * i) > welkin__f64(p + 8 * (i - 1)))) return 0;
+    return 1;
+}
+
+static int welkin__axis_is_good(const unsigned char *p, size_t n, double low, double high)
+{
+    return welkin__f64s_are_within(p, n, low, high) && welkin__increases(p, n);
+}
+
+/* Interpolation divides by differences of these. */
+static int welkin__transforms_are_distinct(const welkin_file *f)
+{
+    size_t i;
+    const unsigned char *h = f->bytes + f->altitude_at, *v = f->bytes + f->visibility_at;
+    for (i = 1; i < f->altitudes; i++)
+        if (!(cbrt(welkin__f64(h + 8 * i)) > cbrt(welkin__f64(h + 8 * (i - 1))))) return 0;
+    for (i = 1; i < f->visibilities; i++)
+        if (!(1.0 / welkin__f64(v + 8 * i) < 1.0 / welkin__f64(v + 8 * (i - 1)))) return 0;
+    return 1;
+}
+
+static int welkin__axes_are_good(const welkin_file *f)
+{
+    const unsigned char *p = f->bytes;
+    return welkin__axis_is_good(p + f->wavelength_at, f->wavelengths, 1, 1e6) &&
+           welkin__axis_is_good(p + f->altitude_at, f->altitudes, 0, 1e9) &&
+           welkin__axis_is_good(p + f->visibility_at, f->visibilities, 1, 1e9) && welkin__transforms_are_distinct(f);
+}
+
+static int welkin__solar_is_good(const welkin_file *f)
+{
+    const unsigned char *p = f->bytes + f->solar_range_at;
+    double start = welkin__f64(p), step = welkin__f64(p + 8);
+    double first = welkin__f64(f->bytes + f->wavelength_at);
+    double last = welkin__f64(f->bytes + f->wavelength_at + 8 * (size_t)(f->wavelengths - 1));
+    uint32_t i;
+    if (!welkin__within(start, 0, first) || !welkin__within(step, 1e-3, 1e6)) return 0;
+    if (!(start + (f->solar_samples - 1) * step >= last)) return 0;
+    for (i = 0; i < f->solar_samples; i++)
+        if (!welkin__within((double)welkin__f32(f->bytes + f->solar_at + 4 * (size_t)i), 0, (double)FLT_MAX)) return 0;
+    return 1;
+}
+
+static int welkin__parameter_is_good(uint32_t phase, double parameter)
+{
+    if (phase == 1) return welkin__within(parameter, 0, 1);
+    if (phase == 2) return parameter > -1 && parameter < 1;
+    return welkin__within(parameter, -DBL_MAX, DBL_MAX);
+}
+
+static uint32_t welkin__field(const welkin_file *f, uint32_t index) { return welkin__u32(f->bytes + f->field_at + 4 * (size_t)index); }
+
+static double welkin__parameter(const welkin_file *f, uint32_t field, uint32_t wavelength)
+{
+    return welkin__f64(f->bytes + f->phase_at + 8 * ((size_t)field * f->wavelengths + wavelength));
+}
+
+static int welkin__fields_are_good(const welkin_file *f)
+{
+    uint32_t i, w;
+    for (i = 0; i < f->fields; i++) {
+        uint32_t field = welkin__field(f, i), phase = field & 0xFFFFu;
+        if (phase > 2 || field >> 17 != 0) return 0;
+        for (w = 0; w < f->wavelengths; w++)
+            if (!welkin__parameter_is_good(phase, welkin__parameter(f, i, w))) return 0;
+    }
+    return 1;
+}
+
+static int welkin__tables_are_good(const welkin_file *f)
+{
+    const unsigned char *p = f->bytes;
+    size_t nw = f->wavelengths, nv = f->visibilities, i;
+    if (!welkin__f64s_are_within(p + f->extinction_at, nv * f->constituents * nw, 0, 1e6)) return 0;
+    for (i = 0; i < nv * nw; i++) {
+        double albedo = welkin__f64(p + f->albedo_at + 8 * i);
+        if (!(albedo >= 0 && albedo < 1)) return 0;
+    }
+    return welkin__f64s_are_within(p + f->xyz_at, 3 * nw, -1e30, 1e30) && welkin__solar_is_good(f) && welkin__fields_are_good(f);
+}
+
+/* The bytes of the UTF-8 sequence at p, 0 if it is ill-formed. */
+static size_t welkin__utf8_sequence(const unsigned char *p, size_t left)
+{
+    size_t n, i;
+    unsigned char low = 0x80, high = 0xBF;
+    if (p[0] < 0x80) return 1;
+    if (p[0] < 0xC2 || p[0] > 0xF4) return 0;
+    n = p[0] < 0xE0 ? 2 : p[0] < 0xF0 ? 3 : 4;
+    if (n > left) return 0;
+    if (p[0] == 0xE0) low = 0xA0;
+    if (p[0] == 0xED) high = 0x9F;
+    if (p[0] == 0xF0) low = 0x90;
+    if (p[0] == 0xF4) high = 0x8F;
+    if (p[1] < low || p[1] > high) return 0;
+    for (i = 2; i < n; i++)
+        if (p[i] < 0x80 || p[i] > 0xBF) return 0;
+    return n;
+}
+
+static int welkin__metadata_is_good(const welkin_file *f)
+{
+    const unsigned char *p = f->bytes + f->metadata_at;
+    size_t i = 0, n = f->metadata_length, end = f->directory_at - f->metadata_at;
+    while (i < n) {
+        size_t step = welkin__utf8_sequence(p + i, n - i);
+        if (step == 0) return 0;
+        i += step;
+    }
+    for (i = n; i < end; i++)
+        if (p[i] != 0) return 0;
+    return 1;
+}
+
+/* ---- directory ---- */
+
+typedef struct welkin__entry {
+    uint32_t kind, altitude, visibility, encoding, crc, rank, tier;
+    uint64_t offset, stored, raw;
+    float error_median, error_p99;
+} welkin__entry;
+
+static welkin__entry welkin__read_entry(const welkin_file *f, uint32_t index)
+{
+    const unsigned char *p = f->bytes + f->directory_at + (size_t)WELKIN__ENTRY * index;
+    welkin__entry e;
+    e.kind = welkin__u32(p);
+    e.altitude = welkin__u16(p + 4);
+    e.visibility = welkin__u16(p + 6);
+    e.offset = welkin__u64(p + 8);
+    e.stored = welkin__u64(p + 16);
+    e.raw = welkin__u64(p + 24);
+    e.encoding = welkin__u32(p + 32);
+    e.crc = welkin__u32(p + 36);
+    e.rank = welkin__u32(p + 40);
+    e.tier = welkin__u32(p + 44);
+    e.error_median = welkin__f32(p + 48);
+    e.error_p99 = welkin__f32(p + 52);
+    return e;
+}
+
+static int welkin__is_known(uint32_t kind) { return kind >= 1 && kind < WELKIN__KINDS; }
+
+static int welkin__has_altitude(uint32_t kind)
+{
+    return kind == WELKIN__RADIANCE || kind == WELKIN__COLUMN || kind == WELKIN__POLARISATION;
+}
+
+static int welkin__has_visibility(uint32_t kind)
+{
+    return kind == WELKIN__RADIANCE || kind == WELKIN__SOURCE || kind == WELKIN__POLARISATION;
+}
+
+static int welkin__has_rank(uint32_t kind)
+{
+    return kind == WELKIN__RADIANCE || kind == WELKIN__BASIS || kind == WELKIN__POLARISATION || kind == WELKIN__POLARISATION_BASIS;
+}
+
+static uint32_t welkin__alpha_rows(const welkin_file *f) { return f->up_intervals + 3 + f->down_intervals + 3; }
+
+/* Bytes of a payload, 0 where only the payload tells. */
+static uint64_t welkin__payload_length(const welkin_file *f, uint32_t kind, uint32_t rank)
+{
+    uint64_t q = welkin__ceil16(rank), elevations = f->elevation_intervals + 3;
+    uint64_t factors = 4 * q + 2 * q * (welkin__alpha_rows(f) + elevations), phi = 2 * q * (f->phi_intervals + 1);
+    switch (kind) {
+    case WELKIN__RADIANCE: return factors + 2 * elevations * f->wavelengths;
+    case WELKIN__COLUMN: return 4 * (uint64_t)welkin__alpha_rows(f) * f->constituents;
+    case WELKIN__BASIS: return phi + 2 * q * welkin__ceil16(f->fields * f->wavelengths);
+    case WELKIN__POLARISATION: return factors;
+    case WELKIN__POLARISATION_BASIS: return phi + 2 * q * welkin__ceil16(4 * f->wavelengths);
+    default: return 0;
+    }
+}
+
+static int welkin__rank_is_good(const welkin_file *f, const welkin__entry *e)
+{
+    if (!welkin__has_rank(e->kind)) return e->rank == 0;
+    if (e->rank < 1 || e->rank > WELKIN_MAX_RANK) return 0;
+    if (e->kind == WELKIN__RADIANCE && f->rank != 0) return e->rank <= f->rank;
+    if (e->kind == WELKIN__POLARISATION && f->polarisation_rank != 0) return e->rank == f->polarisation_rank;
+    return 1;
+}
+
+static int welkin__lengths_are_good(const welkin_file *f, const welkin__entry *e)
+{
+    uint64_t expected = welkin__payload_length(f, e->kind, e->rank);
+    if (expected != 0 && e->raw != expected) return 0;
+    if (e->encoding == 0 && e->raw != e->stored) return 0;
+    return e->raw / 256 + (e->raw % 256 != 0) <= e->stored;
+}
+
+static int welkin__known_entry_is_good(const welkin_file *f, const welkin__entry *e)
+{
+    if (welkin__has_altitude(e->kind) ? e->altitude >= f->altitudes : e->altitude != WELKIN__NONE) return 0;
+    if (welkin__has_visibility(e->kind) ? e->visibility >= f->visibilities : e->visibility != WELKIN__NONE) return 0;
+    if (!welkin__rank_is_good(f, e) || !welkin__lengths_are_good(f, e) || e->tier != 0) return 0;
+    return welkin__within((double)e->error_median, 0, (double)FLT_MAX) && welkin__within((double)e->error_p99, 0, (double)FLT_MAX);
+}
+
+/* Whether the chunk starts where it has to, and ends within the file; moves `end` behind it. */
+static int welkin__place_is_good(const welkin__entry *e, uint64_t length, uint64_t *end)
+{
+    uint64_t start = (*end + 63) & ~(uint64_t)63;
+    if (e->offset != start || start > length || e->stored > length - start) return 0;
+    *end = start + e->stored;
+    return 1;
+}
+
+static int welkin__entries_are_good(const welkin_file *f)
+{
+    uint64_t end = f->directory_at + (uint64_t)WELKIN__ENTRY * f->chunk_count;
+    uint32_t i;
+    for (i = 0; i < f->chunk_count; i++) {
+        welkin__entry e = welkin__read_entry(f, i);
+        if (!welkin__place_is_good(&e, f->length, &end)) return 0;
+        if (welkin__is_known(e.kind) && !welkin__known_entry_is_good(f, &e)) return 0;
+    }
+    return end == f->length;
+}
+
+static void welkin__find_ranks(welkin_file *f)
+{
+    uint32_t i;
+    for (i = 0; i < f->chunk_count; i++) {
+        welkin__entry e = welkin__read_entry(f, i);
+        if (e.kind == WELKIN__BASIS) f->rank = e.rank;
+        if (e.kind == WELKIN__POLARISATION_BASIS) f->polarisation_rank = e.rank;
+    }
+}
+
+/* A number for each possible (kind, altitude, visibility) of known kinds; entries must be good. */
+static uint32_t welkin__key(const welkin_file *f, const welkin__entry *e)
+{
+    uint32_t cell = (welkin__has_altitude(e->kind) ? e->altitude : 0) * f->visibilities + (welkin__has_visibility(e->kind) ? e->visibility : 0);
+    return cell * WELKIN__KINDS + e->kind;
+}
+
+/* Without memory for all keys: looks for duplicates among so many keys at a time as a small bitmap holds. */
+static int welkin__has_duplicates(const welkin_file *f)
+{
+    enum { KEYS = 65536 };
+    unsigned char seen[KEYS / 8];
+    uint32_t keys = f->altitudes * f->visibilities * WELKIN__KINDS, first, i;
+    for (first = 0; first < keys; first += KEYS) {
+        memset(seen, 0, sizeof seen);
+        for (i = 0; i < f->chunk_count; i++) {
+            welkin__entry e = welkin__read_entry(f, i);
+            uint32_t key = welkin__is_known(e.kind) ? welkin__key(f, &e) - first : KEYS;
+            if (key >= KEYS) continue;
+            if (seen[key / 8] >> key % 8 & 1) return 1;
+            seen[key / 8] = (unsigned char)(seen[key / 8] | 1u << key % 8);
+        }
+    }
+    return 0;
+}
+
+WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length)
+{
+    uint64_t head;
+    welkin_error error;
+    memset(file, 0, sizeof *file);
+    error = welkin__check_start((const unsigned char *)bytes, length);
+    if (error) return error;
+    file->bytes = (const unsigned char *)bytes;
+    file->length = length;
+    welkin__read_header(file);
+    head = welkin__place_arrays(file);
+    if (welkin__u64(file->bytes + 24) != head || head > length) return WELKIN_ERROR_LENGTH;
+    if (welkin__head_crc(file->bytes, (size_t)head) != welkin__u32(file->bytes + 32)) return WELKIN_ERROR_CHECKSUM;
+    if (!welkin__counts_are_good(file) || !welkin__axes_are_good(file) || !welkin__header_numbers_are_good(file) ||
+        !welkin__tables_are_good(file) || !welkin__metadata_is_good(file))
+        return WELKIN_ERROR_VALUE;
+    welkin__find_ranks(file);
+    if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
+    file->metadata = (const char *)(file->bytes + file->metadata_at);
+    return WELKIN_OK;
+}
+
+WELKIN_API const char *welkin_error_name(welkin_error error)
+{
+    switch (error) {
+    case WELKIN_OK: return "none";
+    case WELKIN_ERROR_MAGIC: return "magic";
+    case WELKIN_ERROR_VERSION: return "version";
+    case WELKIN_ERROR_FEATURE: return "feature";
+    case WELKIN_ERROR_LENGTH: return "length";
+    case WELKIN_ERROR_CHECKSUM: return "checksum";
+    case WELKIN_ERROR_VALUE: return "value";
+    case WELKIN_ERROR_ENCODING: return "encoding";
+    case WELKIN_ERROR_RANGE: return "range";
+    case WELKIN_ERROR_MISSING: return "missing";
+    case WELKIN_ERROR_DIRECTION: return "direction";
+    case WELKIN_ERROR_SCRATCH: return "scratch";
+    }
+    return "unknown";
+}
+
+/* ---- chunks ---- */
+
+static welkin_error welkin__find(const welkin_file *f, uint32_t kind, uint32_t altitude, uint32_t visibility, welkin__entry *found)
+{
+    uint32_t i;
+    for (i = 0; i < f->chunk_count; i++) {
+        *found = welkin__read_entry(f, i);
+        if (found->kind == kind && found->altitude == altitude && found->visibility == visibility) return WELKIN_OK;
+    }
+    return WELKIN_ERROR_MISSING;
+}
+
+static int welkin__f32s_are_finite(const unsigned char *p, size_t n)
+{
+    size_t i;
+    for (i = 0; i < n; i++)
+        if ((welkin__u32(p + 4 * i) & 0x7F800000u) == 0x7F800000u) return 0;
+    return 1;
+}
+
+static int welkin__f16s_are_finite(const unsigned char *p, size_t n)
+{
+    size_t i;
+    for (i = 0; i < n; i++)
+        if ((welkin__u16(p + 2 * i) & 0x7C00u) == 0x7C00u) return 0;
+    return 1;
+}
+
+static int welkin__payload_is_finite(const welkin__entry *e, const unsigned char *p)
+{
+    size_t length = (size_t)e->raw, f32s = 0;
+    if (e->kind == WELKIN__COLUMN) f32s = length / 4;
+    if (e->kind == WELKIN__RADIANCE || e->kind == WELKIN__POLARISATION) f32s = welkin__ceil16(e->rank);
+    return welkin__f32s_are_finite(p, f32s) && welkin__f16s_are_finite(p + 4 * f32s, (length - 4 * f32s) / 2);
+}
+
+/* The checked bytes of a chunk. Looks at the entry again, since the bytes may be of a mapped file that changed. */
+static welkin_error welkin__payload(const welkin_file *f, const welkin__entry *e, const unsigned char **payload)
+{
+    const unsigned char *p;
+    uint64_t expected = welkin__payload_length(f, e->kind, e->rank);
+    if (!welkin__rank_is_good(f, e) || e->offset > f->length || e->stored > f->length - e->offset) return WELKIN_ERROR_VALUE;
+    p = f->bytes + (size_t)e->offset;
+    if (~welkin__crc(0xFFFFFFFFu, p, (size_t)e->stored) != e->crc) return WELKIN_ERROR_CHECKSUM;
+    if (e->encoding != 0) return WELKIN_ERROR_ENCODING;
+    if (e->raw != e->stored || (expected != 0 && e->raw != expected)) return WELKIN_ERROR_VALUE;
+    if (expected != 0 && !welkin__payload_is_finite(e, p)) return WELKIN_ERROR_VALUE;
+    *payload = p;
+    return WELKIN_OK;
+}
+
+/* ---- interpolation between nodes ---- */
+
+typedef enum welkin__scale { WELKIN__PLAIN, WELKIN__CUBE_ROOT, WELKIN__INVERSE } welkin__scale;
+
+typedef struct welkin__stencil {
+    uint32_t count, node[4];
+    double weight[4];
+} welkin__stencil;
+
+static double welkin__x(welkin__scale scale, double value)
+{
+    if (scale == WELKIN__CUBE_ROOT) return cbrt(value);
+    return scale == WELKIN__INVERSE ? 1.0 / value : value;
+}
+
+/* The last node that is not above the value, the first if there is none. */
+static uint32_t welkin__node_below(const unsigned char *axis, uint32_t n, double value)
+{
+    uint32_t low = 0, high = n;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (welkin__f64(axis + 8 * (size_t)middle) <= value)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static welkin__stencil welkin__one_node(uint32_t node)
+{
+    welkin__stencil s = {1, {0, 0, 0, 0}, {1.0, 0, 0, 0}};
+    s.node[0] = node;
+    return s;
+}
+
+static welkin__stencil welkin__linear(const unsigned char *axis, uint32_t n, double value, welkin__scale scale)
+{
+    uint32_t i = welkin__node_below(axis, n, value);
+    welkin__stencil s = welkin__one_node(i);
+    double first = welkin__f64(axis + 8 * (size_t)i), x0, x1, t;
+    if (first == value || i + 1 >= n) return s;
+    x0 = welkin__x(scale, first);
+    x1 = welkin__x(scale, welkin__f64(axis + 8 * (size_t)(i + 1)));
+    t = (welkin__x(scale, value) - x0) / (x1 - x0);
+    s.count = 2;
+    s.node[1] = i + 1;
+    s.weight[0] = 1.0 - t;
+    s.weight[1] = t;
+    return s;
+}
+
+/* Adds `factor` times the derivative at x[j] of the parabola through three nodes from a on. */
+static void welkin__add_slope(double *weight, const double *x, uint32_t a, uint32_t j, double factor)
+{
+    double xa = x[a], xb = x[a + 1], xc = x[a + 2], xj = x[j];
+    weight[a] += factor * (2 * xj - xb - xc) / ((xa - xb) * (xa - xc));
+    weight[a + 1] += factor * (2 * xj - xa - xc) / ((xb - xa) * (xb - xc));
+    weight[a + 2] += factor * (2 * xj - xa - xb) / ((xc - xa) * (xc - xb));
+}
+
+static uint32_t welkin__parabola_centre(uint32_t node, uint32_t n)
+{
+    if (node < 1) return 1;
+    return node > n - 2 ? n - 2 : node;
+}
+
+static welkin__stencil welkin__cubic(const unsigned char *axis, uint32_t n, double value, welkin__scale scale)
+{
+    uint32_t i = welkin__node_below(axis, n, value), base, k, local;
+    welkin__stencil s = {0, {0, 0, 0, 0}, {0, 0, 0, 0}};
+    double x[4] = {0, 0, 0, 0}, t, t2, t3, h;
+    if (n < 3 || i + 1 >= n || welkin__f64(axis + 8 * (size_t)i) == value) return welkin__linear(axis, n, value, scale);
+    base = welkin__parabola_centre(i, n) - 1;
+    local = i - base;
+    s.count = n - base < 4 ? n - base : 4;
+    for (k = 0; k < s.count; k++) {
+        s.node[k] = base + k;
+        x[k] = welkin__x(scale, welkin__f64(axis + 8 * (size_t)(base + k)));
+    }
+    h = x[local + 1] - x[local];
+    t = (welkin__x(scale, value) - x[local]) / h;
+    t2 = t * t;
+    t3 = t2 * t;
+    s.weight[local] += 2 * t3 - 3 * t2 + 1;
+    s.weight[local + 1] += 3 * t2 - 2 * t3;
+    welkin__add_slope(s.weight, x, 0, local, h * (t3 - 2 * t2 + t));
+    welkin__add_slope(s.weight, x, welkin__parabola_centre(i + 1, n) - 1 - base, local + 1, h * (t3 - t2));
+    return s;
+}
+
+/* Moves values that exceed the range by rounding into it; 0 if they are farther off or NaN. */
+static int welkin__into_range(double *value, double low, double high)
+{
+    double slack = 1e-9 * (fabs(low) > fabs(high) ? fabs(low) : fabs(high));
+    if (!welkin__within(*value, low - slack, high + slack)) return 0;
+    if (*value < low) *value = low;
+    if (*value > high) *value = high;
+    return 1;
+}
+
+static int welkin__into_axis(const unsigned char *axis, uint32_t n, double *value)
+{
+    return welkin__into_range(value, welkin__f64(axis), welkin__f64(axis + 8 * (size_t)(n - 1)));
+}
+
+/* ---- splines ---- */
+
+typedef struct welkin__spline {
+    uint32_t row[4];
+    double weight[4];
+} welkin__spline;
+
+static welkin__spline welkin__free_spline(double u, uint32_t intervals)
+{
+    welkin__spline s;
+    uint32_t i, k;
+    double t;
+    if (!(u > 0)) u = 0;
+    if (u > (double)intervals) u = (double)intervals;
+    i = (uint32_t)u;
+    if (i > intervals - 1) i = intervals - 1;
+    t = u - (double)i;
+    s.weight[0] = (1 - t) * (1 - t) * (1 - t) / 6;
+    s.weight[1] = ((3 * t - 6) * t * t + 4) / 6;
+    s.weight[2] = (((3 - 3 * t) * t + 3) * t + 1) / 6;
+    s.weight[3] = t * t * t / 6;
+    for (k = 0; k < 4; k++) s.row[k] = i + k;
+    return s;
+}
+
+static welkin__spline welkin__mirrored_spline(double u, uint32_t intervals)
+{
+    welkin__spline s = welkin__free_spline(u, intervals);
+    uint32_t k;
+    for (k = 0; k < 4; k++) {
+        uint32_t m = s.row[k]; /* one more than the index, which can be -1 */
+        s.row[k] = m == 0 ? 1 : m == intervals + 2 ? intervals - 1 : m - 1;
+    }
+    return s;
+}
+
+static double welkin__elevation_scale(const welkin_file *f, double e) { return asinh((e - f->elevation_centre) / f->elevation_width); }
+
+static welkin__spline welkin__elevation_spline(const welkin_file *f, double e)
+{
+    double low = welkin__elevation_scale(f, f->elevation_min), high = welkin__elevation_scale(f, f->elevation_max);
+    double u = high > low ? f->elevation_intervals * (welkin__elevation_scale(f, e) - low) / (high - low) : 0;
+    return welkin__free_spline(u, f->elevation_intervals);
+}
+
+/* The spline at one column of an f16 table. */
+static double welkin__f16_column(const unsigned char *table, size_t width, size_t column, const welkin__spline *s)
+{
+    double sum = 0;
+    int k;
+    for (k = 0; k < 4; k++) sum += s->weight[k] * (double)welkin__f16(table + 2 * (s->row[k] * width + column));
+    return sum;
+}
+
+/* ---- preparation of a sky ---- */
+
+typedef struct welkin__part {
+    double weight;
+    welkin__entry entry;
+} welkin__part;
+
+/* The chunks that a scene needs. */
+typedef struct welkin__scene {
+    uint32_t columns, radiances;
+    welkin__part column[4], radiance[16], polarisation[16];
+    welkin__entry basis, polarisation_basis;
+} welkin__scene;
+
+static welkin_error welkin__find_columns(const welkin_file *f, const welkin__stencil *a, welkin__scene *scene)
+{
+    uint32_t j;
+    for (j = 0; j < a->count; j++) {
+        welkin__part *part = &scene->column[scene->columns];
+        if (a->weight[j] == 0) continue;
+        if (welkin__find(f, WELKIN__COLUMN, a->node[j], WELKIN__NONE, &part->entry)) return WELKIN_ERROR_MISSING;
+        part->weight = a->weight[j];
+        scene->columns++;
+    }
+    return WELKIN_OK;
+}
+
+static welkin_error welkin__find_cells(const welkin_file *f, const welkin__stencil *a, const welkin__stencil *b, uint32_t kind,
+                                       welkin__part *parts, uint32_t *count)
+{
+    uint32_t j, m;
+    *count = 0;
+    for (j = 0; j < a->count; j++)
+        for (m = 0; m < b->count; m++) {
+            welkin__part *part = &parts[*count];
+            if (a->weight[j] == 0 || b->weight[m] == 0) continue;
+            if (welkin__find(f, kind, a->node[j], b->node[m], &part->entry)) return WELKIN_ERROR_MISSING;
+            part->weight = a->weight[j] * b->weight[m];
+            ++*count;
+        }
+    return WELKIN_OK;
+}
+
+/* Everything that is missing is found before anything is checked. */
+static welkin_error welkin__find_scene(const welkin_file *f, double altitude, double visibility, unsigned flags, welkin__scene *scene)
+{
+    welkin__stencil a = welkin__cubic(f->bytes + f->altitude_at, f->altitudes, altitude, WELKIN__CUBE_ROOT);
+    welkin__stencil b = welkin__cubic(f->bytes + f->visibility_at, f->visibilities, visibility, WELKIN__INVERSE);
+    memset(scene, 0, sizeof *scene);
+    if (welkin__find(f, WELKIN__BASIS, WELKIN__NONE, WELKIN__NONE, &scene->basis)) return WELKIN_ERROR_MISSING;
+    if (welkin__find_columns(f, &a, scene)) return WELKIN_ERROR_MISSING;
+    if (welkin__find_cells(f, &a, &b, WELKIN__RADIANCE, scene->radiance, &scene->radiances)) return WELKIN_ERROR_MISSING;
+    if (!(flags & WELKIN_POLARISED)) return WELKIN_OK;
+    if (welkin__find(f, WELKIN__POLARISATION_BASIS, WELKIN__NONE, WELKIN__NONE, &scene->polarisation_basis)) return WELKIN_ERROR_MISSING;
+    return welkin__find_cells(f, &a, &b, WELKIN__POLARISATION, scene->polarisation, &scene->radiances);
+}
+
+static size_t welkin__table_floats(const welkin_file *f, uint32_t rank, uint32_t channels, unsigned flags)
+{
+    size_t row = welkin__ceil16(rank), c = welkin__ceil16(channels), phi = f->phi_intervals + 1, alpha = welkin__alpha_rows(f);
+    size_t dense = flags & WELKIN_DENSE ? alpha * phi * c : 0;
+    return row * (alpha + phi + c) + dense;
+}
+
+WELKIN_API size_t welkin_scratch_floats(const welkin_file *f, unsigned flags)
+{
+    size_t nw = f->wavelengths;
+    size_t floats = (size_t)welkin__alpha_rows(f) * f->constituents + f->constituents * nw + 2 * nw + 4 * f->fields * nw;
+    floats += welkin__table_floats(f, f->rank, f->fields * f->wavelengths, flags);
+    if (flags & WELKIN_POLARISED) floats += welkin__table_floats(f, f->polarisation_rank, 4 * f->wavelengths, flags);
+    return floats;
+}
+
+static float *welkin__carve(float **scratch, size_t floats)
+{
+    float *block = *scratch;
+    size_t i;
+    for (i = 0; i < floats; i++) block[i] = 0;
+    *scratch += floats;
+    return block;
+}
+
+static void welkin__carve_table(const welkin_file *f, welkin_table *t, uint32_t rank, uint32_t channels, unsigned flags, float **scratch)
+{
+    size_t alpha = welkin__alpha_rows(f), phi = f->phi_intervals + 1;
+    t->rank = rank;
+    t->row = welkin__ceil16(rank);
+    t->channels = welkin__ceil16(channels);
+    t->alpha = welkin__carve(scratch, alpha * t->row);
+    t->phi = welkin__carve(scratch, phi * t->row);
+    t->channel = welkin__carve(scratch, (size_t)t->row * t->channels);
+    t->dense = flags & WELKIN_DENSE ? welkin__carve(scratch, alpha * phi * t->channels) : NULL;
+}
+
+static void welkin__carve_sky(welkin_sky *sky, float *scratch)
+{
+    const welkin_file *f = sky->file;
+    size_t nw = f->wavelengths;
+    sky->column = welkin__carve(&scratch, (size_t)welkin__alpha_rows(f) * f->constituents);
+    sky->extinction = welkin__carve(&scratch, f->constituents * nw);
+    sky->level = welkin__carve(&scratch, nw);
+    sky->bounce = welkin__carve(&scratch, nw);
+    sky->phase = welkin__carve(&scratch, 4 * f->fields * nw);
+    welkin__carve_table(f, &sky->radiance, f->rank, f->fields * f->wavelengths, sky->flags, &scratch);
+    if (sky->flags & WELKIN_POLARISED)
+        welkin__carve_table(f, &sky->polarisation, f->polarisation_rank, 4 * f->wavelengths, sky->flags, &scratch);
+}
+
+/* Sums a table of all visibilities over the nodes of a stencil. */
+static double welkin__head_value(const welkin_file *f, size_t at, size_t stride, size_t index, const welkin__stencil *s)
+{
+    double sum = 0;
+    uint32_t i;
+    for (i = 0; i < s->count; i++) sum += s->weight[i] * welkin__f64(f->bytes + at + 8 * (s->node[i] * stride + index));
+    return sum;
+}
+
+static void welkin__prepare_head_tables(welkin_sky *sky, double visibility, double albedo)
+{
+    const welkin_file *f = sky->file;
+    size_t nw = f->wavelengths, air = f->constituents * nw, i;
+    welkin__stencil b = welkin__linear(f->bytes + f->visibility_at, f->visibilities, visibility, WELKIN__INVERSE);
+    for (i = 0; i < air; i++) sky->extinction[i] = welkin__narrow(welkin__head_value(f, f->extinction_at, air, i, &b));
+    for (i = 0; i < nw; i++) {
+        double share = 1 - albedo * welkin__head_value(f, f->albedo_at, nw, i, &b);
+        sky->bounce[i] = welkin__narrow(albedo / (share > DBL_EPSILON ? share : DBL_EPSILON));
+    }
+}
+
+/* Four numbers of the phase function at one wavelength. Rayleigh: p0 + p1 cos². Henyey-Greenstein: p3 / x^(3/2) with
+ * x = p0 + p1 (1 - cos) + p2 (1 + cos), a sum without cancellation for either sign of g. */
+static void welkin__prepare_phase(uint32_t phase, double parameter, float *p, size_t stride)
+{
+    if (phase == 1) {
+        double delta = (1 - parameter) / (1 + parameter / 2);
+        p[0] = (float)(1 - delta / 4);
+        p[stride] = (float)(0.75 * delta);
+    } else if (phase == 2) {
+        double size = fabs(parameter);
+        p[0] = (float)((1 - size) * (1 - size));
+        p[stride] = parameter > 0 ? (float)(2 * size) : 0;
+        p[2 * stride] = parameter > 0 ? 0 : (float)(2 * size);
+        p[3 * stride] = (float)((1 - size) * (1 + size));
+    }
+}
+
+static void welkin__prepare_phases(welkin_sky *sky)
+{
+    const welkin_file *f = sky->file;
+    size_t nw = f->wavelengths;
+    uint32_t i, w;
+    for (i = 0; i < f->fields; i++) {
+        uint32_t phase = welkin__field(f, i) & 0xFFFFu;
+        for (w = 0; w < f->wavelengths; w++) welkin__prepare_phase(phase, welkin__parameter(f, i, w), sky->phase + 4 * i * nw + w, nw);
+    }
+}
+
+static welkin_error welkin__prepare_columns(welkin_sky *sky, const welkin__scene *scene)
+{
+    const welkin_file *f = sky->file;
+    size_t n = (size_t)welkin__alpha_rows(f) * f->constituents, i;
+    uint32_t j;
+    for (j = 0; j < scene->columns; j++) {
+        const unsigned char *p;
+        welkin_error error = welkin__payload(f, &scene->column[j].entry, &p);
+        if (error) return error;
+        for (i = 0; i < n; i++)
+            sky->column[i] = welkin__narrow((double)sky->column[i] + scene->column[j].weight * (double)welkin__f32(p + 4 * i));
+    }
+    return WELKIN_OK;
+}
+
+/* Adds a chunk at the sun's elevation, times its weight, to the rows over alpha. */
+static void welkin__add_factors(const welkin_file *f, welkin_table *t, const welkin__part *part, const unsigned char *p,
+                                const welkin__spline *elevation)
+{
+    size_t q = welkin__ceil16(part->entry.rank), rows = welkin__alpha_rows(f), a, i;
+    const unsigned char *alpha = p + 4 * q, *elevations = alpha + 2 * rows * q;
+    for (i = 0; i < part->entry.rank; i++) {
+        double factor = part->weight * (double)welkin__f32(p + 4 * i) * welkin__f16_column(elevations, q, i, elevation);
+        for (a = 0; a < rows; a++) {
+            float *sum = &t->alpha[a * t->row + i];
+            *sum = welkin__narrow((double)*sum + factor * (double)welkin__f16(alpha + 2 * (a * q + i)));
+        }
+    }
+}
+
+static void welkin__add_levels(const welkin_file *f, const welkin__part *part, const unsigned char *p, const welkin__spline *elevation,
+                               double *level)
+{
+    size_t q = welkin__ceil16(part->entry.rank), rows = welkin__alpha_rows(f) + f->elevation_intervals + 3;
+    uint32_t w;
+    for (w = 0; w < f->wavelengths; w++)
+        level[w] += part->weight * welkin__f16_column(p + 4 * q + 2 * rows * q, f->wavelengths, w, elevation);
+}
+
+static welkin_error welkin__add_cells(const welkin_file *f, welkin_table *t, const welkin__part *parts, uint32_t count,
+                                      const welkin__spline *elevation, double *level)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        const unsigned char *p;
+        welkin_error error = welkin__payload(f, &parts[i].entry, &p);
+        if (error) return error;
+        if (parts[i].entry.rank > t->rank) return WELKIN_ERROR_VALUE;
+        welkin__add_factors(f, t, &parts[i], p, elevation);
+        if (level) welkin__add_levels(f, &parts[i], p, elevation, level);
+    }
+    return WELKIN_OK;
+}
+
+static welkin_error welkin__read_basis(const welkin_file *f, const welkin__entry *entry, uint32_t channels, welkin_table *t)
+{
+    const unsigned char *p, *channel;
+    size_t phi = f->phi_intervals + 1, a, i, c;
+    welkin_error error = welkin__payload(f, entry, &p);
+    if (error) return error;
+    if (entry->rank != t->rank) return WELKIN_ERROR_VALUE;
+    channel = p + 2 * phi * t->row;
+    for (i = 0; i < t->rank; i++) {
+        for (a = 0; a < phi; a++) t->phi[a * t->row + i] = welkin__f16(p + 2 * (a * t->row + i));
+        for (c = 0; c < channels; c++) t->channel[i * t->channels + c] = welkin__f16(channel + 2 * (i * t->channels + c));
+    }
+    return WELKIN_OK;
+}
+
+/* out += the weighted sum of four rows */
+static void welkin__add_rows(float *out, const float *a, const float *b, const float *c, const float *d, const float w[4], uint32_t n)
+{
+    float wa = w[0], wb = w[1], wc = w[2], wd = w[3];
+    uint32_t i;
+    for (i = 0; i < n; i++) out[i] += (wa * a[i] + wb * b[i]) + (wc * c[i] + wd * d[i]);
+}
+
+/* out += the sum over components; rows are multiples of 16 */
+static void welkin__add_components(const welkin_table *t, const float *weight, float *out)
+{
+    size_t c = t->channels;
+    uint32_t i;
+    for (i = 0; i + 4 <= t->row; i += 4) {
+        const float *row = t->channel + i * c;
+        welkin__add_rows(out, row, row + c, row + 2 * c, row + 3 * c, weight + i, t->channels);
+    }
+}
+
+static void welkin__make_dense(const welkin_file *f, welkin_table *t)
+{
+    float weight[WELKIN_MAX_RANK];
+    size_t rows = welkin__alpha_rows(f), phis = f->phi_intervals + 1, a, b;
+    uint32_t i;
+    for (a = 0; a < rows; a++)
+        for (b = 0; b < phis; b++) {
+            for (i = 0; i < t->row; i++) weight[i] = t->alpha[a * t->row + i] * t->phi[b * t->row + i];
+            welkin__add_components(t, weight, t->dense + (a * phis + b) * t->channels);
+        }
+}
+
+static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scene *scene, const welkin__spline *elevation)
+{
+    const welkin_file *f = sky->file;
+    double level[WELKIN_MAX_WAVELENGTHS] = {0};
+    uint32_t w;
+    welkin_error error = welkin__read_basis(f, &scene->basis, f->fields * f->wavelengths, &sky->radiance);
+    if (!error) error = welkin__add_cells(f, &sky->radiance, scene->radiance, scene->radiances, elevation, level);
+    if (error) return error;
+    for (w = 0; w < f->wavelengths; w++) sky->level[w] = welkin__narrow(exp(level[w]));
+    if (sky->radiance.dense) welkin__make_dense(f, &sky->radiance);
+    return WELKIN_OK;
+}
+
+static welkin_error welkin__prepare_polarisation(welkin_sky *sky, const welkin__scene *scene, const welkin__spline *elevation)
+{
+    const welkin_file *f = sky->file;
+    welkin_error error = welkin__read_basis(f, &scene->polarisation_basis, 4 * f->wavelengths, &sky->polarisation);
+    if (!error) error = welkin__add_cells(f, &sky->polarisation, scene->polarisation, scene->radiances, elevation, NULL);
+    if (error) return error;
+    if (sky->polarisation.dense) welkin__make_dense(f, &sky->polarisation);
+    return WELKIN_OK;
+}
+
+static int welkin__conditions_into_range(const welkin_file *f, welkin_conditions *c)
+{
+    return welkin__into_axis(f->bytes + f->altitude_at, f->altitudes, &c->altitude) &&
+           welkin__into_axis(f->bytes + f->visibility_at, f->visibilities, &c->visibility) && welkin__into_range(&c->albedo, 0, 1) &&
+           welkin__into_range(&c->solar_elevation, f->elevation_min, f->elevation_max) &&
+           welkin__within(c->solar_azimuth, -DBL_MAX, DBL_MAX);
+}
+
+static void welkin__prepare_geometry(welkin_sky *sky, const welkin_conditions *c)
+{
+    double radius = sky->file->planet_radius;
+    sky->altitude = c->altitude;
+    sky->dip = atan(sqrt(c->altitude * (2 * radius + c->altitude)) / radius);
+    sky->cos_azimuth = cos(c->solar_azimuth);
+    sky->sin_azimuth = sin(c->solar_azimuth);
+    sky->sun[0] = cos(c->solar_elevation) * sky->cos_azimuth;
+    sky->sun[1] = cos(c->solar_elevation) * sky->sin_azimuth;
+    sky->sun[2] = sin(c->solar_elevation);
+}
+
+WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions, unsigned flags,
+                                       float *scratch, size_t scratch_floats)
+{
+    welkin_conditions c = *conditions;
+    welkin__scene scene;
+    welkin__spline elevation;
+    welkin_error error;
+    memset(sky, 0, sizeof *sky);
+    sky->file = file;
+    sky->flags = flags;
+    if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
+    error = welkin__find_scene(file, c.altitude, c.visibility, flags, &scene);
+    if (error) return error;
+    if (scratch_floats < welkin_scratch_floats(file, flags)) return WELKIN_ERROR_SCRATCH;
+    welkin__carve_sky(sky, scratch);
+    welkin__prepare_geometry(sky, &c);
+    welkin__prepare_head_tables(sky, c.visibility, c.albedo);
+    welkin__prepare_phases(sky);
+    elevation = welkin__elevation_spline(file, c.solar_elevation);
+    error = welkin__prepare_columns(sky, &scene);
+    if (!error) error = welkin__prepare_radiance(sky, &scene, &elevation);
+    if (!error && flags & WELKIN_POLARISED) error = welkin__prepare_polarisation(sky, &scene, &elevation);
+    return error;
+}
+
+/* ---- directions ---- */
+
+typedef struct welkin__view {
+    double v[3], level;     /* unit vector, its length in the horizontal plane */
+    double cos_phi, sin_phi; /* azimuth less that of the sun */
+    int up;
+    welkin__spline alpha, phi; /* alpha's rows count from the first of the up axis */
+    float cos_gamma, one_less_cos, one_plus_cos;
+} welkin__view;
+
+static welkin_error welkin__normalise(const double d[3], double v[3])
+{
+    double size = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2]))), length;
+    int i;
+    if (!(fabs(d[0]) <= DBL_MAX && fabs(d[1]) <= DBL_MAX && fabs(d[2]) <= DBL_MAX) || size == 0) return WELKIN_ERROR_DIRECTION;
+    for (i = 0; i < 3; i++) v[i] = d[i] / size;
+    length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (i = 0; i < 3; i++) v[i] /= length;
+    return WELKIN_OK;
+}
+
+static void welkin__find_alpha(const welkin_sky *sky, welkin__view *view)
+{
+    const welkin_file *f = sky->file;
+    double delta = atan2(view->v[2], view->level) + sky->dip;
+    int k;
+    view->up = delta >= 0;
+    if (view->up) {
+        view->alpha = welkin__free_spline(f->up_intervals * pow(delta / (WELKIN__HALF_PI + sky->dip), 1 / f->up_exponent), f->up_intervals);
+        return;
+    }
+    view->alpha =
+        welkin__free_spline(f->down_intervals * pow(-delta / (WELKIN__HALF_PI - sky->dip), 1 / f->down_exponent), f->down_intervals);
+    for (k = 0; k < 4; k++) view->alpha.row[k] += f->up_intervals + 3;
+}
+
+static void welkin__find_phi(const welkin_sky *sky, welkin__view *view)
+{
+    const double *v = view->v;
+    double along = v[0] * sky->cos_azimuth + v[1] * sky->sin_azimuth, across = v[1] * sky->cos_azimuth - v[0] * sky->sin_azimuth;
+    double length = sqrt(along * along + across * across), phi = 0;
+    view->cos_phi = 1;
+    view->sin_phi = 0;
+    if (length > 0) {
+        view->cos_phi = along / length;
+        view->sin_phi = across / length;
+        phi = atan2(fabs(across), along);
+    }
+    view->phi = welkin__mirrored_spline(sky->file->phi_intervals * phi / (2 * WELKIN__HALF_PI), sky->file->phi_intervals);
+}
+
+static void welkin__find_gamma(const welkin_sky *sky, welkin__view *view)
+{
+    double less = 0, plus = 0, cosine = 0;
+    int i;
+    for (i = 0; i < 3; i++) {
+        double v = view->v[i], s = sky->sun[i];
+        less += (v - s) * (v - s) / 2;
+        plus += (v + s) * (v + s) / 2;
+        cosine += v * s;
+    }
+    view->cos_gamma = (float)cosine;
+    view->one_less_cos = (float)less;
+    view->one_plus_cos = (float)plus;
+}
+
+static welkin_error welkin__look(const welkin_sky *sky, const double direction[3], welkin__view *view)
+{
+    welkin_error error = welkin__normalise(direction, view->v);
+    if (error) return error;
+    view->level = sqrt(view->v[0] * view->v[0] + view->v[1] * view->v[1]);
+    welkin__find_alpha(sky, view);
+    welkin__find_phi(sky, view);
+    welkin__find_gamma(sky, view);
+    return WELKIN_OK;
+}
+
+/* Length of the ray to the top of the atmosphere or to the ground. */
+static double welkin__ray_length(const welkin_sky *sky, const welkin__view *view)
+{
+    double radius = sky->file->planet_radius, top = sky->file->top_altitude, h = sky->altitude;
+    double fall = (radius + h) * view->v[2], product, root;
+    if (view->up) {
+        product = (top - h) * (2 * radius + top + h);
+        root = sqrt(fall * fall + product);
+        return fall > 0 ? product / (fall + root) : root - fall;
+    }
+    product = h * (2 * radius + h);
+    root = sqrt(fmax(0, fall * fall - product));
+    return product > 0 && root - fall > 0 ? product / (root - fall) : 0;
+}
+
+/* 1 - exp(-depth) for depth >= 0, without branches that keep it from being vectorised. */
+static float welkin__absorbed(float depth)
+{
+    float x = depth < 87.0f ? depth : 87.0f, n = (float)(int)(x * 1.44269504f + 0.5f), r, power, p;
+    r = n * 0.693359375f - x; /* ln 2 in two parts: the first is exact in few bits */
+    r -= n * 2.12194440e-4f;
+    power = welkin__float((uint32_t)(127 - (int)n) << 23);
+    p = 1.0f / 5040;
+    p = p * r + 1.0f / 720;
+    p = p * r + 1.0f / 120;
+    p = p * r + 1.0f / 24;
+    p = p * r + 1.0f / 6;
+    p = p * r + 0.5f;
+    p = p * r + 1.0f;
+    return (1.0f - power) - power * (p * r);
+}
+
+/* (1 - T) S at every wavelength */
+static void welkin__envelope(const welkin_sky *sky, const welkin__view *view, float *out)
+{
+    const welkin_file *f = sky->file;
+    double length = welkin__ray_length(sky, view), mean;
+    uint32_t k, w, i;
+    for (w = 0; w < f->wavelengths; w++) out[w] = 0;
+    for (k = 0; k < f->constituents; k++) {
+        const float *extinction = sky->extinction + (size_t)k * f->wavelengths;
+        float column;
+        for (i = 0, mean = 0; i < 4; i++)
+            mean += view->alpha.weight[i] * (double)sky->column[(size_t)view->alpha.row[i] * f->constituents + k];
+        column = welkin__narrow(length * exp(mean < 600 ? mean : 600)); /* stays finite */
+        for (w = 0; w < f->wavelengths; w++) out[w] += extinction[w] * column;
+    }
+    for (w = 0; w < f->wavelengths; w++) out[w] = welkin__absorbed(out[w]) * sky->level[w];
+}
+
+static void welkin__sum_dense(const welkin_file *f, const welkin_table *t, const welkin__view *view, float *out)
+{
+    size_t phis = f->phi_intervals + 1, c = t->channels;
+    int a, b;
+    for (a = 0; a < 4; a++) {
+        const float *plane = t->dense + view->alpha.row[a] * phis * c;
+        const uint32_t *row = view->phi.row;
+        float weight[4];
+        for (b = 0; b < 4; b++) weight[b] = (float)(view->alpha.weight[a] * view->phi.weight[b]);
+        welkin__add_rows(out, plane + row[0] * c, plane + row[1] * c, plane + row[2] * c, plane + row[3] * c, weight, t->channels);
+    }
+}
+
+static void welkin__add_spline_rows(float *out, const float *table, const welkin__spline *s, uint32_t width)
+{
+    float weight[4];
+    size_t w = width;
+    int k;
+    for (k = 0; k < 4; k++) weight[k] = (float)s->weight[k];
+    welkin__add_rows(out, table + s->row[0] * w, table + s->row[1] * w, table + s->row[2] * w, table + s->row[3] * w, weight, width);
+}
+
+static void welkin__sum_factors(const welkin_table *t, const welkin__view *view, float *out)
+{
+    float weight[WELKIN_MAX_RANK], phi[WELKIN_MAX_RANK];
+    uint32_t i;
+    for (i = 0; i < t->row; i++) weight[i] = phi[i] = 0;
+    welkin__add_spline_rows(weight, t->alpha, &view->alpha, t->row);
+    welkin__add_spline_rows(phi, t->phi, &view->phi, t->row);
+    for (i = 0; i < t->row; i++) weight[i] *= phi[i];
+    welkin__add_components(t, weight, out);
+}
+
+/* The channels of a table in a direction. */
+static void welkin__sum(const welkin_file *f, const welkin_table *t, const welkin__view *view, float *out)
+{
+    uint32_t c;
+    for (c = 0; c < t->channels; c++) out[c] = 0;
+    if (t->dense)
+        welkin__sum_dense(f, t, view, out);
+    else
+        welkin__sum_factors(t, view, out);
+}
+
+static void welkin__apply_rayleigh(const float *p, size_t nw, float cosine, float *field)
+{
+    size_t w;
+    for (w = 0; w < nw; w++) field[w] *= p[w] + p[nw + w] * (cosine * cosine);
+}
+
+static void welkin__apply_henyey_greenstein(const float *p, size_t nw, const welkin__view *view, float *field)
+{
+    float less = view->one_less_cos, plus = view->one_plus_cos;
+    size_t w;
+    for (w = 0; w < nw; w++) {
+        float x = p[w] + p[nw + w] * less + p[2 * nw + w] * plus;
+        field[w] *= p[3 * nw + w] / (x * sqrtf(x));
+    }
+}
+
+/* Sum of the fields times phase functions and ground; and of what polarises, if asked. */
+static void welkin__sum_fields(const welkin_sky *sky, const welkin__view *view, float *sum, float *polarising)
+{
+    const welkin_file *f = sky->file;
+    float channels[WELKIN_MAX_FIELDS * WELKIN_MAX_WAVELENGTHS];
+    size_t nw = f->wavelengths, w;
+    uint32_t i;
+    welkin__sum(f, &sky->radiance, view, channels);
+    for (i = 0; i < f->fields; i++) {
+        const float *p = sky->phase + 4 * i * nw;
+        float *field = channels + i * nw;
+        uint32_t code = welkin__field(f, i), phase = code & 0xFFFFu;
+        if (code >> 16 & 1u)
+            for (w = 0; w < nw; w++) field[w] *= sky->bounce[w];
+        if (polarising && phase == 1)
+            for (w = 0; w < nw; w++) polarising[w] += p[nw + w] * field[w];
+        if (phase == 1) welkin__apply_rayleigh(p, nw, view->cos_gamma, field);
+        if (phase == 2) welkin__apply_henyey_greenstein(p, nw, view, field);
+        for (w = 0; w < nw; w++) sum[w] += field[w];
+    }
+}
+
+/* Looks at the sum too: where it is not a number, the larger of it and 0 would hide that. */
+static welkin_error welkin__finish(uint32_t nw, const float *envelope, const float *sum, float *radiance)
+{
+    int good = 1;
+    uint32_t w;
+    for (w = 0; w < nw; w++) {
+        radiance[w] = envelope[w] * (sum[w] > 0 ? sum[w] : 0);
+        good &= fabsf(sum[w]) <= FLT_MAX && radiance[w] <= FLT_MAX;
+    }
+    return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+WELKIN_API welkin_error welkin_radiance(const welkin_sky *sky, const double direction[3], float *radiance)
+{
+    float envelope[WELKIN_MAX_WAVELENGTHS], sum[WELKIN_MAX_WAVELENGTHS];
+    welkin__view view;
+    uint32_t w;
+    welkin_error error = welkin__look(sky, direction, &view);
+    if (error) return error;
+    for (w = 0; w < sky->file->wavelengths; w++) sum[w] = 0;
+    welkin__envelope(sky, &view, envelope);
+    welkin__sum_fields(sky, &view, sum, NULL);
+    return welkin__finish(sky->file->wavelengths, envelope, sum, radiance);
+}
+
+/* ---- polarisation ---- */
+
+/* In f64, where the squares of all f32 numbers are finite. */
+static welkin_error welkin__limit_polarisation(float radiance, double q, double u, float *q_out, float *u_out)
+{
+    double size = sqrt(q * q + u * u), factor = size > (double)radiance ? (double)radiance / size : 1;
+    if (!(size <= DBL_MAX)) return WELKIN_ERROR_VALUE;
+    *q_out = welkin__narrow(q * factor);
+    *u_out = welkin__narrow(u * factor);
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q, float *u)
+{
+    float envelope[WELKIN_MAX_WAVELENGTHS], sum[WELKIN_MAX_WAVELENGTHS] = {0}, polarising[WELKIN_MAX_WAVELENGTHS] = {0};
+    float multiple[4 * WELKIN_MAX_WAVELENGTHS];
+    double p1, p2, level = sky->sun[0] * sky->cos_azimuth + sky->sun[1] * sky->sin_azimuth;
+    welkin__view view;
+    uint32_t nw = sky->file->wavelengths, w;
+    welkin_error error = sky->flags & WELKIN_POLARISED ? welkin__look(sky, direction, &view) : WELKIN_ERROR_MISSING;
+    if (error) return error;
+    welkin__envelope(sky, &view, envelope);
+    welkin__sum_fields(sky, &view, sum, polarising);
+    error = welkin__finish(nw, envelope, sum, radiance);
+    if (error) return error;
+    welkin__sum(sky->file, &sky->polarisation, &view, multiple);
+    p1 = view.level * sky->sun[2] - view.v[2] * level * view.cos_phi;
+    p2 = level * view.sin_phi;
+    for (w = 0; w < nw && !error; w++) {
+        double d = (double)polarising[w], bounce = (double)sky->bounce[w], size = (double)envelope[w];
+        double q_sum = d * (p2 * p2 - p1 * p1) + (double)multiple[w] + bounce * (double)multiple[2 * nw + w];
+        double u_sum = -2 * d * p1 * p2 + view.sin_phi * ((double)multiple[nw + w] + bounce * (double)multiple[3 * nw + w]);
+        error = welkin__limit_polarisation(radiance[w], size * q_sum, size * u_sum, &q[w], &u[w]);
+    }
+    return error;
+}
+
+/* ---- wavelengths and colour ---- */
+
+WELKIN_API double welkin_wavelength(const welkin_file *f, uint32_t index)
+{
+    return index < f->wavelengths ? welkin__f64(f->bytes + f->wavelength_at + 8 * (size_t)index) : 0;
+}
+
+WELKIN_API double welkin_altitude(const welkin_file *f, uint32_t index)
+{
+    return index < f->altitudes ? welkin__f64(f->bytes + f->altitude_at + 8 * (size_t)index) : 0;
+}
+
+WELKIN_API double welkin_visibility(const welkin_file *f, uint32_t index)
+{
+    return index < f->visibilities ? welkin__f64(f->bytes + f->visibility_at + 8 * (size_t)index) : 0;
+}
+
+WELKIN_API void welkin_xyz(const welkin_file *f, const float *radiance, double xyz[3])
+{
+    uint32_t w, i;
+    for (i = 0; i < 3; i++) xyz[i] = 0;
+    for (w = 0; w < f->wavelengths; w++)
+        for (i = 0; i < 3; i++) xyz[i] += (double)radiance[w] * welkin__f64(f->bytes + f->xyz_at + 8 * (3 * (size_t)w + i));
+}
+
+static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavelength, welkin__stencil *cubic, welkin__stencil *linear)
+{
+    const unsigned char *axis = f->bytes + f->wavelength_at;
+    if (!welkin__into_axis(axis, f->wavelengths, &wavelength)) return WELKIN_ERROR_RANGE;
+    *cubic = welkin__cubic(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
+    *linear = welkin__linear(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *radiance, double wavelength, double *value)
+{
+    welkin__stencil cubic, linear;
+    double logarithm = 0, plain = 0;
+    int dark = 0;
+    uint32_t i;
+    if (welkin__spectral_stencil(f, wavelength, &cubic, &linear)) return WELKIN_ERROR_RANGE;
+    for (i = 0; i < linear.count; i++) plain += linear.weight[i] * (double)radiance[linear.node[i]];
+    for (i = 0; i < cubic.count; i++) {
+        double node = (double)radiance[cubic.node[i]];
+        if (cubic.weight[i] == 0) continue;
+        if (node > 0)
+            logarithm += cubic.weight[i] * log(node);
+        else
+            dark = 1;
+    }
+    *value = dark ? plain : exp(logarithm);
+    return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u, double wavelength,
+                                         double stokes[3])
+{
+    welkin__stencil cubic, linear;
+    uint32_t i;
+    welkin_error error = welkin__spectral_stencil(f, wavelength, &cubic, &linear);
+    if (!error) error = welkin_radiance_at(f, radiance, wavelength, &stokes[0]);
+    if (error) return error;
+    stokes[1] = stokes[2] = 0;
+    for (i = 0; i < cubic.count; i++) {
+        double node = (double)radiance[cubic.node[i]];
+        if (!(node > 0)) continue;
+        stokes[1] += cubic.weight[i] * (double)q[cubic.node[i]] / node * stokes[0];
+        stokes[2] += cubic.weight[i] * (double)u[cubic.node[i]] / node * stokes[0];
+    }
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavelength, double *value)
+{
+    const unsigned char *p = f->bytes + f->solar_range_at, *samples = f->bytes + f->solar_at;
+    welkin__spline at;
+    double u, t;
+    uint32_t i;
+    if (!welkin__into_axis(f->bytes + f->wavelength_at, f->wavelengths, &wavelength)) return WELKIN_ERROR_RANGE;
+    u = (wavelength - welkin__f64(p)) / welkin__f64(p + 8);
+    at = welkin__free_spline(u, f->solar_samples - 1); /* for its clamped interval */
+    i = at.row[0];
+    t = fmin(fmax(u - (double)i, 0), 1);
+    *value = (1 - t) * (double)welkin__f32(samples + 4 * (size_t)i) + t * (double)welkin__f32(samples + 4 * (size_t)(i + 1));
+    return WELKIN_OK;
+}
+
+/* ---- transmittance ---- */
+
+static int welkin__edges_are_good(const welkin_file *f, const unsigned char *edges, uint32_t layers)
+{
+    uint32_t i;
+    if (welkin__f64(edges) != 0 || welkin__f64(edges + 8 * (size_t)layers) != f->top_altitude) return 0;
+    for (i = 0; i < layers; i++) {
+        double step = welkin__f64(edges + 8 * (size_t)(i + 1)) - welkin__f64(edges + 8 * (size_t)i);
+        if (!(step >= 0.001 * (1 - 1e-6) && step <= 1e9)) return 0; /* rounding may take a little of a millimetre */
+    }
+    return 1;
+}
+
+static int welkin__densities_are_good(const unsigned char *p, size_t n)
+{
+    size_t i;
+    for (i = 0; i < n; i++)
+        if (!welkin__within((double)welkin__f32(p + 4 * i), 0, 1e6)) return 0;
+    return 1;
+}
+
+static welkin_error welkin__read_air(welkin_air *air, const welkin__entry *entry)
+{
+    const welkin_file *f = air->file;
+    const unsigned char *p;
+    size_t densities;
+    welkin_error error = welkin__payload(f, entry, &p);
+    if (error) return error;
+    if (entry->raw < 8) return WELKIN_ERROR_VALUE;
+    air->layers = welkin__u32(p);
+    if (air->layers < 1 || air->layers > 1024 || welkin__u32(p + 4) != 0) return WELKIN_ERROR_VALUE;
+    densities = (2 * (size_t)air->layers + 1) * f->constituents;
+    if (entry->raw != 8 + 8 * ((uint64_t)air->layers + 1) + 4 * densities) return WELKIN_ERROR_VALUE;
+    air->edges = p + 8;
+    air->densities = air->edges + 8 * ((size_t)air->layers + 1);
+    if (!welkin__edges_are_good(f, air->edges, air->layers) || !welkin__densities_are_good(air->densities, densities))
+        return WELKIN_ERROR_VALUE;
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *file, double visibility)
+{
+    welkin__stencil b;
+    welkin__entry entry;
+    uint32_t i;
+    memset(air, 0, sizeof *air);
+    air->file = file;
+    if (!welkin__into_axis(file->bytes + file->visibility_at, file->visibilities, &visibility)) return WELKIN_ERROR_RANGE;
+    if (welkin__find(file, WELKIN__TRANSMITTANCE, WELKIN__NONE, WELKIN__NONE, &entry)) return WELKIN_ERROR_MISSING;
+    b = welkin__linear(file->bytes + file->visibility_at, file->visibilities, visibility, WELKIN__INVERSE);
+    for (i = 0; i < 2; i++) {
+        air->visibility_node[i] = b.node[i];
+        air->visibility_weight[i] = b.weight[i];
+    }
+    return welkin__read_air(air, &entry);
+}
+
+/* A straight line: w = low + s²/2R at the distance s from the point closest to the planet's centre. */
+typedef struct welkin__line {
+    double radius, low, start, end;
+} welkin__line;
+
+/* Where the line comes up to a value of w, 0 if it is above it everywhere. */
+static double welkin__crossing(const welkin__line *line, double w) { return sqrt(fmax(0, 2 * line->radius * (w - line->low))); }
+
+/* Adds the integrals over a piece of the line within one layer. */
+static void welkin__add_piece(const welkin_air *air, const welkin__line *line, uint32_t layer, double bottom, double thickness, double s0,
+                              double s1, double *columns)
+{
+    size_t nk = air->file->constituents, k;
+    const unsigned char *d = air->densities + 8 * layer * nk;
+    double l, m, scale = 2 * line->radius * thickness, mean, square;
+    s0 = fmax(s0, line->start);
+    s1 = fmin(s1, line->end);
+    if (!(s1 > s0)) return;
+    l = s1 - s0;
+    m = (s0 + s1) / 2;
+    mean = fmin(fmax((line->low - bottom) / thickness + (m * m + l * l / 12) / scale, 0), 1);
+    square = mean * mean + fmin((m * m * l * l / 3 + l * l * l * l / 180) / scale / scale, 0.25);
+    for (k = 0; k < nk; k++) {
+        double a = (double)welkin__f32(d + 4 * k), b = (double)welkin__f32(d + 4 * (nk + k)), c = (double)welkin__f32(d + 4 * (2 * nk + k));
+        columns[k] += l * fmax(0, a + 2 * (b - a) * mean + (a - 2 * b + c) * square);
+    }
+}
+
+/* Below the ground the profiles are those at the ground. */
+static void welkin__add_underground(const welkin_air *air, const welkin__line *line, double *columns)
+{
+    double depth = welkin__crossing(line, 0), s0 = fmax(-depth, line->start), s1 = fmin(depth, line->end);
+    uint32_t k;
+    for (k = 0; k < air->file->constituents && s1 > s0; k++) columns[k] += (s1 - s0) * (double)welkin__f32(air->densities + 4 * (size_t)k);
+}
+
+static void welkin__integrate(const welkin_air *air, const welkin__line *line, double *columns)
+{
+    double bottom = 0, inner = welkin__crossing(line, 0);
+    uint32_t i;
+    welkin__add_underground(air, line, columns);
+    for (i = 0; i < air->layers; i++) {
+        double h = welkin__f64(air->edges + 8 * (size_t)(i + 1)), top = h + h * h / (2 * line->radius), outer = welkin__crossing(line, top);
+        welkin__add_piece(air, line, i, bottom, top - bottom, -outer, -inner, columns);
+        welkin__add_piece(air, line, i, bottom, top - bottom, inner, outer, columns);
+        bottom = top;
+        inner = outer;
+    }
+}
+
+WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
+                                             float *transmittance)
+{
+    const welkin_file *f = air->file;
+    double v[3], columns[WELKIN_MAX_CONSTITUENTS] = {0};
+    welkin__line line;
+    size_t nw = f->wavelengths, table = f->constituents * nw, w, k;
+    if (!welkin__within(altitude, -f->planet_radius, 1e12) || !welkin__within(distance, 0, 1e15)) return WELKIN_ERROR_RANGE;
+    if (welkin__normalise(direction, v)) return WELKIN_ERROR_DIRECTION;
+    line.radius = f->planet_radius;
+    line.start = (f->planet_radius + altitude) * v[2];
+    line.end = line.start + distance;
+    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * line.radius);
+    welkin__integrate(air, &line, columns);
+    for (w = 0; w < nw; w++) {
+        double depth = 0;
+        for (k = 0; k < f->constituents; k++) {
+            const unsigned char *p = f->bytes + f->extinction_at + 8 * (k * nw + w);
+            double first = welkin__f64(p + 8 * air->visibility_node[0] * table), second = welkin__f64(p + 8 * air->visibility_node[1] * table);
+            depth += columns[k] * (air->visibility_weight[0] * first + air->visibility_weight[1] * second);
+        }
+        transmittance[w] = (float)exp(-depth);
+    }
+    return WELKIN_OK;
+}
+
+#endif /* WELKIN_IMPLEMENTATION */
