@@ -1,0 +1,152 @@
+/* Answers the queries of the conformance suite. SPDX-License-Identifier: MIT OR Apache-2.0 */
+#define WELKIN_IMPLEMENTATION
+#include "welkin.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct query {
+    char quantity[64];
+    welkin_conditions conditions;
+    double direction[3], wavelength, distance;
+} query;
+
+static unsigned char *read_all(const char *path, size_t *length)
+{
+    FILE *stream = fopen(path, "rb");
+    unsigned char *bytes = NULL;
+    long size;
+    if (!stream) return NULL;
+    if (fseek(stream, 0, SEEK_END) == 0 && (size = ftell(stream)) >= 0 && fseek(stream, 0, SEEK_SET) == 0) {
+        *length = (size_t)size;
+        bytes = malloc(*length ? *length : 1);
+        if (bytes && fread(bytes, 1, *length, stream) != *length) {
+            free(bytes);
+            bytes = NULL;
+        }
+    }
+    fclose(stream);
+    return bytes;
+}
+
+static int parse(char *line, query *q)
+{
+    double *cells[] = {&q->conditions.altitude,
+                       &q->conditions.visibility,
+                       &q->conditions.albedo,
+                       &q->conditions.solar_elevation,
+                       &q->conditions.solar_azimuth,
+                       &q->direction[0],
+                       &q->direction[1],
+                       &q->direction[2],
+                       &q->wavelength,
+                       &q->distance};
+    char *rest;
+    size_t i, length = strcspn(line, "\t");
+    if (length >= sizeof q->quantity) return 0;
+    memcpy(q->quantity, line, length);
+    q->quantity[length] = 0;
+    line += length;
+    for (i = 0; i < sizeof cells / sizeof *cells; i++, line = rest) {
+        *cells[i] = strtod(line, &rest);
+        if (rest == line) return 0;
+    }
+    return 1;
+}
+
+static void print_floats(const float *values, uint32_t count)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) printf("%.9g ", (double)values[i]);
+}
+
+static welkin_error answer_transmittance(const welkin_file *file, const query *q)
+{
+    float transmittance[WELKIN_MAX_WAVELENGTHS];
+    welkin_air air;
+    welkin_error error = welkin_air_prepare(&air, file, q->conditions.visibility);
+    if (!error) error = welkin_transmittance(&air, q->conditions.altitude, q->direction, q->distance, transmittance);
+    if (!error) print_floats(transmittance, file->wavelengths);
+    return error;
+}
+
+static welkin_error answer_stokes(const welkin_sky *sky, const query *q)
+{
+    float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
+    welkin_error error = welkin_stokes(sky, q->direction, l, s, u);
+    if (error) return error;
+    print_floats(l, sky->file->wavelengths);
+    print_floats(s, sky->file->wavelengths);
+    print_floats(u, sky->file->wavelengths);
+    return WELKIN_OK;
+}
+
+static welkin_error answer_at(const welkin_file *file, const query *q, const float *radiance)
+{
+    double value, irradiance = 1;
+    welkin_error error = welkin_radiance_at(file, radiance, q->wavelength, &value);
+    if (!error && strcmp(q->quantity, "radiance_at") == 0) error = welkin_irradiance_at(file, q->wavelength, &irradiance);
+    if (!error) printf("%.12g", value * irradiance);
+    return error;
+}
+
+static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
+{
+    float radiance[WELKIN_MAX_WAVELENGTHS];
+    double xyz[3];
+    welkin_error error = welkin_radiance(sky, q->direction, radiance);
+    if (error) return error;
+    if (strcmp(q->quantity, "relative_radiance") == 0) {
+        print_floats(radiance, sky->file->wavelengths);
+    } else if (strcmp(q->quantity, "xyz") == 0) {
+        welkin_xyz(sky->file, radiance, xyz);
+        printf("%.12g %.12g %.12g", xyz[0], xyz[1], xyz[2]);
+    } else {
+        return answer_at(sky->file, q, radiance);
+    }
+    return WELKIN_OK;
+}
+
+/* The scratch stays from query to query; a wrong one would show under a sanitizer. */
+static welkin_error answer(const welkin_file *file, const query *q, unsigned mode, float *scratch, size_t floats)
+{
+    int stokes = strcmp(q->quantity, "stokes") == 0;
+    welkin_sky sky;
+    welkin_error error;
+    if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);
+    error = welkin_prepare(&sky, file, &q->conditions, mode | (stokes ? WELKIN_POLARISED : 0), scratch, floats);
+    if (error) return error;
+    return stokes ? answer_stokes(&sky, q) : answer_radiance(&sky, q);
+}
+
+int main(int count, char **arguments)
+{
+    char line[4096];
+    size_t length = 0, floats = 0;
+    unsigned mode = count == 3 && strcmp(arguments[1], "--dense") == 0 ? WELKIN_DENSE : 0;
+    unsigned char *bytes = count >= 2 ? read_all(arguments[count - 1], &length) : NULL;
+    float *scratch = NULL;
+    welkin_file file;
+    welkin_error opened;
+    if (!bytes) {
+        fprintf(stderr, "usage: conformance [--dense] FILE < queries\n");
+        return 2;
+    }
+    opened = welkin_open(&file, bytes, length);
+    if (!opened) {
+        floats = welkin_scratch_floats(&file, mode | WELKIN_POLARISED);
+        scratch = malloc(floats * sizeof *scratch);
+        if (!scratch) return 2;
+    }
+    while (fgets(line, sizeof line, stdin)) {
+        query q;
+        welkin_error error;
+        if (!parse(line, &q)) return 2;
+        error = opened ? opened : answer(&file, &q, mode, scratch, floats);
+        if (error) printf("error %s", welkin_error_name(error));
+        printf("\n");
+    }
+    free(scratch);
+    free(bytes);
+    return 0;
+}
