@@ -107,7 +107,6 @@ static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
     return WELKIN_OK;
 }
 
-/* The scratch stays from query to query; a wrong one would show under a sanitizer. */
 static welkin_error answer(const welkin_file *file, const query *q, unsigned mode, float *scratch, size_t floats)
 {
     int stokes = strcmp(q->quantity, "stokes") == 0;

@@ -525,7 +525,7 @@ static int welkin__rank_is_good(const welkin_file *f, const welkin__entry *e)
     if (!welkin__has_rank(e->kind)) return e->rank == 0;
     if (e->rank < 1 || e->rank > WELKIN_MAX_RANK) return 0;
     if (e->kind == WELKIN__RADIANCE && f->rank != 0) return e->rank <= f->rank;
-    if (e->kind == WELKIN__POLARISATION && f->polarisation_rank != 0) return e->rank == f->polarisation_rank;
+    if (e->kind == WELKIN__POLARISATION && f->polarisation_rank != 0) return e->rank <= f->polarisation_rank;
     return 1;
 }
 
