@@ -2,6 +2,9 @@
 //!
 //! Format specification, section 7.1.
 
+#[cfg(not(feature = "std"))]
+use crate::real::Real;
+
 /// A cubic B-spline basis at one coordinate: the first coefficient's index and four weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taps {

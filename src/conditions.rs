@@ -1,7 +1,10 @@
 //! Where the observer is, where the sun stands and what the air and the ground are like.
 
 use crate::error::{Error, Result};
+#[cfg(feature = "std")]
 use crate::model::Model;
+#[cfg(not(feature = "std"))]
+use crate::real::Real;
 
 /// The conditions of a sky. Angles in radians, lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +35,7 @@ impl Default for Conditions {
 }
 
 impl Conditions {
+    #[cfg(feature = "std")]
     /// Moves every parameter into the range of `model`.
     ///
     /// # Errors
@@ -69,6 +73,7 @@ impl Conditions {
         })
     }
 
+    #[cfg(feature = "std")]
     /// Checks every parameter against the range of `model`; a relative excess of 1e-9 is rounding and gets clamped.
     pub(crate) fn checked(&self, model: &Model) -> Result<Self> {
         let mut checked = *self;
@@ -82,6 +87,7 @@ impl Conditions {
         Ok(checked)
     }
 
+    #[cfg(feature = "std")]
     fn ranges(&mut self, model: &Model) -> [(Parameter, &mut f64, [f64; 2]); 5] {
         let parameter = |name, unit| Parameter { name, unit };
         [
@@ -117,11 +123,13 @@ pub(crate) fn direction(elevation: f64, azimuth: f64) -> [f64; 3] {
     [cosine * x, cosine * y, sine]
 }
 
+#[cfg(feature = "std")]
 struct Parameter {
     name: &'static str,
     unit: &'static str,
 }
 
+#[cfg(feature = "std")]
 impl Parameter {
     fn error(&self, value: f64, min: f64, max: f64) -> Error {
         Error::OutOfRange {

@@ -1,7 +1,15 @@
 //! What can go wrong, in terms that say what to do about it.
 
 use core::fmt;
+#[cfg(feature = "std")]
 use std::path::PathBuf;
+
+/// Text that says what is wrong; without the standard library it does not hold the values.
+#[cfg(feature = "std")]
+pub type Detail = String;
+/// Text that says what is wrong.
+#[cfg(not(feature = "std"))]
+pub type Detail = &'static str;
 
 /// Result with this crate's [`Error`].
 pub type Result<T> = core::result::Result<T, Error>;
@@ -10,6 +18,7 @@ pub type Result<T> = core::result::Result<T, Error>;
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {
+    #[cfg(feature = "std")]
     /// The operating system refused to read or write a file.
     Io {
         /// The file.
@@ -17,6 +26,7 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    #[cfg(feature = "std")]
     /// The source of a streamed model failed.
     Read {
         /// First byte of the request.
@@ -68,7 +78,7 @@ pub enum Error {
         /// The name of the value in the format specification.
         what: &'static str,
         /// What it must be and what it is.
-        detail: String,
+        detail: Detail,
     },
     /// The file lacks a chunk that the conditions need.
     MissingChunk {
@@ -104,6 +114,15 @@ pub enum Error {
         /// The refused point, m.
         got: [f64; 3],
     },
+    /// A model is too large for the fixed arrays of an evaluator without allocation.
+    Limit {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many there may be.
+        most: usize,
+        /// How many there are.
+        got: usize,
+    },
     /// A direction has length zero or a component that is not finite.
     Direction {
         /// The refused vector.
@@ -115,6 +134,7 @@ impl Error {
     /// The class of the error in the terms of the format specification, section 8.
     pub fn class(&self) -> &'static str {
         match self {
+            #[cfg(feature = "std")]
             Error::Io { .. } | Error::Read { .. } => "io",
             Error::NotWelkin => "magic",
             Error::Version { .. } => "version",
@@ -126,12 +146,13 @@ impl Error {
             Error::MissingChunk { .. } => "missing",
             Error::OutOfRange { .. } => "range",
             Error::Tolerance { .. } => "tolerance",
+            Error::Limit { .. } => "limit",
             Error::Direction { .. } => "direction",
             Error::Point { .. } => "point",
         }
     }
 
-    pub(crate) fn invalid(what: &'static str, detail: impl Into<String>) -> Self {
+    pub(crate) fn invalid(what: &'static str, detail: impl Into<Detail>) -> Self {
         Error::Invalid {
             what,
             detail: detail.into(),
@@ -142,7 +163,9 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            #[cfg(feature = "std")]
             Error::Io { path, source } => write!(f, "{}: {source}", path.display()),
+            #[cfg(feature = "std")]
             Error::Read { offset, source } => write!(f, "cannot read at byte {offset}: {source}"),
             Error::NotWelkin => write!(
                 f,
@@ -205,6 +228,10 @@ impl fmt::Display for Error {
                 "{parameter} must be in {min}..={max}{}{unit}, got {value}",
                 if unit.is_empty() { "" } else { " " }
             ),
+            Error::Limit { what, most, got } => write!(
+                f,
+                "the model has {got} {what}, this evaluator has room for {most}: prepare a sky instead"
+            ),
             Error::Tolerance { expected, got } => write!(
                 f,
                 "the largest table has an error of {got}, wanted at most {expected}: allow more"
@@ -224,6 +251,7 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
+            #[cfg(feature = "std")]
             Error::Io { source, .. } | Error::Read { source, .. } => Some(source),
             _ => None,
         }

@@ -2,6 +2,9 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+#[cfg(not(feature = "std"))]
+use crate::real::Real;
+
 /// A sphere of radius `radius` with an atmosphere up to `top` above it (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planet {

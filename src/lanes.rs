@@ -72,6 +72,18 @@ impl<const N: usize> Lanes<N> {
         Self(lanes)
     }
 
+    /// See [`math::exp`].
+    #[inline(always)]
+    pub fn exp(self) -> Self {
+        self.map(math::exp)
+    }
+
+    /// See [`math::one_minus_exp_neg`].
+    #[inline(always)]
+    pub fn one_minus_exp_neg(self) -> Self {
+        self.map(math::one_minus_exp_neg)
+    }
+
     /// See [`math::log2`].
     #[inline(always)]
     pub fn log2(self) -> Self {

@@ -30,41 +30,78 @@
 //! `format-spec/SPEC.md` and implemented in [`mod@format`].
 //!
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
-//! builds the command `welkin`.
+//! builds the command `welkin`. Without `std` (and with `libm`) what is left is [`General`], which needs neither the
+//! standard library nor an allocator.
 
+#![cfg_attr(not(feature = "std"), no_std)]
+// Without the standard library parts of the shared modules are not used.
+#![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]
+
+#[cfg(feature = "std")]
 mod air;
 pub mod axis;
+#[cfg(feature = "std")]
 mod baked;
+#[cfg(feature = "std")]
+mod budget;
+#[cfg(feature = "std")]
 mod colour;
 mod conditions;
 mod error;
 pub mod format;
+mod general;
 pub mod geometry;
+#[cfg(feature = "std")]
 mod haze;
 mod lanes;
 mod math;
+#[cfg(feature = "std")]
 mod model;
 mod phase;
+#[cfg(feature = "std")]
 mod polarisation;
+#[cfg(feature = "std")]
 mod prepare;
+#[cfg(not(feature = "std"))]
+mod real;
+mod simd;
+#[cfg(feature = "std")]
 mod sky;
+#[cfg(feature = "std")]
 mod source;
+#[cfg(feature = "std")]
 mod spectrum;
+#[cfg(feature = "std")]
 mod store;
+#[cfg(feature = "std")]
 mod sun;
+#[cfg(feature = "std")]
 mod tables;
 
+#[cfg(feature = "std")]
 pub use air::Air;
+#[cfg(feature = "std")]
 pub use baked::{BakeError, BakedColour, BakedSky, Directions, Sample, SkySampler};
+#[cfg(feature = "std")]
+pub use budget::{Budget, Channels, Plan};
+#[cfg(feature = "std")]
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
+pub use general::General;
+#[cfg(feature = "std")]
 pub use haze::Haze;
 #[cfg(feature = "default-model")]
 pub use model::DEFAULT_MODEL;
+#[cfg(feature = "std")]
 pub use model::Model;
+#[cfg(feature = "std")]
 pub use polarisation::{Frame, PolarisedSky, Stokes};
+#[cfg(feature = "std")]
 pub use sky::Sky;
+#[cfg(feature = "std")]
 pub use source::ReadAt;
+#[cfg(feature = "std")]
 pub use store::Traffic;
+#[cfg(feature = "std")]
 pub use sun::{SUN_RADIUS, SunDisc};

@@ -1,5 +1,8 @@
 //! Elementary functions that vectorise.
 
+#[cfg(not(feature = "std"))]
+use crate::real::Real;
+
 /// Numbers that are computed together.
 pub(crate) const LANES: usize = 4;
 

@@ -195,6 +195,17 @@ impl Model {
         self.store.fetch(&self.contents, present.copied().collect())
     }
 
+    /// Reads and verifies chunks.
+    pub(crate) fn load_chunks(&self, chunks: &[usize]) -> Result<()> {
+        self.store.fetch(&self.contents, chunks.to_vec())?;
+        chunks.iter().try_for_each(|&i| self.chunk(i).map(drop))
+    }
+
+    /// The file as far as it is in memory from its beginning: at least the head.
+    pub(crate) fn front(&self) -> &[u8] {
+        self.store.front()
+    }
+
     pub(crate) fn radiance_basis(&self) -> Result<RadianceBasisView<'_>> {
         let i = self.find(Kind::RadianceBasis, None, None)?;
         let rank = self.contents.directory[i].rank;
@@ -250,7 +261,7 @@ impl Model {
         SourceView::new(bytes, head.constituents, head.wavelengths.len())
     }
 
-    fn find(
+    pub(crate) fn find(
         &self,
         kind: Kind,
         altitude: Option<usize>,
@@ -265,7 +276,7 @@ impl Model {
     }
 
     /// The payload of a chunk, verified now or earlier.
-    fn chunk(&self, i: usize) -> Result<&[u8]> {
+    pub(crate) fn chunk(&self, i: usize) -> Result<&[u8]> {
         self.store.chunk(&self.contents, i)
     }
 }

@@ -1,7 +1,11 @@
 //! Phase functions with mean 1 over the sphere. Format specification, section 7.2.
 
+#[cfg(feature = "std")]
 use crate::format::{Field, PhaseFunction};
+#[cfg(feature = "std")]
 use crate::math::LANES;
+#[cfg(not(feature = "std"))]
+use crate::real::Real;
 
 /// The angle γ between view direction and sun, in the two forms that keep their precision.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +37,7 @@ impl SunAngle {
     }
 }
 
+#[cfg(feature = "std")]
 /// A phase function with its coefficients for every wavelength, in blocks of [`LANES`].
 #[derive(Clone, Debug)]
 pub(crate) enum PhaseTable {
@@ -42,6 +47,7 @@ pub(crate) enum PhaseTable {
     HenyeyGreenstein(Vec<[[f32; LANES]; 3]>),
 }
 
+#[cfg(feature = "std")]
 impl PhaseTable {
     pub fn new(field: &Field) -> Self {
         let blocks = field.parameter.chunks(LANES);
@@ -96,6 +102,7 @@ impl PhaseTable {
     }
 }
 
+#[cfg(feature = "std")]
 /// Transposes the coefficients of up to [`LANES`] parameters; where parameters are missing, 1 keeps the arithmetic
 /// away from underflow, which is slow.
 fn lanes<const N: usize>(
@@ -111,12 +118,12 @@ fn lanes<const N: usize>(
     block
 }
 
-fn rayleigh(depolarisation: f64) -> [f64; 2] {
+pub(crate) fn rayleigh(depolarisation: f64) -> [f64; 2] {
     let delta = (1.0 - depolarisation) / (1.0 + 0.5 * depolarisation);
     [1.0 - 0.25 * delta, 0.75 * delta]
 }
 
-fn henyey_greenstein(g: f64) -> [f64; 3] {
+pub(crate) fn henyey_greenstein(g: f64) -> [f64; 3] {
     [(1.0 - g) * (1.0 + g), (1.0 - g).powi(2), 2.0 * g]
 }
 

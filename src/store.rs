@@ -86,6 +86,11 @@ impl Store {
         Self { chunks, ..self }
     }
 
+    /// Bytes that are in memory from the beginning on.
+    pub fn front(&self) -> &[u8] {
+        self.bytes.in_memory()
+    }
+
     pub fn traffic(&self) -> Traffic {
         Traffic {
             requests: self.requests.load(Ordering::Relaxed),

@@ -1,13 +1,13 @@
 //! Makes the tables of a baked sky from a prepared one.
 
 use super::frame::{opaque_length, share};
-use super::simd::Kernel;
 use super::spline::{Start, coefficients, taps};
 use super::table::{Grid, Table};
 use crate::conditions::direction;
 use crate::geometry::{Ray, Side};
 use crate::lanes::Lanes;
 use crate::phase::SunAngle;
+use crate::simd::{Instructions, Kernel};
 use crate::sky::Sky;
 
 /// What a table holds: positive linear functions of the spectrum of relative radiance.
@@ -37,7 +37,7 @@ impl<const N: usize, C: Channels<N>> Kernel for Bake<'_, C, N> {
     type Output = Table<N>;
 
     #[inline(always)]
-    fn run(self) -> Table<N> {
+    fn run<I: Instructions>(self, _: I) -> Table<N> {
         let mut table = Table {
             grid: self.grid,
             cells: Vec::with_capacity(self.channels.blocks() * self.grid.cells()),

@@ -1,10 +1,10 @@
 //! Many directions at once.
 
 use super::frame::{Frame, prepared};
-use super::simd::Kernel;
 use super::table::{Spots, Table};
 use crate::error::{Error, Result};
 use crate::lanes::Lanes;
+use crate::simd::{Instructions, Kernel};
 
 /// Directions as a structure of arrays of equal length. They need not be normalised.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +72,7 @@ impl<const N: usize, S: Sink<N>> Kernel for Each<'_, N, S> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn run(mut self) -> Result<()> {
+    fn run<I: Instructions>(mut self, _: I) -> Result<()> {
         let x = self.directions.x.as_chunks();
         let y = self.directions.y.as_chunks();
         let z = self.directions.z.as_chunks();
@@ -116,7 +116,7 @@ impl<const N: usize, S: Sink<N>> Kernel for One<'_, N, S> {
     type Output = Result<()>;
 
     #[inline(always)]
-    fn run(mut self) -> Result<()> {
+    fn run<I: Instructions>(mut self, _: I) -> Result<()> {
         // Four times the same costs no more than once, and vectors choose without branches.
         let [x, y, z] = self.direction;
         let direction = [Lanes::<4>::splat(x), Lanes::splat(y), Lanes::splat(z)];
@@ -141,9 +141,9 @@ fn unsound(d: [Lanes<WIDTH>; 3]) -> [f32; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::simd::dispatch;
     use super::super::{Baked, BakedSky};
     use super::*;
+    use crate::simd::{Portable, dispatch};
     use crate::{Conditions, Model};
 
     struct Values(Vec<[f32; 16]>);
@@ -176,7 +176,7 @@ mod tests {
             sink,
         };
         let [mut narrow, mut wide] = [Values(Vec::new()), Values(Vec::new())];
-        each(&mut narrow).run().unwrap();
+        each(&mut narrow).run(Portable).unwrap();
         dispatch(each(&mut wide)).unwrap();
         assert_eq!(narrow.0, wide.0);
         assert_eq!(wide.0.len(), 1003);

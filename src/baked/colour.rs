@@ -4,13 +4,13 @@ use core::marker::PhantomData;
 
 use super::batch::{Directions, Each, One, Sink, check_length};
 use super::frame::Frame;
-use super::simd::dispatch;
 use super::table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
 use crate::colour::XYZ_TO_SRGB;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::lanes::Lanes;
+use crate::simd::dispatch;
 use crate::sky::Sky;
 
 /// X, Y, Z and nothing: the width of a vector.

@@ -12,7 +12,6 @@ mod hero;
 mod irradiance;
 mod quality;
 mod sampler;
-mod simd;
 mod spectral;
 mod spline;
 mod table;
@@ -25,10 +24,20 @@ pub use spectral::BakedSky;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::format::Head;
 use crate::sky::Sky;
 use bake::Channels;
 use frame::Frame;
 use table::Table;
+
+/// Most bytes that a baked sky of a model holds on the heap.
+pub(crate) fn largest_bytes(channels: crate::Channels, head: &Head) -> usize {
+    let n = head.wavelengths.len();
+    match channels {
+        crate::Channels::Spectral => quality::largest_table(n, 16) + spectral::axis_bytes(head),
+        crate::Channels::Colour => quality::largest_table(3, 4),
+    }
+}
 
 /// What baked skies have in common.
 #[derive(Clone, Debug)]

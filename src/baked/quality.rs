@@ -2,10 +2,10 @@
 
 use super::bake::{Bake, Channels};
 use super::frame::Frame;
-use super::simd::dispatch;
 use super::table::{Grid, Table};
 use crate::error::{Error, Result};
 use crate::lanes::Lanes;
+use crate::simd::dispatch;
 use crate::sky::Sky;
 
 /// What baking adds to the error of a sky: relative differences of all channels at directions that are uniform over
@@ -32,6 +32,12 @@ const GRIDS: [(f64, Grid); 7] = [
     (8e-4, grid(40, 32, 24, 48)),
     (4.5e-4, grid(64, 48, 32, 64)),
 ];
+
+/// Most bytes that the tables of a baked sky take, for `n` channels in vectors of `width`.
+pub(super) fn largest_table(n: usize, width: usize) -> usize {
+    let (_, grid) = GRIDS[GRIDS.len() - 1];
+    n.div_ceil(width) * width * size_of::<f32>() * (grid.cells() + grid.envelope_cells())
+}
 
 const fn grid(up: u32, down: u32, azimuth: u32, sun: u32) -> Grid {
     Grid {

@@ -3,12 +3,13 @@
 use super::batch::{Directions, Each, One, Sink, check_length};
 use super::frame::Frame;
 use super::hero::{Heroes, WavelengthAxis};
-use super::simd::dispatch;
 use super::table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::format::Head;
 use crate::lanes::Lanes;
+use crate::simd::dispatch;
 use crate::sky::Sky;
 
 /// Wavelengths that are computed together.
@@ -46,6 +47,13 @@ impl Channels<LANES> for Spectrum {
             radiance.get(i).copied().unwrap_or(1.0)
         }))
     }
+}
+
+/// Most bytes besides the tables.
+pub(super) fn axis_bytes(head: &Head) -> usize {
+    let n = head.wavelengths.len();
+    let blocks = n.div_ceil(LANES) * LANES * size_of::<f32>();
+    8 * n + 2 * blocks + n * size_of::<[f32; 20]>() + size_of_val(head.solar_irradiance.as_slice())
 }
 
 impl Sky {

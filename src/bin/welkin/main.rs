@@ -4,6 +4,7 @@ mod failure;
 mod image;
 mod info;
 mod picture;
+mod plan;
 mod polarised;
 mod projection;
 mod query;
@@ -35,6 +36,8 @@ enum Command {
     Query(query::Options),
     /// Describe a model file.
     Info(info::Options),
+    /// Say what a scene needs of a model: bytes and errors.
+    Plan(plan::Options),
     /// Write a smaller file for a part of the conditions.
     Subset(subset::Options),
     /// Check a model file against the format specification: exit code 1 if it breaks a rule.
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         Command::Render(options) => render::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),
         Command::Info(options) => info::run(options).map(done),
+        Command::Plan(options) => plan::run(options).map(done),
         Command::Subset(options) => subset::run(options).map(done),
         Command::Verify(options) => verify::run(options),
     };
@@ -109,7 +113,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
-            "a command is missing: render, query, info, subset or verify (see welkin --help)",
+            "a command is missing: render, query, info, plan, subset or verify (see welkin --help)",
         ),
         _ => {
             let text = error.render().to_string();

@@ -1,0 +1,92 @@
+//! `welkin plan`.
+
+use std::io::Write;
+
+use serde_json::json;
+use welkin::{BakedSky, Budget, Channels};
+
+use crate::failure::{Failure, Result};
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: crate::Source,
+    /// Lowest and highest altitude of observers, m.
+    #[arg(long, value_name = "LOW,HIGH", default_value = "0,0")]
+    altitudes: String,
+    /// Lowest and highest visibility, km.
+    #[arg(long, value_name = "LOW,HIGH", default_value = "59.4,59.4")]
+    visibilities: String,
+    /// Relative error that baking may add at 95 % of directions and channels.
+    #[arg(long, default_value_t = BakedSky::TOLERANCE)]
+    tolerance: f64,
+    /// Colours instead of spectra.
+    #[arg(long)]
+    rgb: bool,
+    /// Write JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    let model = options.source.open()?;
+    let plan = model.plan(&Budget {
+        altitude: range("--altitudes", &options.altitudes)?,
+        visibility: range("--visibilities", &options.visibilities)?.map(|km| km * 1e3),
+        tolerance: options.tolerance,
+        channels: match options.rgb {
+            true => Channels::Colour,
+            false => Channels::Spectral,
+        },
+    })?;
+    let report = json!({
+        "model": options.source.name(),
+        "model_bytes": model.file_bytes(),
+        "file_bytes": plan.file_bytes,
+        "chunks": plan.chunk_count,
+        "sky_bytes": plan.sky_bytes,
+        "error_median": plan.error_median,
+        "error_p99": plan.error_p99,
+        "bake_p95": plan.bake_p95,
+    });
+    let mut out = std::io::stdout().lock();
+    if options.json {
+        writeln!(out, "{report:#}")?;
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "read from file   {} of {} bytes, in {} chunks",
+        plan.file_bytes,
+        model.file_bytes(),
+        plan.chunk_count
+    )?;
+    writeln!(out, "per baked sky    at most {} bytes", plan.sky_bytes)?;
+    writeln!(
+        out,
+        "error of the fit median {:.2} %, p99 {:.2} % at altitudes and visibilities of the model",
+        100.0 * plan.error_median,
+        100.0 * plan.error_p99
+    )?;
+    writeln!(
+        out,
+        "added by baking  p95 at most {:.2} %",
+        100.0 * plan.bake_p95
+    )?;
+    Ok(())
+}
+
+/// One number or two.
+fn range(name: &str, text: &str) -> Result<[f64; 2]> {
+    let numbers = text.split(',').map(|part| part.trim().parse::<f64>());
+    match numbers
+        .collect::<std::result::Result<Vec<_>, _>>()
+        .as_deref()
+    {
+        Ok([value]) => Ok([*value, *value]),
+        Ok([low, high]) => Ok([*low, *high]),
+        _ => Err(Failure::message(format!(
+            "{name}: expected LOW,HIGH, got \"{text}\""
+        ))),
+    }
+}

@@ -1,0 +1,190 @@
+//! No more of a model than a scene needs.
+
+use crate::baked::largest_bytes;
+use crate::error::{Error, Result};
+use crate::format::{KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
+use crate::general::{Chunks, General, HeadView};
+use crate::model::{Key, Model};
+
+/// What the skies of a scene are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channels {
+    /// Radiance at the wavelengths of the model, or at any between them.
+    Spectral,
+    /// XYZ or RGB.
+    Colour,
+}
+
+/// The conditions that a scene can meet, and what it tolerates. Solar elevation and albedo are free: every chunk holds
+/// all of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// Lowest and highest altitude of observers, m.
+    pub altitude: [f64; 2],
+    /// Lowest and highest visibility, m.
+    pub visibility: [f64; 2],
+    /// Relative error that baking may add at 95 % of directions and channels.
+    pub tolerance: f64,
+    /// What skies are asked for.
+    pub channels: Channels,
+}
+
+/// What a scene needs of a model, and what it gets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    budget: Budget,
+    chunks: Vec<usize>,
+    /// Bytes of the file that are read, all in all: the head and the chunks.
+    pub file_bytes: usize,
+    /// Chunks that are read.
+    pub chunk_count: usize,
+    /// Most bytes that a baked sky of the scene holds.
+    pub sky_bytes: usize,
+    /// Largest median of the relative error of a chunk against its traced data.
+    pub error_median: f32,
+    /// Largest 99th percentile of the relative error of a chunk against its traced data. Between altitudes and
+    /// visibilities of the model errors are larger; the documentation of the model says how much.
+    pub error_p99: f32,
+    /// Relative error that baking adds at most at 95 % of directions and channels.
+    pub bake_p95: f64,
+}
+
+impl Plan {
+    /// The budget that it keeps.
+    pub fn budget(&self) -> &Budget {
+        &self.budget
+    }
+}
+
+impl Model {
+    /// Finds what a scene needs; reads nothing.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that is not positive,
+    /// [`Error::MissingChunk`] if the file lacks a chunk.
+    pub fn plan(&self, budget: &Budget) -> Result<Plan> {
+        let head = self.head();
+        check("altitude", budget.altitude, self.altitude_range())?;
+        check("visibility", budget.visibility, self.visibility_range())?;
+        let tolerance = [budget.tolerance, budget.tolerance];
+        check_range("tolerance", tolerance, [f64::MIN_POSITIVE, 1.0], "")?;
+        let altitudes = around(&head.altitudes, budget.altitude);
+        let visibilities = around(&head.visibilities, budget.visibility);
+        let mut keys: Vec<Key> = vec![(Kind::RadianceBasis, None, None)];
+        for a in altitudes {
+            keys.push((Kind::Column, Some(a), None));
+            keys.extend(
+                visibilities
+                    .clone()
+                    .map(|v| (Kind::Radiance, Some(a), Some(v))),
+            );
+        }
+        let chunks = keys
+            .into_iter()
+            .map(|(kind, a, v)| self.find(kind, a, v))
+            .collect::<Result<Vec<_>>>()?;
+        let entries = || chunks.iter().map(|&i| &self.directory()[i]);
+        let worst = |error: f32, other: f32| error.max(other);
+        Ok(Plan {
+            budget: *budget,
+            file_bytes: self.head_bytes() + entries().map(|entry| entry.length).sum::<usize>(),
+            chunk_count: chunks.len(),
+            sky_bytes: largest_bytes(budget.channels, head),
+            error_median: entries().map(|entry| entry.error_median).fold(0.0, worst),
+            error_p99: entries().map(|entry| entry.error_p99).fold(0.0, worst),
+            bake_p95: budget.tolerance,
+            chunks,
+        })
+    }
+
+    /// Reads and verifies what a plan of this model asks for, with as few requests as possible; after that no sky of
+    /// the scene reads anything.
+    ///
+    /// # Errors
+    /// [`Error::Read`], [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`].
+    pub fn load(&self, plan: &Plan) -> Result<()> {
+        self.load_chunks(&plan.chunks)
+    }
+
+    /// Prepares general queries within a plan of this model, and reads what they need.
+    ///
+    /// # Errors
+    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`General`].
+    pub fn general(&self, plan: &Plan) -> Result<General<'_>> {
+        self.load(plan)?;
+        let head = HeadView::new(self.front())?;
+        let mut chunks = Chunks::new(&head)?;
+        for &i in &plan.chunks {
+            let entry = &self.directory()[i];
+            let kind = match entry.kind {
+                Kind::Radiance => KIND_RADIANCE,
+                Kind::Column => KIND_COLUMN,
+                _ => KIND_RADIANCE_BASIS,
+            };
+            let place = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
+            chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
+        }
+        General::assemble(head, chunks)
+    }
+}
+
+/// The nodes that interpolation between two values touches: one more on either side of those around them.
+fn around(nodes: &[f64], [low, high]: [f64; 2]) -> std::ops::Range<usize> {
+    let last = nodes.len() - 1;
+    let below = nodes.partition_point(|&node| node <= low).max(1) - 1;
+    let above = nodes.partition_point(|&node| node < high).min(last);
+    if below >= above && nodes[above.min(below)] == low {
+        return below..below + 1;
+    }
+    below.saturating_sub(1)..(above + 1).min(last) + 1
+}
+
+fn check(parameter: &'static str, range: [f64; 2], of_model: [f64; 2]) -> Result<()> {
+    check_range(parameter, range, of_model, "m")
+}
+
+fn check_range(
+    parameter: &'static str,
+    [low, high]: [f64; 2],
+    [min, max]: [f64; 2],
+    unit: &'static str,
+) -> Result<()> {
+    let within = |v: f64| v >= min && v <= max;
+    if within(low) && within(high) && low <= high {
+        return Ok(());
+    }
+    Err(Error::OutOfRange {
+        parameter,
+        value: if within(low) { high } else { low },
+        min: if within(low) && within(high) {
+            low
+        } else {
+            min
+        },
+        max,
+        unit,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::around;
+
+    #[test]
+    fn nodes_around_ranges_are_those_of_the_interpolation() {
+        let nodes = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+        for (range, expected) in [
+            ([0.0, 0.0], 0..1),
+            ([2.0, 2.0], 2..3),
+            ([5.0, 5.0], 5..6),
+            ([2.5, 2.5], 1..5),
+            ([0.5, 0.5], 0..3),
+            ([4.5, 4.6], 3..6),
+            ([2.0, 3.0], 1..5),
+            ([0.0, 5.0], 0..6),
+        ] {
+            assert_eq!(around(&nodes, range), expected, "{range:?}");
+        }
+        assert_eq!(around(&[7.0], [7.0, 7.0]), 0..1);
+    }
+}

@@ -1,0 +1,217 @@
+//! The head of a file in place, also where only the head is there: what a query needs, checked so far that no query can go wrong.
+
+use zerocopy::FromBytes;
+use zerocopy::little_endian::{F32, F64, U32};
+
+use crate::axis::ElevationAxis;
+use crate::error::{Error, Result};
+use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
+use crate::geometry::Planet;
+
+/// Axes and tables, borrowed from the file. Format specification, sections 3 and 4.
+#[derive(Clone, Copy)]
+pub(crate) struct HeadView<'a> {
+    pub file_length: u64,
+    pub shape: Shape,
+    pub planet: Planet,
+    /// Intervals and exponent above and below the horizon.
+    pub alpha: [(usize, f64); 2],
+    pub phi_intervals: usize,
+    pub elevation: ElevationAxis,
+    pub wavelengths: &'a [F64],
+    pub altitudes: &'a [F64],
+    pub visibilities: &'a [F64],
+    /// `[visibility][constituent][wavelength]`.
+    pub extinction: &'a [F64],
+    /// `[visibility][wavelength]`.
+    pub spherical_albedo: &'a [F64],
+    /// `[field][wavelength]`.
+    pub phase_parameter: &'a [F64],
+    pub solar_axis: [f64; 2],
+    pub solar: &'a [F32],
+    pub fields: &'a [U32],
+    pub directory: &'a [RawEntry],
+}
+
+impl<'a> HeadView<'a> {
+    pub fn new(bytes: &'a [u8]) -> Result<Self> {
+        let (header, head) = split(bytes)?;
+        let n = |count: zerocopy::little_endian::U16| usize::from(count.get());
+        let (nw, nv, nk) = (
+            n(header.wavelengths),
+            n(header.visibilities),
+            n(header.constituents),
+        );
+        let nf = n(header.fields);
+        let mut rest = head;
+        let view = Self {
+            file_length: header.file_length.get(),
+            shape: Shape {
+                up: n(header.alpha_up_intervals) + 3,
+                down: n(header.alpha_down_intervals) + 3,
+                phi: n(header.phi_intervals) + 1,
+                elevation: n(header.elevation_intervals) + 3,
+                wavelengths: nw,
+                channels: nf * nw,
+                constituents: nk,
+            },
+            planet: Planet {
+                radius: header.planet_radius.get(),
+                top: header.top_altitude.get(),
+            },
+            alpha: [
+                (n(header.alpha_up_intervals), header.alpha_up_exponent.get()),
+                (
+                    n(header.alpha_down_intervals),
+                    header.alpha_down_exponent.get(),
+                ),
+            ],
+            phi_intervals: n(header.phi_intervals),
+            elevation: ElevationAxis {
+                min: header.elevation_min.get(),
+                max: header.elevation_max.get(),
+                centre: header.elevation_centre.get(),
+                width: header.elevation_width.get(),
+                intervals: n(header.elevation_intervals),
+            },
+            wavelengths: take(&mut rest, nw)?,
+            altitudes: take(&mut rest, n(header.altitudes))?,
+            visibilities: take(&mut rest, nv)?,
+            extinction: take(&mut rest, nv * nk * nw)?,
+            spherical_albedo: take(&mut rest, nv * nw)?,
+            phase_parameter: take(&mut rest, nf * nw)?,
+            solar_axis: {
+                let _xyz: &[F64] = take(&mut rest, 3 * nw)?;
+                let axis: &[F64] = take(&mut rest, 2)?;
+                [axis[0].get(), axis[1].get()]
+            },
+            solar: take(&mut rest, n(header.solar_samples))?,
+            fields: take(&mut rest, nf)?,
+            directory: {
+                let _metadata: &[u8] = take(&mut rest, header.metadata_length.get() as usize)?;
+                let used = head.len() - rest.len();
+                let _padding: &[u8] = take(&mut rest, used.next_multiple_of(8) - used)?;
+                take(&mut rest, header.chunk_count.get() as usize)?
+            },
+        };
+        view.check()?;
+        Ok(view)
+    }
+
+    fn check(&self) -> Result<()> {
+        let Shape {
+            wavelengths,
+            constituents,
+            channels,
+            ..
+        } = self.shape;
+        let counts = wavelengths >= 2
+            && constituents >= 1
+            && channels >= wavelengths
+            && !self.altitudes.is_empty()
+            && !self.visibilities.is_empty()
+            && self.solar.len() >= 2
+            && [
+                self.alpha[0].0,
+                self.alpha[1].0,
+                self.phi_intervals,
+                self.elevation.intervals,
+            ]
+            .iter()
+            .all(|&n| n >= 1);
+        if !counts {
+            return Err(Error::invalid("header", "a count is zero"));
+        }
+        for (what, axis) in [
+            ("wavelength", self.wavelengths),
+            ("altitude", self.altitudes),
+            ("visibility", self.visibilities),
+        ] {
+            let finite = axis.iter().all(|v| v.get().is_finite() && v.get() >= 0.0);
+            let rising = axis.windows(2).all(|pair| pair[0].get() < pair[1].get());
+            if !finite || !rising {
+                return Err(Error::invalid(what, "must be finite and increase strictly"));
+            }
+        }
+        self.check_scalars()
+    }
+
+    fn check_scalars(&self) -> Result<()> {
+        let e = &self.elevation;
+        let within = |v: f64, low: f64, high: f64| v.is_finite() && v >= low && v <= high;
+        let sound = within(self.planet.radius, 1e3, 1e9)
+            && within(self.planet.top, 0.0, 1e9)
+            && self
+                .alpha
+                .iter()
+                .all(|&(_, exponent)| within(exponent, 1.0, 8.0))
+            && within(e.min, -1.6, e.max)
+            && within(e.max, e.min, 1.6)
+            && within(e.centre, -1.6, 1.6)
+            && within(e.width, 1e-6, 1e6)
+            && within(self.solar_axis[0], 0.0, 1e6)
+            && within(self.solar_axis[1], 1e-3, 1e6);
+        match sound {
+            true => Ok(()),
+            false => Err(Error::invalid("header", "a number is out of its range")),
+        }
+    }
+}
+
+/// The header and what follows it up to the end of the head, after comparing lengths and checksum.
+fn split(bytes: &[u8]) -> Result<(&Header, &[u8])> {
+    let known = bytes.len().min(MAGIC.len());
+    if bytes.is_empty() || bytes[..known] != MAGIC[..known] {
+        return Err(Error::NotWelkin);
+    }
+    let short = |expected: u64| Error::Length {
+        what: "file (is it truncated?)",
+        expected,
+        got: bytes.len() as u64,
+    };
+    let (header, _) =
+        Header::ref_from_prefix(bytes).map_err(|_| short(size_of::<Header>() as u64))?;
+    let got = header.version_major.get();
+    if got != VERSION_MAJOR {
+        let expected = VERSION_MAJOR;
+        return Err(Error::Version { expected, got });
+    }
+    match header.required_features.get() {
+        0 => {}
+        bits => return Err(Error::Feature { bits }),
+    }
+    let length = header.head_length.get();
+    let head = usize::try_from(length).ok().and_then(|n| bytes.get(..n));
+    let head = head.filter(|head| head.len() >= size_of::<Header>());
+    let head = head.ok_or_else(|| short(length))?;
+    let expected = header.head_crc32.get();
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(&head[..CRC_RANGE.start]);
+    hasher.update(&[0; 4]);
+    hasher.update(&head[CRC_RANGE.end..]);
+    let got = hasher.finalize();
+    if got != expected {
+        return Err(Error::Checksum {
+            chunk: None,
+            expected,
+            got,
+        });
+    }
+    Ok((header, &head[size_of::<Header>()..]))
+}
+
+fn take<'a, T>(rest: &mut &'a [u8], n: usize) -> Result<&'a [T]>
+where
+    T: FromBytes + zerocopy::Immutable + zerocopy::KnownLayout + zerocopy::Unaligned,
+{
+    let got = rest.len() as u64;
+    let (taken, tail) = <[T]>::ref_from_prefix_with_elems(rest, n).map_err(|_| Error::Length {
+        what: "head",
+        expected: (n * size_of::<T>()) as u64,
+        got,
+    })?;
+    *rest = tail;
+    Ok(taken)
+}
+
+const _: () = assert!(size_of::<RawEntry>() == ENTRY_LENGTH);

@@ -1,0 +1,115 @@
+//! Plans promise no less than scenes use.
+
+mod common;
+
+use proptest::prelude::*;
+use welkin::{Budget, Channels, Conditions, Error, Model};
+
+fn budget(altitude: [f64; 2], visibility: [f64; 2]) -> Budget {
+    Budget {
+        altitude,
+        visibility,
+        tolerance: 0.01,
+        channels: Channels::Spectral,
+    }
+}
+
+fn sorted(a: f64, b: f64) -> [f64; 2] {
+    [a.min(b), a.max(b)]
+}
+
+proptest! {
+    #[test]
+    fn scenes_read_what_was_planned_and_no_more(
+        (a, b) in (0.0..2000.0f64, 0.0..2000.0f64),
+        (v, w) in (20e3..131.8e3f64, 20e3..131.8e3f64),
+        places in prop::collection::vec((0.0..=1.0f64, 0.0..=1.0f64), 1..8),
+    ) {
+        let model = Model::stream(common::model_bytes()).unwrap();
+        let plan = model.plan(&budget(sorted(a, b), sorted(v, w))).unwrap();
+        prop_assert_eq!(model.touched_bytes(), model.head_bytes());
+        model.load(&plan).unwrap();
+        prop_assert_eq!(model.touched_bytes(), plan.file_bytes);
+        let requests = model.traffic().requests;
+        let general = model.general(&plan).unwrap();
+        for (s, t) in places {
+            let ([low, high], [hazy, clear]) = (sorted(a, b), sorted(v, w));
+            let conditions = Conditions {
+                altitude: low + s * (high - low),
+                visibility: hazy + t * (clear - hazy),
+                ..Conditions::default()
+            };
+            let sky = model.sky(&conditions).unwrap();
+            let (mut got, mut expected) = (vec![0.0; 6], vec![0.0; 6]);
+            general.radiance(&conditions, [0.2, 0.1, 0.3], &mut got).unwrap();
+            sky.radiance([0.2, 0.1, 0.3], &mut expected).unwrap();
+            for (got, expected) in got.iter().zip(&expected) {
+                prop_assert!((got - expected).abs() <= 3e-5 * expected, "{got} {expected}");
+            }
+        }
+        prop_assert_eq!(model.touched_bytes(), plan.file_bytes);
+        prop_assert_eq!(model.traffic().requests, requests);
+    }
+}
+
+#[test]
+fn bad_budgets_are_typed_errors() {
+    let model = Model::from_bytes(common::model_bytes()).unwrap();
+    let sound = budget([0.0, 100.0], [20e3, 30e3]);
+    for broken in [
+        budget([100.0, 0.0], [20e3, 30e3]),
+        budget([0.0, 1e6], [20e3, 30e3]),
+        budget([0.0, f64::NAN], [20e3, 30e3]),
+        budget([0.0, 100.0], [1e3, 30e3]),
+        Budget {
+            tolerance: 0.0,
+            ..sound
+        },
+        Budget {
+            tolerance: f64::NAN,
+            ..sound
+        },
+    ] {
+        assert!(
+            matches!(model.plan(&broken), Err(Error::OutOfRange { .. })),
+            "{broken:?}"
+        );
+    }
+}
+
+#[test]
+#[cfg(feature = "default-model")]
+fn baked_skies_keep_the_promises_of_the_plan() {
+    let model = Model::default_model().unwrap();
+    for tolerance in [0.01, 0.0025, 0.0012] {
+        for channels in [Channels::Spectral, Channels::Colour] {
+            let plan = model
+                .plan(&Budget {
+                    tolerance,
+                    channels,
+                    ..budget([0.0, 0.0], [59.4e3, 59.4e3])
+                })
+                .unwrap();
+            assert!(plan.error_p99 > 0.0 && plan.file_bytes < model.file_bytes() / 10);
+            for elevation in [-3.0f64, 4.0, 60.0] {
+                let conditions = Conditions {
+                    solar_elevation: elevation.to_radians(),
+                    ..Conditions::default()
+                };
+                let sky = model.sky(&conditions).unwrap();
+                let (bytes, error) = match channels {
+                    Channels::Spectral => sky
+                        .bake(tolerance)
+                        .map(|b| (b.bytes(), b.bake_error()))
+                        .unwrap(),
+                    Channels::Colour => sky
+                        .bake_colour(tolerance)
+                        .map(|b| (b.bytes(), b.bake_error()))
+                        .unwrap(),
+                };
+                assert!(bytes <= plan.sky_bytes, "{bytes} {plan:?}");
+                assert!(error.p95 <= plan.bake_p95);
+            }
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Queries without preparation give what prepared skies give.
+
+mod common;
+
+use proptest::prelude::*;
+use welkin::{Conditions, Error, General, Model};
+
+fn bits_of(error: &Error) -> String {
+    error.to_string()
+}
+
+proptest! {
+    #[test]
+    fn general_queries_agree_with_skies(
+        altitude in prop_oneof![Just(0.0), Just(120.0), Just(2000.0), 0.0..2000.0f64],
+        visibility in prop_oneof![Just(59.4e3), Just(20e3), Just(131.8e3), 20e3..131.8e3f64],
+        albedo in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64],
+        elevation in -4.2..90.0f64,
+        solar_azimuth in -7.0..7.0f64,
+        direction in prop::array::uniform3(-1.0..1.0f32),
+        bytes in prop::sample::select(vec![common::model_bytes(), common::wide_bytes(), common::long_bytes()]),
+    ) {
+        let general = General::new(&bytes).unwrap();
+        general.verify(&bytes).unwrap();
+        let model = Model::from_bytes(bytes.clone()).unwrap();
+        let solar_elevation = elevation.to_radians();
+        let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
+        let sky = model.sky(&conditions).unwrap();
+        let n = general.wavelengths().len();
+        let (mut got, mut expected, mut zenith) = (vec![f32::NAN; n], vec![f32::NAN; n], vec![f32::NAN; n]);
+        general.radiance(&conditions, direction, &mut got).unwrap();
+        sky.radiance(direction, &mut expected).unwrap();
+        sky.radiance([0.0, 0.0, 1.0], &mut zenith).unwrap();
+        for i in 0..n {
+            let allowed = (3e-5 * expected[i]).max(1e-7 * zenith[i]);
+            prop_assert!((got[i] - expected[i]).abs() <= allowed, "{} {}", got[i], expected[i]);
+        }
+    }
+
+    #[test]
+    fn any_conditions_and_directions_give_numbers_or_the_errors_of_skies(
+        [solar_elevation, solar_azimuth, visibility, albedo, altitude] in prop::array::uniform5(prop_oneof![any::<f64>(), -1.0..2e5f64]),
+        direction in prop::array::uniform3(any::<f32>()),
+    ) {
+        let bytes = common::model_bytes();
+        let general = General::new(&bytes).unwrap();
+        let model = Model::from_bytes(bytes.clone()).unwrap();
+        let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
+        let mut out = vec![f32::NAN; general.wavelengths().len()];
+        let got = general.radiance(&conditions, direction, &mut out);
+        let expected = model.sky(&conditions).and_then(|sky| sky.radiance(direction, &mut out.clone()));
+        match (&got, &expected) {
+            (Ok(()), Ok(())) => prop_assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0)),
+            (Err(got), Err(expected)) => prop_assert_eq!(bits_of(got), bits_of(expected)),
+            _ => prop_assert!(false, "{got:?} {expected:?}"),
+        }
+    }
+
+    #[test]
+    fn damaged_files_never_panic(place in any::<prop::sample::Index>(), bit in 0..8u32, refresh in any::<bool>()) {
+        let original = common::model_bytes();
+        let mut bytes = original.clone();
+        let place = place.index(bytes.len());
+        bytes[place] ^= 1 << bit;
+        if refresh {
+            common::seal(&mut bytes, &original);
+        }
+        if let Ok(general) = General::new(&bytes) {
+            let mut out = vec![f32::NAN; general.wavelengths().len()];
+            for z in [-0.5, 0.1, 1.0] {
+                for altitude in [0.0, 500.0] {
+                    let conditions = Conditions { altitude, ..Conditions::default() };
+                    if general.radiance(&conditions, [0.3, 0.2, z], &mut out).is_ok() {
+                        prop_assert!(out.iter().all(|l| l.is_finite()), "{out:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn missing_chunks_and_wrong_lengths_are_typed_errors() {
+    let head = common::head(&[0.0, 120.0, 1000.0], &[20e3, 59.4e3]);
+    let mut chunks = common::chunks(&head);
+    chunks.retain(|c| c.altitude != Some(1));
+    let bytes = welkin::format::encode(&head, &chunks).unwrap();
+    let general = General::new(&bytes).unwrap();
+    let mut out = vec![0.0; general.wavelengths().len()];
+    let conditions = Conditions::default();
+    general
+        .radiance(&conditions, [0.0, 0.0, 1.0], &mut out)
+        .unwrap();
+    let wrong = general.radiance(&conditions, [0.0, 0.0, 1.0], &mut out[1..]);
+    assert!(matches!(wrong, Err(Error::Length { .. })));
+    let above = Conditions {
+        altitude: 60.0,
+        ..conditions
+    };
+    let missing = general.radiance(&above, [0.0, 0.0, 1.0], &mut out);
+    assert!(matches!(
+        missing,
+        Err(Error::MissingChunk {
+            altitude: Some(120.0),
+            ..
+        })
+    ));
+    assert!(matches!(General::new(b""), Err(Error::NotWelkin)));
+    assert!(matches!(
+        General::new(&bytes[..bytes.len() - 1]),
+        Err(Error::Length { .. })
+    ));
+    let mut damaged = bytes.clone();
+    *damaged.last_mut().unwrap() ^= 1;
+    let general = General::new(&damaged).unwrap();
+    assert!(matches!(
+        general.verify(&damaged),
+        Err(Error::Checksum { .. })
+    ));
+}
