@@ -2,20 +2,23 @@
 
 use std::time::Instant;
 
-/// Repetitions.
-const ROUNDS: usize = 41;
+/// Rounds of a comparison.
+const ROUNDS: usize = 201;
 
-/// Median times of one of `queries` queries of `ours` and of `peer`, ns.
-pub fn duel(queries: usize, mut ours: impl FnMut(), mut peer: impl FnMut()) -> [f64; 2] {
+/// Median times of one of the `queries` of a round of `ours` and of `peer`, ns.
+///
+/// Rounds should be short against the time slices of the system: then few are interrupted, and the median is none of
+/// those. Both get the number of their round.
+pub fn duel(queries: usize, mut ours: impl FnMut(usize), mut peer: impl FnMut(usize)) -> [f64; 2] {
     let mut times = [Vec::new(), Vec::new()];
-    for _ in 0..ROUNDS {
-        times[0].push(once(&mut ours));
-        times[1].push(once(&mut peer));
+    for round in 0..ROUNDS {
+        times[0].push(once(|| ours(round)));
+        times[1].push(once(|| peer(round)));
     }
     times.map(|times| median(times) * 1e9 / queries as f64)
 }
 
-fn once(work: &mut impl FnMut()) -> f64 {
+fn once(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64()

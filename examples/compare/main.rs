@@ -11,20 +11,30 @@ mod report;
 mod texture;
 
 use std::hint::black_box;
+use std::ops::Range;
 
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use paper::{Cell, Paper};
 use random::{Sequence, p95, sphere};
 use report::Row;
 use texture::Texture;
-use welkin::{BakedColour, BakedSky, Conditions, Directions, Model, Result, Sky};
+use welkin::{BakedColour, BakedSky, Conditions, Directions, General, Model, Result, Sky};
 
 const QUERIES: usize = 8192;
+/// Queries of one round.
+const ROUND: usize = 256;
+
+/// The queries of a round.
+fn span(round: usize) -> Range<usize> {
+    let first = round * ROUND % QUERIES;
+    first..first + ROUND
+}
 
 fn main() -> Result<()> {
     let json = std::env::args().any(|argument| argument == "--json");
     let scene = Scene::new()?;
     let mut rows = scene.prepared()?;
+    rows.push(scene.general()?);
     rows.extend(scene.preparation()?);
     match json {
         true => println!("{}", report::json(&rows)),
@@ -90,8 +100,8 @@ impl Scene {
         let paper_error = p95(paper_spectra.into_iter().zip(truth.iter().copied()));
         let mut out = vec![0.0; n];
         let mut peer_out = vec![0.0; n];
-        let mut paper_all = || {
-            for &d in &self.directions {
+        let mut paper_all = |round| {
+            for &d in &self.directions[span(round)] {
                 paper.radiance(0, &self.conditions, black_box(d), &mut peer_out);
                 black_box(&peer_out);
             }
@@ -104,33 +114,38 @@ impl Scene {
             p95_error: [Some(spectral_error), Some(paper_error)],
             bytes: [bytes, paper.bytes()],
         };
-        let batch = || {
+        let batch = |round| {
             self.spectral
-                .radiance_batch(black_box(&directions), &mut spectra)
+                .radiance_batch(&self.part(round), &mut spectra[..n * ROUND])
         };
-        let batch = clock::duel(QUERIES, unwrapped(batch), &mut paper_all);
-        let single = || {
+        let batch = clock::duel(ROUND, unwrapped(batch), &mut paper_all);
+        let single = |round| {
             let mut ask = |d| self.spectral.radiance(black_box(d), &mut out);
-            self.directions.iter().try_for_each(|&d| ask(d))
+            self.directions[span(round)]
+                .iter()
+                .try_for_each(|&d| ask(d))
         };
-        let single = clock::duel(QUERIES, unwrapped(single), &mut paper_all);
+        let single = clock::duel(ROUND, unwrapped(single), &mut paper_all);
         let heroes = self.heroes();
         let mut four = vec![[0.0; 4]; QUERIES];
-        let hero = || {
+        self.spectral.hero_batch(&directions, &heroes, &mut four)?;
+        let hero_error = self.hero_error(&heroes, &four)?;
+        let hero = |round| {
+            let (part, span) = (self.part(round), span(round));
             self.spectral
-                .hero_batch(black_box(&directions), &heroes, &mut four)
+                .hero_batch(&part, &heroes[span], &mut four[..ROUND])
         };
-        let hero = clock::duel(QUERIES, unwrapped(hero), &mut paper_all);
+        let hero = clock::duel(ROUND, unwrapped(hero), &mut paper_all);
         let mut rows = vec![
             paper_row("prepared_spectral_batch", batch),
             paper_row("prepared_spectral_single", single),
             Row {
-                p95_error: [Some(self.hero_error(&heroes, &four)?), Some(paper_error)],
+                p95_error: [Some(hero_error), Some(paper_error)],
                 ..paper_row("prepared_hero_batch", hero)
             },
         ];
         rows.extend(self.colours(&directions)?);
-        rows.push(self.floor(&directions, spectral_error)?);
+        rows.push(self.floor(spectral_error)?);
         Ok(rows)
     }
 
@@ -143,8 +158,8 @@ impl Scene {
         })
         .expect("within the range of Hosek-Wilkie");
         let sun = self.sky.sun_direction();
-        let mut peer = || {
-            for &d in &self.directions {
+        let mut peer = |round| {
+            for &d in &self.directions[span(round)] {
                 let [x, y, z] = black_box(d);
                 let theta = z.max(0.0).acos();
                 let gamma = (x * sun[0] + y * sun[1] + z * sun[2])
@@ -161,20 +176,22 @@ impl Scene {
             pairs.extend(got.into_iter().zip(self.sky.xyz(d)?));
         }
         let error = p95(pairs.into_iter());
-        let batch = || {
-            self.colour
-                .linear_srgb_batch(black_box(directions), &mut rgb)
+        let batch = |round| {
+            let part = self.part(round);
+            self.colour.linear_srgb_batch(&part, &mut rgb[..ROUND])
         };
-        let batch = clock::duel(QUERIES, unwrapped(batch), &mut peer);
-        let single = || {
+        let batch = clock::duel(ROUND, unwrapped(batch), &mut peer);
+        let single = |round| {
             let ask = |d| {
                 self.colour
                     .linear_srgb(black_box(d))
                     .map(|c| _ = black_box(c))
             };
-            self.directions.iter().try_for_each(|&d| ask(d))
+            self.directions[span(round)]
+                .iter()
+                .try_for_each(|&d| ask(d))
         };
-        let single = clock::duel(QUERIES, unwrapped(single), &mut peer);
+        let single = clock::duel(ROUND, unwrapped(single), &mut peer);
         let row = |name, ns| Row {
             name,
             peer: "hw-skymodel, RGB",
@@ -189,7 +206,7 @@ impl Scene {
     }
 
     /// Against the least that a renderer could do.
-    fn floor(&self, directions: &Directions, error: f64) -> Result<Row> {
+    fn floor(&self, error: f64) -> Result<Row> {
         let texture = Texture::<12>::new(&self.sky, |sky, d| {
             let mut spectrum = [0.0; 12];
             sky.radiance(d, &mut spectrum)
@@ -200,49 +217,97 @@ impl Scene {
         let nearest = self.directions.iter().flat_map(|&d| texture.at(d));
         let texture_error = p95(nearest.zip(truth));
         let mut spectra = vec![0.0; self.sky.wavelengths().len() * QUERIES];
-        let ours = || {
+        let n = self.sky.wavelengths().len();
+        let ours = |round| {
+            let part = self.part(round);
             self.spectral
-                .radiance_batch(black_box(directions), &mut spectra)
+                .radiance_batch(&part, &mut spectra[..n * ROUND])
         };
-        let peer = || {
-            for &d in &self.directions {
+        let peer = |round| {
+            for &d in &self.directions[span(round)] {
                 black_box(texture.at(black_box(d)));
             }
         };
         Ok(Row {
             name: "prepared_spectral_batch_floor",
             peer: "texture 512 x 256, nearest pixel",
-            ns: clock::duel(QUERIES, unwrapped(ours), peer),
+            ns: clock::duel(ROUND, unwrapped(ours), peer),
             p95_error: [Some(error), Some(texture_error)],
             bytes: [self.spectral.bytes(), texture.bytes()],
         })
     }
 
+    /// Everything random: ours anywhere in the model, the paper's scheme in copies of one cell of its grid.
+    fn general(&self) -> Result<Row> {
+        let general = General::new(welkin::DEFAULT_MODEL)?;
+        let paper = Paper::fit(&self.model, cell())?;
+        let n = self.sky.wavelengths().len();
+        let mut sequence = Sequence::<4>::new();
+        let places: Vec<_> = (0..QUERIES).map(|_| sequence.next()).collect();
+        let anywhere: Vec<_> = places
+            .iter()
+            .map(|&p| random::conditions(&self.model, p))
+            .collect();
+        let inside: Vec<_> = places.iter().map(|&p| cell().inside(p)).collect();
+        let (mut got, mut peer) = (Vec::new(), Vec::new());
+        let [mut out, mut truth] = [vec![0.0; n], vec![0.0; n]];
+        for i in (0..QUERIES).step_by(41) {
+            let d = self.directions[i];
+            general.radiance(&anywhere[i], d, &mut out)?;
+            self.model.sky(&anywhere[i])?.radiance(d, &mut truth)?;
+            got.extend(out.iter().copied().zip(truth.iter().copied()));
+            paper.radiance(i, &inside[i], d, &mut out);
+            self.model.sky(&inside[i])?.radiance(d, &mut truth)?;
+            peer.extend(out.iter().copied().zip(truth.iter().copied()));
+        }
+        let mut spectrum = out.clone();
+        let ours = |round| {
+            let mut ask = |i: usize| {
+                general.radiance(black_box(&anywhere[i]), self.directions[i], &mut spectrum)
+            };
+            span(round).try_for_each(&mut ask)
+        };
+        let peer_queries = |round| {
+            for i in span(round) {
+                // A step that visits all copies in no order that a cache knows.
+                paper.radiance(i * 89, black_box(&inside[i]), self.directions[i], &mut out);
+                black_box(&out);
+            }
+        };
+        Ok(Row {
+            name: "general_spectral",
+            peer: "paper's scheme, all random",
+            ns: clock::duel(ROUND, unwrapped(ours), peer_queries),
+            p95_error: [Some(p95(got.into_iter())), Some(p95(peer.into_iter()))],
+            bytes: [welkin::DEFAULT_MODEL.len(), paper.bytes()],
+        })
+    }
+
     fn preparation(&self) -> Result<Vec<Row>> {
-        let whole = || {
+        let whole = |_| {
             let model = Model::from_bytes(welkin::DEFAULT_MODEL)?;
             model.verify()
         };
         let open = clock::duel(
             1,
-            unwrapped(|| Model::default_model().map(drop)),
+            unwrapped(|_| Model::default_model().map(drop)),
             unwrapped(whole),
         );
-        let fresh = || -> Result<()> {
+        let fresh = |_| -> Result<()> {
             let model = Model::default_model()?;
             let sky = model.sky(&self.conditions)?.bake(BakedSky::TOLERANCE)?;
             black_box(sky.radiance([0.0, 0.0, 1.0], &mut [0.0; 12]))
         };
-        let colour = || -> Result<()> {
+        let colour = |_| -> Result<()> {
             let model = Model::default_model()?;
             let sky = model
                 .sky(&self.conditions)?
                 .bake_colour(BakedSky::TOLERANCE)?;
             black_box(sky.xyz([0.0, 0.0, 1.0])).map(drop)
         };
-        let picture = || {
+        let picture = |_| {
             let pixel = |sky: &Sky, d| sky.xyz(d).expect("a direction");
-            drop(black_box(Texture::<3>::new(&self.sky, pixel)));
+            drop(black_box(Texture::<3>::with_height(&self.sky, 64, pixel)));
         };
         let row = |name, peer, ns, bytes| Row {
             name,
@@ -251,17 +316,17 @@ impl Scene {
             p95_error: [None, None],
             bytes,
         };
-        let picture_bytes = 512 * 256 * 12;
+        let picture_bytes = 128 * 64 * 12;
         Ok(vec![
             row(
                 "prepare",
-                "rendering a texture 512 x 256",
+                "rendering a texture 128 x 64",
                 clock::duel(1, unwrapped(fresh), picture),
                 [self.spectral.bytes(), picture_bytes],
             ),
             row(
                 "prepare_rgb",
-                "rendering a texture 512 x 256",
+                "rendering a texture 128 x 64",
                 clock::duel(1, unwrapped(colour), picture),
                 [self.colour.bytes(), picture_bytes],
             ),
@@ -272,6 +337,17 @@ impl Scene {
                 [self.model.head_bytes(), welkin::DEFAULT_MODEL.len()],
             ),
         ])
+    }
+
+    /// The directions of a round.
+    fn part(&self, round: usize) -> Directions<'_> {
+        let [x, y, z] = &self.components;
+        let span = span(round);
+        black_box(Directions {
+            x: &x[span.clone()],
+            y: &y[span.clone()],
+            z: &z[span],
+        })
     }
 
     fn spectra(&self, mut ask: impl FnMut([f32; 3], &mut [f32]) -> Result<()>) -> Result<Vec<f32>> {
@@ -303,6 +379,6 @@ impl Scene {
     }
 }
 
-fn unwrapped(mut work: impl FnMut() -> Result<()>) -> impl FnMut() {
-    move || work().expect("valid queries")
+fn unwrapped(mut work: impl FnMut(usize) -> Result<()>) -> impl FnMut(usize) {
+    move |round| work(round).expect("valid queries")
 }

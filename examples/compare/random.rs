@@ -1,5 +1,7 @@
 //! The same questions in every run.
 
+use welkin::{Conditions, Model};
+
 /// Numbers in 0..1 that fill their space evenly (the R sequence of Roberts).
 pub struct Sequence<const N: usize> {
     state: [f64; N],
@@ -31,6 +33,18 @@ pub fn sphere([a, b]: [f64; 2]) -> [f32; 3] {
     let r = (1.0 - z * z).sqrt();
     let (y, x) = (std::f64::consts::TAU * b).sin_cos();
     [r * x, r * y, z].map(|v| v as f32)
+}
+
+/// Conditions anywhere in the model.
+pub fn conditions(model: &Model, [a, b, c, d]: [f64; 4]) -> Conditions {
+    let between = |[low, high]: [f64; 2], t: f64| low + t * (high - low);
+    Conditions {
+        solar_elevation: between(model.solar_elevation_range(), a),
+        solar_azimuth: 0.0,
+        visibility: between(model.visibility_range(), b),
+        albedo: c,
+        altitude: between(model.altitude_range(), d),
+    }
 }
 
 /// 95th percentile of relative errors, nothing excluded.
