@@ -1,0 +1,47 @@
+"""Interpolation between wavelengths (section 7.3)."""
+
+import numpy as np
+
+from ._axes import linear_weights, node_weights
+from .errors import RangeError
+
+
+class Wavelengths:
+    """The wavelengths of a file and its solar spectrum."""
+
+    def __init__(self, head):
+        self.nodes = head.wavelength
+        self._irradiance = head.solar_irradiance
+        self._grid = head.solar_start + head.solar_step * np.arange(len(head.solar_irradiance))
+
+    def clamp(self, wavelength):
+        """Wavelengths as an array (W,), excess by rounding removed. Raises RangeError."""
+        wavelength = np.atleast_1d(np.asarray(wavelength, dtype=np.float64))
+        if wavelength.ndim != 1:
+            raise RangeError("wavelength must be a number or one-dimensional")
+        low, high = self.nodes[0], self.nodes[-1]
+        slack = 1e-9
+        if not np.all((wavelength >= low * (1 - slack)) & (wavelength <= high * (1 + slack))):
+            raise RangeError(f"wavelength outside {low:g} to {high:g} nm")
+        return np.clip(wavelength, low, high)
+
+    def irradiance(self, wavelength):
+        """Solar spectral irradiance (W,), W m⁻² nm⁻¹."""
+        return np.interp(wavelength, self._grid, self._irradiance)
+
+    def weights(self, wavelength):
+        """Cubic weights of the nodes: (W, nw)."""
+        return np.stack([node_weights(self.nodes, x) for x in wavelength])
+
+    def interpolate_radiance(self, radiance, wavelength):
+        """Radiance (N, nw) at wavelengths (W,): (N, W). Logarithmic, linear next to zeros."""
+        columns = []
+        for x in wavelength:
+            weights = node_weights(self.nodes, x)
+            used = np.flatnonzero(weights)
+            values = radiance[:, used]
+            dark = np.any(values == 0.0, axis=1)
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                smooth = np.exp(np.log(values) @ weights[used])
+            columns.append(np.where(dark, radiance @ linear_weights(self.nodes, x), smooth))
+        return np.stack(columns, axis=1)
