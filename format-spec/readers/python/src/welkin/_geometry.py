@@ -41,6 +41,11 @@ def elevation_of(units):
     return np.arctan2(units[:, 2], np.hypot(units[:, 0], units[:, 1]))
 
 
+def horizon_dip(planet_radius, altitude):
+    """Angle of the geometric horizon below the horizontal, rad."""
+    return np.arctan(np.sqrt(altitude * (2.0 * planet_radius + altitude)) / planet_radius)
+
+
 @dataclass(frozen=True)
 class Observer:
     """An observer above a planet. Lengths in metres."""
@@ -52,8 +57,7 @@ class Observer:
     @property
     def dip(self):
         """Angle of the geometric horizon below the horizontal, rad."""
-        h, radius = self.altitude, self.planet_radius
-        return np.arctan(np.sqrt(h * (2.0 * radius + h)) / radius)
+        return horizon_dip(self.planet_radius, self.altitude)
 
     def ray_length(self, elevation, is_up):
         """Distance (N,) to the top of the atmosphere, or to the ground where `is_up` is false."""

@@ -201,7 +201,7 @@ def _check_header_values(header, counts):
     require(coefficients <= MAX_COEFFICIENTS, "too many coefficients of a sky")
 
 
-class _Cursor:
+class Cursor:
     """Takes arrays from the front of bytes."""
 
     def __init__(self, data, offset):
@@ -217,7 +217,7 @@ class _Cursor:
 
 def _read_arrays(data, counts, metadata_length):
     nw, na, nv, nf, nk = (counts[name] for name in ("nw", "na", "nv", "nf", "nk"))
-    cursor = _Cursor(data, HEADER_LENGTH)
+    cursor = Cursor(data, HEADER_LENGTH)
     arrays = {
         "wavelength": cursor.take("<f8", nw),
         "altitude": cursor.take("<f8", na),
@@ -330,13 +330,11 @@ def _check_index(index, present, count, name):
 
 def _check_ranks(chunks):
     """Compares the ranks of chunks with that of their basis, where it exists."""
-    radiance = chunks.get((RADIANCE_BASIS, NONE, NONE))
-    polarisation = chunks.get((POLARISATION_BASIS, NONE, NONE))
-    for entry in chunks.values():
-        if entry.kind == RADIANCE and radiance:
-            require(entry.rank <= radiance.rank, "rank of a chunk above that of the basis")
-        if entry.kind == POLARISATION and polarisation:
-            require(entry.rank == polarisation.rank, "rank of a chunk is not that of the basis")
+    for kind, basis_kind in ((RADIANCE, RADIANCE_BASIS), (POLARISATION, POLARISATION_BASIS)):
+        basis = chunks.get((basis_kind, NONE, NONE))
+        for entry in chunks.values():
+            if basis and entry.kind == kind:
+                require(entry.rank <= basis.rank, "rank of a chunk above that of its basis")
 
 
 def payload_length(kind, rank, counts):

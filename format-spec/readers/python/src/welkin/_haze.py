@@ -1,0 +1,292 @@
+"""Light that the air of segments scatters towards the observer (sections 6.5, 6.8 and 7.7)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _head
+from ._air import altitude_on_line, path_integrals, profile_at
+from ._axes import linear_weights, node_weights
+from ._geometry import horizon_dip, sun_vector
+from ._head import PHASE_RAYLEIGH, check_phase, require, require_increasing, require_within
+from ._phase import Angle, phase_function
+
+SOLAR_RADIUS = 0.004654793
+TENSOR = 4
+_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
+
+
+@dataclass(frozen=True)
+class Source:
+    """Source function at one visibility (6.5), the core with its scale."""
+
+    phase: tuple
+    parameter: np.ndarray
+    scattering: np.ndarray
+    level: np.ndarray
+    core: np.ndarray
+
+
+@dataclass(frozen=True)
+class SourceBasis:
+    """What all source chunks share (6.8)."""
+
+    ranks: tuple
+    orders: int
+    degree: int
+    altitude: np.ndarray
+    sun: np.ndarray
+    altitude_factor: np.ndarray
+    sun_factor: np.ndarray
+    moment_factor: np.ndarray
+    channel_factor: np.ndarray
+
+
+def decode_source(payload, entry, head):
+    nw, nk = head.counts["nw"], head.counts["nk"]
+    species, suns = map(int, payload.take("<u4", 2))
+    ranks = _take_ranks(payload)
+    require(1 <= species <= 16, "species outside 1 to 16")
+    require(2 <= suns <= 256, "suns outside 2 to 256")
+    scale = float(payload.take("<f4", 1)[0])
+    payload.take("<u4", 1)
+    phase = tuple(int(code) for code in payload.take("<u4", species))
+    parameter = payload.take("<f4", species, nw).astype(np.float64)
+    scattering = payload.take("<f4", species, nk, nw).astype(np.float64)
+    level = payload.take("<f4", 2, suns, nw).astype(np.float64)
+    core = payload.take("<f2", *ranks)
+    payload.end()
+    for code, row in zip(phase, parameter):
+        require(code != _head.PHASE_NONE, "a species without phase function")
+        check_phase(code, row)
+    require_within(scattering, 0.0, 1e6, "scattering")
+    return Source(phase, parameter, scattering, level, scale * core.astype(np.float64))
+
+
+def decode_source_basis(payload, entry, head):
+    altitudes, suns, degree, orders = map(int, payload.take("<u4", 4))
+    ranks = _take_ranks(payload)
+    require(2 <= altitudes <= 256, "altitudes outside 2 to 256")
+    require(2 <= suns <= 256, "suns outside 2 to 256")
+    require(degree <= 24 and orders <= degree, "degree above 24 or orders above degree")
+    moments = TENSOR + len(_harmonics(degree, orders))
+    altitude = payload.take("<f8", altitudes)
+    sun = payload.take("<f8", suns)
+    tables = [
+        payload.take("<f4", rows, rank).astype(np.float64)
+        for rows, rank in zip((altitudes, suns, moments, 2 * head.counts["nw"]), ranks)
+    ]
+    payload.end()
+    require(np.all(np.diff(altitude) >= 1e-3), "altitudes of the source increase by less than 1 mm")
+    require_increasing(np.cbrt(altitude), "cube root of altitude")
+    require_within(sun, -1.0, 1.0, "sun")
+    require(np.all(np.diff(sun) >= 1e-9), "suns increase by less than 1e-9")
+    return SourceBasis(ranks, orders, degree, altitude, sun, *tables)
+
+
+def _take_ranks(payload):
+    ranks = tuple(map(int, payload.take("<u4", 4)))
+    require(all(1 <= rank <= 64 for rank in ranks), "rank of the source outside 1 to 64")
+    return ranks
+
+
+def _harmonics(degree, orders):
+    """(l, m) in the order of the file."""
+    return [(l, m) for m in range(orders + 1) for l in range(m, degree + 1)]
+
+
+def _harmonic_values(degree, orders, cos_theta, cos_phi):
+    """N_lm P_lm(cos θ) cos mφ: (P, nh)."""
+    sin_theta = np.sqrt(np.maximum(0.0, 1.0 - cos_theta**2))
+    phi = np.arccos(np.clip(cos_phi, -1.0, 1.0))
+    diagonal = np.full_like(cos_theta, np.sqrt(0.25 / np.pi))
+    columns = []
+    for m in range(orders + 1):
+        if m > 0:
+            diagonal = np.sqrt((2 * m + 1) / (2 * m)) * sin_theta * diagonal
+        azimuthal = np.sqrt(2.0) * np.cos(m * phi) if m > 0 else 1.0
+        before, value = 0.0, diagonal
+        for l in range(m, degree + 1):
+            columns.append(value * azimuthal)
+            before, value = value, _next_legendre(l + 1, m, cos_theta, value, before)
+    return np.stack(columns, axis=1)
+
+
+def _next_legendre(l, m, x, value, before):
+    """N_lm P_lm from those of the degrees l − 1 and l − 2."""
+    a = np.sqrt((4 * l * l - 1) / (l * l - m * m))
+    b = np.sqrt(((l - 1) ** 2 - m * m) / (4 * (l - 1) ** 2 - 1)) if l > m + 1 else 0.0
+    return a * (x * value - b * before)
+
+
+class Haze:
+    """The light that air scatters in one scene."""
+
+    def __init__(self, head, chunks, conditions):
+        self._head = head
+        self._conditions = conditions
+        inverse = -1.0 / head.visibility, -1.0 / conditions.visibility
+        cubic, linear = node_weights(*inverse), linear_weights(*inverse)
+        sources = self._load(chunks, cubic)
+        self._profiles = chunks.get(_head.TRANSMITTANCE)
+        self._phase = next(iter(sources.values())).phase
+        self._level = sum(cubic[m] * source.level for m, source in sources.items())
+        self._core = sum(cubic[m] * source.core for m, source in sources.items())
+        near = {m: sources[m] for m in map(int, np.flatnonzero(linear))}
+        self._parameter = sum(linear[m] * source.parameter for m, source in near.items())
+        self._scattering = sum(linear[m] * source.scattering for m, source in near.items())
+        self._extinction = np.tensordot(linear, head.extinction, 1)
+        albedo = conditions.albedo
+        self._bounce = albedo / (1.0 - albedo * (linear @ head.spherical_albedo))
+        self._sun = sun_vector(conditions.solar_elevation, conditions.solar_azimuth)
+
+    def _load(self, chunks, weights):
+        used = [int(m) for m in np.flatnonzero(weights)]
+        chunks.require_present(_head.TRANSMITTANCE)
+        chunks.require_present(_head.SOURCE_BASIS)
+        for m in used:
+            chunks.require_present(_head.SOURCE, visibility=m)
+        self._basis = chunks.get(_head.SOURCE_BASIS)
+        sources = {m: chunks.get(_head.SOURCE, visibility=m) for m in used}
+        first = sources[used[0]]
+        for source in sources.values():
+            fits = source.core.shape == self._basis.ranks
+            fits = fits and source.level.shape[1] == len(self._basis.sun)
+            require(fits, "a source chunk does not fit the basis")
+            require(source.phase == first.phase, "source chunks have different species")
+        return sources
+
+    @property
+    def block(self):
+        """How many directions to evaluate at once."""
+        ra, rs, rm, rc = self._basis.ranks
+        widest = max(ra * rs, rm * rc, len(self._basis.moment_factor))
+        return max(1, (1 << 20) // (64 * widest))
+
+    def scattered(self, units, distance):
+        """Light (N, nw), sr⁻¹, of segments along units (N, 3), of lengths (N,) in m."""
+        along, weights = self._quadrature(units, distance)
+        n, q = along.shape
+        points = _Points(self, np.repeat(units, q, axis=0), along.ravel())
+        light = self._transmittance_from_observer(units, along) * self._emission(points)
+        return np.sum(weights[:, :, None] * light.reshape(n, q, -1), axis=1)
+
+    def _quadrature(self, units, distance):
+        """Distances (N, Q) of points from the observer, and their weights in m.
+
+        Intervals shrink towards the observer and towards the lowest point, where most light is.
+        """
+        radius, h = self._head.planet_radius, self._conditions.altitude
+        top = self._head.top_altitude
+        start = (radius + h) * units[:, 2]
+        to_top = (top - h) * (2.0 * radius + top + h)
+        end = np.minimum(distance, np.sqrt(start**2 + to_top) - start)[:, None]
+        lowest = np.clip(-start[:, None], 0.0, end)
+        halves = 0.5 ** np.arange(1, 9)
+        marks = [0.0 * end, end * 0.25**2 * halves, end * halves[:5], lowest, end]
+        marks += [lowest - end * halves, lowest + end * halves]
+        marks = np.sort(np.clip(np.concatenate(marks, axis=1), 0.0, end), axis=1)
+        middle, half = 0.5 * (marks[:, 1:] + marks[:, :-1]), 0.5 * np.diff(marks, axis=1)
+        along = middle[:, :, None] + half[:, :, None] * _GAUSS_NODES
+        weights = half[:, :, None] * _GAUSS_WEIGHTS
+        return along.reshape(len(units), -1), weights.reshape(len(units), -1)
+
+    def _transmittance_from_observer(self, units, along):
+        rise = np.repeat(units[:, 2], along.shape[1])
+        return self._transmittance(self._conditions.altitude, rise, along.ravel())
+
+    def _transmittance(self, altitude, rise, distance):
+        radius = self._head.planet_radius
+        columns = path_integrals(self._profiles, radius, altitude, rise, distance)
+        return np.exp(-(columns @ self._extinction))
+
+    def _emission(self, points):
+        """Light per metre (P, nw) that the air at points sends towards the observer."""
+        air = profile_at(self._profiles, self._head.planet_radius, points.altitude)
+        sunlight = self._sunlight(points) / (4.0 * np.pi)
+        direct, molecules, particles = 0.0, 0.0, 0.0
+        for p, code in enumerate(self._phase):
+            coefficient = air @ self._scattering[p]
+            phase = phase_function(code, self._parameter[p], points.angle)
+            direct = direct + coefficient * phase * sunlight
+            if code == PHASE_RAYLEIGH:
+                molecules = molecules + coefficient
+            else:
+                particles = particles + coefficient
+        source_r, source_a = self._sources(points)
+        return direct + molecules * source_r + particles * source_a
+
+    def _sunlight(self, points):
+        """D: share of the sun's disc above the horizon times transmittance to space: (P, nw)."""
+        elevation = np.arcsin(np.clip(points.sin_sun, -1.0, 1.0))
+        dip = horizon_dip(self._head.planet_radius, points.altitude)
+        c = np.clip((elevation + dip) / SOLAR_RADIUS, -1.0, 1.0)
+        area = 0.5 * np.pi + c * np.sqrt(1.0 - c * c) + np.arcsin(c)
+        visible = area > 0.0
+        centroid = (2.0 / 3.0) * (1.0 - c * c) ** 1.5 / np.where(visible, area, 1.0)
+        rise = np.sin(elevation + SOLAR_RADIUS * centroid)
+        space = self._transmittance(points.altitude, rise, np.inf)
+        return np.where(visible, area / np.pi, 0.0)[:, None] * space
+
+    def _sources(self, points):
+        """S_R and S_A of molecules and particles: (P, nw) each."""
+        basis = self._basis
+        ra, rs, rm, rc = basis.ranks
+        a = _at_nodes(np.cbrt(basis.altitude), np.cbrt(points.altitude)) @ basis.altitude_factor
+        sun_weights = _at_nodes(np.arcsinh(12.5 * basis.sun), np.arcsinh(12.5 * points.sin_sun))
+        pairs = (a[:, :, None] * (sun_weights @ basis.sun_factor)[:, None, :]).reshape(-1, ra * rs)
+        tensor = (pairs @ self._core.reshape(ra * rs, rm * rc)).reshape(-1, rm, rc)
+        levels = np.exp(sun_weights @ self._level)
+        nw = self._head.counts["nw"]
+        channels = basis.channel_factor[:nw], basis.channel_factor[nw:]
+        sources = []
+        for moments in (points.tensor_moments @ basis.moment_factor[:TENSOR],
+                        points.harmonics(basis) @ basis.moment_factor[TENSOR:]):
+            light = np.einsum("pb,pbc->pc", moments, tensor)
+            value = levels[0] * (light @ channels[0].T)
+            value += self._bounce * levels[1] * (light @ channels[1].T)
+            sources.append(np.maximum(0.0, value))
+        return sources
+
+
+def _at_nodes(nodes, x):
+    """Weights (P, n) by the rule *between chunks*, beyond the ends those of the end."""
+    return np.stack([node_weights(nodes, value) for value in np.clip(x, nodes[0], nodes[-1])])
+
+
+class _Points:
+    """Points on lines of sight, with the local directions of the view and of the sun there."""
+
+    def __init__(self, haze, units, along):
+        radius, h = haze._head.planet_radius, haze._conditions.altitude
+        rise = units[:, 2]
+        self.altitude = np.maximum(0.0, altitude_on_line(radius, h, rise, along))
+        self.angle = Angle(units, haze._sun)
+        position = along[:, None] * units
+        position[:, 2] += radius + h
+        up = position / np.linalg.norm(position, axis=1, keepdims=True)
+        self.sin_sun = up @ haze._sun
+        self.cos_view = np.sum(up * units, axis=1)
+        self.cos_phi = _cos_azimuth(up, units, haze._sun)
+
+    @property
+    def tensor_moments(self):
+        """Factors of M_xx, M_yy, M_zz and M_xz: (P, 4)."""
+        cos2, cos_phi = self.cos_view**2, self.cos_phi
+        sin2, sin2_phi = 1.0 - cos2, 1.0 - cos_phi**2
+        xx = cos2 * cos_phi**2 + sin2_phi
+        yy = cos2 * sin2_phi + cos_phi**2
+        xz = -2.0 * np.sqrt(np.maximum(0.0, sin2)) * self.cos_view * cos_phi
+        return np.stack([xx, yy, sin2, xz], axis=1)
+
+    def harmonics(self, basis):
+        return _harmonic_values(basis.degree, basis.orders, self.cos_view, self.cos_phi)
+
+
+def _cos_azimuth(up, units, sun):
+    """Cosine (P,) of the azimuth between view and sun around `up`; 1 where there is none."""
+    view = units - np.sum(up * units, axis=1, keepdims=True) * up
+    light = sun - (up @ sun)[:, None] * up
+    lengths = np.linalg.norm(view, axis=1) * np.linalg.norm(light, axis=1)
+    cosine = np.sum(view * light, axis=1) / np.where(lengths > 0.0, lengths, 1.0)
+    return np.where(lengths > 1e-12, np.clip(cosine, -1.0, 1.0), 1.0)

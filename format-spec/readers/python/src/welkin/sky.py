@@ -1,0 +1,303 @@
+"""The sky of one scene: radiance, colour and polarisation (sections 7.2 to 7.5)."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import _head
+from ._axes import free_spline, linear_weights, mirrored_spline, node_weights
+from ._geometry import Observer, azimuth_from_sun, elevation_of, sun_vector, unit_vectors
+from ._head import GROUND_BIT, PHASE_RAYLEIGH
+from ._phase import Angle, phase_function, rayleigh_share
+from .errors import InvalidValueError
+
+# Numbers that one block of directions may hold at once in an intermediate array.
+_BLOCK_NUMBERS = 1 << 20
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """One scene. Metres and radians; albedo 0 to 1; azimuth counter-clockwise from +x."""
+
+    solar_elevation: float
+    visibility: float
+    albedo: float
+    altitude: float
+    solar_azimuth: float = 0.0
+
+
+@dataclass(frozen=True)
+class Factors:
+    """Chunks at the conditions in one: up (nu+3, r), down (nd+3, r), phi (np+1, r), channel."""
+
+    up: np.ndarray
+    down: np.ndarray
+    phi: np.ndarray
+    channel: np.ndarray
+
+    def at(self, view):
+        """Sum over the components: (N, channels)."""
+        alpha = view.by_side(self.up, self.down)
+        return (alpha * mirrored_spline(view.phi_coordinate, self.phi)) @ self.channel
+
+
+class Sky:
+    """The sky of one scene. Made by `Model.sky`.
+
+    Directions are arrays (…, 3) in the local frame: +z zenith, azimuth counter-clockwise from +x
+    seen from above; they point away from the observer and may have any length. Results have the
+    shape of the directions with the last axis replaced. Directions below the horizon are answered
+    too: with the light of the air before black ground.
+    """
+
+    def __init__(self, head, chunks, wavelengths, conditions):
+        self.conditions = conditions
+        self._head = head
+        self._chunks = chunks
+        self._wavelengths = wavelengths
+        self._observer = Observer(head.planet_radius, head.top_altitude, conditions.altitude)
+        self._sun = sun_vector(conditions.solar_elevation, conditions.solar_azimuth)
+        self._altitudes, self._visibilities = self._stencils()
+        self._elevation = self._elevation_coordinate()
+        self._factors, self._level, self._column = self._load_radiance()
+        inverse = linear_weights(-1.0 / head.visibility, -1.0 / conditions.visibility)
+        self._extinction = np.tensordot(inverse, head.extinction, 1)
+        albedo = conditions.albedo
+        self._bounce = albedo / (1.0 - albedo * (inverse @ head.spherical_albedo))
+
+    @property
+    def wavelengths(self):
+        """Wavelengths of the results, nm: (W,)."""
+        return self._wavelengths.nodes.copy()
+
+    def relative_radiance(self, directions):
+        """Radiance per unit of solar spectral irradiance, sr⁻¹: (…, 3) → (…, W)."""
+        return self._blockwise(directions, self._relative)
+
+    def radiance(self, directions):
+        """Spectral radiance, W m⁻² sr⁻¹ nm⁻¹: (…, 3) → (…, W)."""
+        return self._in_units(self.relative_radiance(directions), self._wavelengths.nodes)
+
+    def relative_radiance_at(self, directions, wavelength):
+        """Relative radiance, sr⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K)."""
+        wavelength = self._wavelengths.clamp(wavelength)
+
+        def evaluate(units):
+            return self._wavelengths.interpolate_radiance(self._relative(units), wavelength)
+
+        return self._blockwise(directions, evaluate)
+
+    def radiance_at(self, directions, wavelength):
+        """Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm: (…, 3) → (…, K)."""
+        relative = self.relative_radiance_at(directions, wavelength)
+        return self._in_units(relative, self._wavelengths.clamp(wavelength))
+
+    def xyz(self, directions):
+        """CIE 1931 X, Y, Z, cd m⁻² (Y is luminance): (…, 3) → (…, 3)."""
+        return self._blockwise(directions, lambda units: self._relative(units) @ self._head.xyz)
+
+    def stokes(self, directions):
+        """Relative Stokes components L, Q, U, sr⁻¹, in the vertical frame: (…, 3) → (…, 3, W).
+
+        Q > 0 is polarisation in the vertical plane of the view direction; U > 0 is turned by 45°
+        from up to the right of the viewer.
+        """
+        self._require_polarisation()
+        return self._blockwise(directions, self._stokes)
+
+    def stokes_at(self, directions, wavelength):
+        """Relative Stokes components at wavelengths in nm: (…, 3) → (…, 3, K)."""
+        self._require_polarisation()
+        wavelength = self._wavelengths.clamp(wavelength)
+        weights = self._wavelengths.weights(wavelength)
+
+        def evaluate(units):
+            nodes = self._stokes(units)
+            radiance = self._wavelengths.interpolate_radiance(nodes[:, 0], wavelength)
+            lit = np.where(nodes[:, :1] > 0.0, nodes[:, :1], 1.0)
+            q, u = np.moveaxis((nodes[:, 1:] / lit) @ weights.T, 1, 0)
+            return _bounded_stokes(radiance, q * radiance, u * radiance)
+
+        return self._blockwise(directions, evaluate)
+
+    def _blockwise(self, directions, evaluate):
+        """Applies `evaluate` to unit vectors (n, 3), so many at once that little memory is needed."""
+        units = unit_vectors(directions)
+        counts = self._head.counts
+        widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"])
+        step = max(1, _BLOCK_NUMBERS // widest)
+        with np.errstate(all="ignore"):
+            # At least one block, which gives the shape for no directions at all.
+            starts = range(0, max(1, len(units)), step)
+            values = np.concatenate([evaluate(units[i : i + step]) for i in starts])
+        _require_finite(values)
+        return values.reshape(np.shape(directions)[:-1] + values.shape[1:])
+
+    def _in_units(self, relative, wavelength):
+        with np.errstate(all="ignore"):
+            radiance = relative * self._wavelengths.irradiance(wavelength)
+        _require_finite(radiance)
+        return radiance
+
+    def _relative(self, units):
+        view = _View(self, units)
+        return self._radiance_of_view(view, self._fields(view))
+
+    def _radiance_of_view(self, view, fields):
+        total = 0.0
+        for code, parameter, factor, weight in self._each_field(fields):
+            total = total + factor * weight * phase_function(code, parameter, view.angle)
+        return self._lead(view) * np.maximum(0.0, total)
+
+    def _fields(self, view):
+        """F_f: (N, nf, nw)."""
+        counts = self._head.counts
+        return self._factors.at(view).reshape(-1, counts["nf"], counts["nw"])
+
+    def _each_field(self, fields):
+        """Phase code, parameter (nw,), F (N, nw) and weight of each field."""
+        for f, field in enumerate(self._head.field):
+            weight = self._bounce if field & GROUND_BIT else 1.0
+            code = int(field) & 0xFFFF
+            yield code, self._head.phase_parameter[f], fields[:, f], weight
+
+    def _lead(self, view):
+        """(1 − T) · S: (N, nw)."""
+        nu = self._head.counts["nu"]
+        logarithm = view.by_side(self._column[: nu + 3], self._column[nu + 3 :])
+        depth = view.ray_length[:, None] * (np.exp(logarithm) @ self._extinction)
+        return -np.expm1(-depth) * self._level
+
+    def _stokes(self, units):
+        view = _View(self, units)
+        fields = self._fields(view)
+        radiance = self._radiance_of_view(view, fields)
+        dipole = 0.0
+        for code, parameter, factor, weight in self._each_field(fields):
+            if code == PHASE_RAYLEIGH:
+                dipole = dipole + 0.75 * rayleigh_share(parameter) * factor * weight
+        p1, p2 = view.sun_across
+        m = self._polarisation.at(view).reshape(-1, 4, self._head.counts["nw"])
+        lead = self._lead(view)
+        q = dipole * (p2**2 - p1**2) + m[:, 0] + self._bounce * m[:, 2]
+        side = np.sin(view.phi)[:, None]
+        u = -2.0 * dipole * p1 * p2 + side * (m[:, 1] + self._bounce * m[:, 3])
+        return _bounded_stokes(radiance, lead * q, lead * u)
+
+    def _stencils(self):
+        """Weights other than zero of the nodes: altitudes and visibilities, {index: weight}."""
+        head, conditions = self._head, self.conditions
+        altitudes = node_weights(np.cbrt(head.altitude), np.cbrt(conditions.altitude))
+        visibilities = node_weights(-1.0 / head.visibility, -1.0 / conditions.visibility)
+        return _nonzero(altitudes), _nonzero(visibilities)
+
+    def _elevation_coordinate(self):
+        head = self._head
+
+        def warp(x):
+            return np.arcsinh((x - head.elevation_centre) / head.elevation_width)
+
+        low, high = warp(head.elevation_min), warp(head.elevation_max)
+        if not high > low:
+            raise InvalidValueError("the elevation axis has no extent")
+        share = (warp(self.conditions.solar_elevation) - low) / (high - low)
+        return np.array([head.counts["ne"] * share])
+
+    def _load_radiance(self):
+        """Factors, S (nw,) and ln of mean profiles (nu+3 + nd+3, nk), at the conditions."""
+        self._require_pairs(_head.RADIANCE, _head.RADIANCE_BASIS)
+        for j in self._altitudes:
+            self._chunks.require_present(_head.COLUMN, j)
+        factors, level = self._combine(_head.RADIANCE, _head.RADIANCE_BASIS)
+        column = sum(a * self._chunks.get(_head.COLUMN, j).astype(np.float64)
+                     for j, a in self._altitudes.items())
+        with np.errstate(all="ignore"):
+            level = np.exp(level)
+        return factors, level, column
+
+    def _require_polarisation(self):
+        self._require_pairs(_head.POLARISATION, _head.POLARISATION_BASIS)
+
+    @cached_property
+    def _polarisation(self):
+        return self._combine(_head.POLARISATION, _head.POLARISATION_BASIS)[0]
+
+    def _pairs(self):
+        for j, a in self._altitudes.items():
+            for m, b in self._visibilities.items():
+                yield j, m, a * b
+
+    def _require_pairs(self, kind, basis_kind):
+        self._chunks.require_present(basis_kind)
+        for j, m, _ in self._pairs():
+            self._chunks.require_present(kind, j, m)
+
+    def _combine(self, kind, basis_kind):
+        """Factors and ln S of the chunks around the conditions."""
+        counts = self._head.counts
+        basis = self._chunks.get(basis_kind)
+        up = np.zeros((counts["nu"] + 3, basis.phi.shape[1]))
+        down = np.zeros((counts["nd"] + 3, basis.phi.shape[1]))
+        level = 0.0
+        for j, m, weight in self._pairs():
+            chunk = self._chunks.get(kind, j, m)
+            rank = len(chunk.scale)
+            spline = free_spline(self._elevation, chunk.elevation.astype(np.float64))[0]
+            share = weight * spline * chunk.scale
+            up[:, :rank] += share * chunk.up
+            down[:, :rank] += share * chunk.down
+            if chunk.level is not None:
+                level = level + weight * free_spline(self._elevation, chunk.level.astype(float))[0]
+        return Factors(up, down, basis.phi, basis.channel), level
+
+
+class _View:
+    """Unit vectors (N, 3) and what follows from them: coordinates on the axes, angles, lengths."""
+
+    def __init__(self, sky, units):
+        head, observer, conditions = sky._head, sky._observer, sky.conditions
+        self.angle = Angle(units, sky._sun)
+        self.elevation = elevation_of(units)
+        self.phi = azimuth_from_sun(units, conditions.solar_azimuth)
+        self.phi_coordinate = head.counts["np"] * (np.abs(self.phi) / np.pi)
+        above = self.elevation + observer.dip
+        self.is_up = above >= 0.0
+        self.ray_length = observer.ray_length(self.elevation, self.is_up)
+        self._solar_elevation = conditions.solar_elevation
+        share_up = np.maximum(above, 0.0) / (np.pi / 2 + observer.dip)
+        share_down = np.maximum(-above, 0.0) / (np.pi / 2 - observer.dip)
+        self._up = head.counts["nu"] * share_up ** (1.0 / head.alpha_up_exponent)
+        self._down = head.counts["nd"] * share_down ** (1.0 / head.alpha_down_exponent)
+
+    def by_side(self, up, down):
+        """Values (N, M) of the spline `up` above the horizon and of `down` below it."""
+        values = np.empty((len(self.is_up), up.shape[1]))
+        values[self.is_up] = free_spline(self._up[self.is_up], up)
+        values[~self.is_up] = free_spline(self._down[~self.is_up], down)
+        return values
+
+    @property
+    def sun_across(self):
+        """Components (N, 1) of the sun's direction along e1 and e2 of the vertical frame."""
+        sun, view = self._solar_elevation, self.elevation
+        p1 = np.cos(view) * np.sin(sun) - np.sin(view) * np.cos(sun) * np.cos(self.phi)
+        p2 = np.cos(sun) * np.sin(self.phi)
+        return p1[:, None], p2[:, None]
+
+
+def _bounded_stokes(radiance, q, u):
+    """L, Q, U (N, 3, K) with Q and U scaled where they exceed L."""
+    polarised = np.hypot(q, u)
+    too_much = polarised > radiance
+    factor = np.where(too_much, radiance / np.where(too_much, polarised, 1.0), 1.0)
+    return np.stack([radiance, q * factor, u * factor], axis=1)
+
+
+def _nonzero(weights):
+    return {int(i): float(weights[i]) for i in np.flatnonzero(weights)}
+
+
+def _require_finite(values):
+    if not np.all(np.isfinite(values)):
+        raise InvalidValueError("numbers of the file overflow")
