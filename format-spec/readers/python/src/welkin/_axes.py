@@ -40,41 +40,45 @@ def mirrored_spline(u, coefficients):
 
 
 def node_weights(nodes, x):
-    """Weights (n,) of the nodes at x by the rule *between chunks*. Nodes increase; x is within."""
-    weights = np.zeros(len(nodes))
-    at = int(np.searchsorted(nodes, x))
-    if at < len(nodes) and nodes[at] == x or len(nodes) == 1:
-        weights[min(at, len(nodes) - 1)] = 1.0
-        return weights
-    if len(nodes) == 2:
+    """Weights of the nodes by the rule *between chunks*: nodes (n,) increase, x (P,) → (P, n).
+
+    They are exactly 0 and 1 where x is a node.
+    """
+    if len(nodes) <= 2:
         return linear_weights(nodes, x)
-    i = min(max(at - 1, 0), len(nodes) - 2)
-    step = nodes[i + 1] - nodes[i]
-    t = (x - nodes[i]) / step
-    weights[i] += (2.0 * t - 3.0) * t * t + 1.0
-    weights[i + 1] += (3.0 - 2.0 * t) * t * t
+    i, t = _interval(nodes, x)
+    rows, step = np.arange(len(i)), nodes[i + 1] - nodes[i]
+    weights = np.zeros((len(i), len(nodes)))
+    weights[rows, i] += (2.0 * t - 3.0) * t * t + 1.0
+    weights[rows, i + 1] += (3.0 - 2.0 * t) * t * t
     _add_slope(weights, nodes, i, step * t * (1.0 - t) ** 2)
     _add_slope(weights, nodes, i + 1, step * t * t * (t - 1.0))
     return weights
 
 
+def _interval(nodes, x):
+    """Index (P,) of the node before each x (P,), and the place 0..=1 up to the next one."""
+    x = np.asarray(x, dtype=np.float64)
+    i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
+    return i, np.clip((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)
+
+
 def _add_slope(weights, nodes, j, factor):
-    """Adds `factor` times the slope at node j of the parabola through it and its neighbours."""
-    first = min(max(j - 1, 0), len(nodes) - 3)
-    triple = range(first, first + 3)
-    for p in triple:
-        o1, o2 = (nodes[o] for o in triple if o != p)
-        slope = ((nodes[j] - o1) + (nodes[j] - o2)) / ((nodes[p] - o1) * (nodes[p] - o2))
-        weights[p] += factor * slope
+    """Adds `factor` times the slope at nodes j of the parabola through them and their neighbours."""
+    first = np.clip(j - 1, 0, len(nodes) - 3)
+    rows, here = np.arange(len(j)), nodes[j]
+    for p in range(3):
+        at, o1, o2 = (nodes[first + (p + k) % 3] for k in range(3))
+        slope = ((here - o1) + (here - o2)) / ((at - o1) * (at - o2))
+        weights[rows, first + p] += factor * slope
 
 
 def linear_weights(nodes, x):
-    """Weights (n,) of the two nodes around x; of the end node beyond the ends."""
-    weights = np.zeros(len(nodes))
-    at = int(np.searchsorted(nodes, x))
-    if at == 0 or at == len(nodes):
-        weights[min(at, len(nodes) - 1)] = 1.0
-        return weights
-    share = (x - nodes[at - 1]) / (nodes[at] - nodes[at - 1])
-    weights[at - 1], weights[at] = 1.0 - share, share
+    """Weights of the two nodes around x, and of the end node beyond the ends: (P,) → (P, n)."""
+    if len(nodes) == 1:
+        return np.ones((len(x), 1))
+    i, t = _interval(nodes, x)
+    weights = np.zeros((len(i), len(nodes)))
+    rows = np.arange(len(i))
+    weights[rows, i], weights[rows, i + 1] = 1.0 - t, t
     return weights

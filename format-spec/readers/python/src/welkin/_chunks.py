@@ -68,6 +68,7 @@ class Chunks:
             raise MissingError(f"the file has no {_NAMES[kind]} chunk{place}")
         return entry
 
+    @np.errstate(all="ignore")
     def get(self, kind, altitude=NONE, visibility=NONE):
         """The decoded chunk."""
         key = (kind, altitude, visibility)

@@ -122,11 +122,12 @@ def _next_legendre(l, m, x, value, before):
 class Haze:
     """The light that air scatters in one scene."""
 
+    @np.errstate(all="ignore")
     def __init__(self, head, chunks, conditions):
         self._head = head
         self._conditions = conditions
-        inverse = -1.0 / head.visibility, -1.0 / conditions.visibility
-        cubic, linear = node_weights(*inverse), linear_weights(*inverse)
+        inverse = -1.0 / head.visibility, [-1.0 / conditions.visibility]
+        cubic, linear = node_weights(*inverse)[0], linear_weights(*inverse)[0]
         sources = self._load(chunks, cubic)
         self._profiles = chunks.get(_head.TRANSMITTANCE)
         self._phase = next(iter(sources.values())).phase
@@ -160,7 +161,8 @@ class Haze:
     def block(self):
         """How many directions to evaluate at once."""
         ra, rs, rm, rc = self._basis.ranks
-        widest = max(ra * rs, rm * rc, len(self._basis.moment_factor))
+        axes = len(self._basis.altitude), len(self._basis.sun)
+        widest = max(ra * rs, rm * rc, len(self._basis.moment_factor), *axes)
         return max(1, (1 << 20) // (64 * widest))
 
     def scattered(self, units, distance):
@@ -251,7 +253,7 @@ class Haze:
 
 def _at_nodes(nodes, x):
     """Weights (P, n) by the rule *between chunks*, beyond the ends those of the end."""
-    return np.stack([node_weights(nodes, value) for value in np.clip(x, nodes[0], nodes[-1])])
+    return node_weights(nodes, np.clip(x, nodes[0], nodes[-1]))
 
 
 class _Points:

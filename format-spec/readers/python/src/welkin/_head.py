@@ -122,6 +122,7 @@ class Head:
         return self.chunks.get((kind, altitude, visibility))
 
 
+@np.errstate(all="ignore")
 def read_head(source):
     """Reads and checks the head.
 

@@ -31,17 +31,16 @@ class Wavelengths:
 
     def weights(self, wavelength):
         """Cubic weights of the nodes: (W, nw)."""
-        return np.stack([node_weights(self.nodes, x) for x in wavelength])
+        return node_weights(self.nodes, wavelength)
 
     def interpolate_radiance(self, radiance, wavelength):
         """Radiance (N, nw) at wavelengths (W,): (N, W). Logarithmic, linear next to zeros."""
         columns = []
-        for x in wavelength:
-            weights = node_weights(self.nodes, x)
+        linear = radiance @ linear_weights(self.nodes, wavelength).T
+        for k, weights in enumerate(self.weights(wavelength)):
             used = np.flatnonzero(weights)
             values = radiance[:, used]
             dark = np.any(values == 0.0, axis=1)
-            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                smooth = np.exp(np.log(values) @ weights[used])
-            columns.append(np.where(dark, radiance @ linear_weights(self.nodes, x), smooth))
+            smooth = np.exp(np.log(values) @ weights[used])
+            columns.append(np.where(dark, linear[:, k], smooth))
         return np.stack(columns, axis=1)

@@ -111,6 +111,7 @@ class Model:
         conditions = self._conditions(solar_elevation, visibility, albedo, altitude, solar_azimuth)
         return Sky(self._head, self._chunks, self._wavelengths, conditions)
 
+    @np.errstate(all="ignore")
     def transmittance(self, directions, distance, *, altitude, visibility):
         """Transmittance of straight segments from an observer at `altitude`: (…, 3) → (…, W).
 
@@ -123,12 +124,12 @@ class Model:
         distance = _distances(distance, shape)
         profiles = self._chunks.get(_head.TRANSMITTANCE)
         rise = unit_vectors(directions)[:, 2]
-        with np.errstate(all="ignore"):
-            radius = self._head.planet_radius
-            columns = path_integrals(profiles, radius, altitude, rise, distance)
-            result = np.exp(-(columns @ self._extinction_at(visibility)))
+        radius = self._head.planet_radius
+        columns = path_integrals(profiles, radius, altitude, rise, distance)
+        result = np.exp(-(columns @ self._extinction_at(visibility)))
         return _finite(result).reshape(*shape, -1)
 
+    @np.errstate(all="ignore")
     def scattered(
         self,
         directions,
@@ -150,9 +151,8 @@ class Model:
         haze = Haze(self._head, self._chunks, conditions)
         units = unit_vectors(directions)
         starts = range(0, max(1, len(units)), haze.block)
-        with np.errstate(all="ignore"):
-            blocks = (slice(i, i + haze.block) for i in starts)
-            light = np.concatenate([haze.scattered(units[b], distance[b]) for b in blocks])
+        blocks = (slice(i, i + haze.block) for i in starts)
+        light = np.concatenate([haze.scattered(units[b], distance[b]) for b in blocks])
         return _finite(light).reshape(*np.shape(directions)[:-1], -1)
 
     def _conditions(self, solar_elevation, visibility, albedo, altitude, solar_azimuth):
@@ -168,8 +168,8 @@ class Model:
 
     def _extinction_at(self, visibility):
         """Extinction coefficients, m⁻¹: (nk, W)."""
-        weights = linear_weights(-1.0 / self._head.visibility, -1.0 / visibility)
-        return np.tensordot(weights, self._head.extinction, 1)
+        weights = linear_weights(-1.0 / self._head.visibility, [-1.0 / visibility])
+        return np.tensordot(weights[0], self._head.extinction, 1)
 
 
 def _ends(axis):

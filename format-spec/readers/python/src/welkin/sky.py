@@ -51,6 +51,7 @@ class Sky:
     too: with the light of the air before black ground.
     """
 
+    @np.errstate(all="ignore")
     def __init__(self, head, chunks, wavelengths, conditions):
         self.conditions = conditions
         self._head = head
@@ -61,7 +62,7 @@ class Sky:
         self._altitudes, self._visibilities = self._stencils()
         self._elevation = self._elevation_coordinate()
         self._factors, self._level, self._column = self._load_radiance()
-        inverse = linear_weights(-1.0 / head.visibility, -1.0 / conditions.visibility)
+        inverse = linear_weights(-1.0 / head.visibility, [-1.0 / conditions.visibility])[0]
         self._extinction = np.tensordot(inverse, head.extinction, 1)
         albedo = conditions.albedo
         self._bounce = albedo / (1.0 - albedo * (inverse @ head.spherical_albedo))
@@ -121,22 +122,22 @@ class Sky:
 
         return self._blockwise(directions, evaluate)
 
+    @np.errstate(all="ignore")
     def _blockwise(self, directions, evaluate):
         """Applies `evaluate` to unit vectors (n, 3), so many at once that little memory is needed."""
         units = unit_vectors(directions)
         counts = self._head.counts
         widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"])
         step = max(1, _BLOCK_NUMBERS // widest)
-        with np.errstate(all="ignore"):
-            # At least one block, which gives the shape for no directions at all.
-            starts = range(0, max(1, len(units)), step)
-            values = np.concatenate([evaluate(units[i : i + step]) for i in starts])
+        # At least one block, which gives the shape for no directions at all.
+        starts = range(0, max(1, len(units)), step)
+        values = np.concatenate([evaluate(units[i : i + step]) for i in starts])
         _require_finite(values)
         return values.reshape(np.shape(directions)[:-1] + values.shape[1:])
 
+    @np.errstate(all="ignore")
     def _in_units(self, relative, wavelength):
-        with np.errstate(all="ignore"):
-            radiance = relative * self._wavelengths.irradiance(wavelength)
+        radiance = relative * self._wavelengths.irradiance(wavelength)
         _require_finite(radiance)
         return radiance
 
@@ -188,9 +189,9 @@ class Sky:
     def _stencils(self):
         """Weights other than zero of the nodes: altitudes and visibilities, {index: weight}."""
         head, conditions = self._head, self.conditions
-        altitudes = node_weights(np.cbrt(head.altitude), np.cbrt(conditions.altitude))
-        visibilities = node_weights(-1.0 / head.visibility, -1.0 / conditions.visibility)
-        return _nonzero(altitudes), _nonzero(visibilities)
+        altitudes = node_weights(np.cbrt(head.altitude), np.cbrt([conditions.altitude]))
+        visibilities = node_weights(-1.0 / head.visibility, [-1.0 / conditions.visibility])
+        return _nonzero(altitudes[0]), _nonzero(visibilities[0])
 
     def _elevation_coordinate(self):
         head = self._head
@@ -210,11 +211,9 @@ class Sky:
         for j in self._altitudes:
             self._chunks.require_present(_head.COLUMN, j)
         factors, level = self._combine(_head.RADIANCE, _head.RADIANCE_BASIS)
-        column = sum(a * self._chunks.get(_head.COLUMN, j).astype(np.float64)
-                     for j, a in self._altitudes.items())
-        with np.errstate(all="ignore"):
-            level = np.exp(level)
-        return factors, level, column
+        columns = {j: self._chunks.get(_head.COLUMN, j) for j in self._altitudes}
+        column = sum(a * columns[j].astype(np.float64) for j, a in self._altitudes.items())
+        return factors, np.exp(level), column
 
     def _require_polarisation(self):
         self._require_pairs(_head.POLARISATION, _head.POLARISATION_BASIS)
@@ -237,11 +236,13 @@ class Sky:
         """Factors and ln S of the chunks around the conditions."""
         counts = self._head.counts
         basis = self._chunks.get(basis_kind)
-        up = np.zeros((counts["nu"] + 3, basis.phi.shape[1]))
-        down = np.zeros((counts["nd"] + 3, basis.phi.shape[1]))
+        chunks = [(self._chunks.get(kind, j, m), weight) for j, m, weight in self._pairs()]
+        # Not the rank of the basis: the chunks may be much smaller, and memory has to follow them.
+        used = max(len(chunk.scale) for chunk, _ in chunks)
+        up = np.zeros((counts["nu"] + 3, used))
+        down = np.zeros((counts["nd"] + 3, used))
         level = 0.0
-        for j, m, weight in self._pairs():
-            chunk = self._chunks.get(kind, j, m)
+        for chunk, weight in chunks:
             rank = len(chunk.scale)
             spline = free_spline(self._elevation, chunk.elevation.astype(np.float64))[0]
             share = weight * spline * chunk.scale
@@ -249,7 +250,7 @@ class Sky:
             down[:, :rank] += share * chunk.down
             if chunk.level is not None:
                 level = level + weight * free_spline(self._elevation, chunk.level.astype(float))[0]
-        return Factors(up, down, basis.phi, basis.channel), level
+        return Factors(up, down, basis.phi[:, :used], basis.channel[:used]), level
 
 
 class _View:
