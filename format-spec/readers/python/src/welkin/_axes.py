@@ -64,7 +64,7 @@ def _interval(nodes, x):
 
 
 def _add_slope(weights, nodes, j, factor):
-    """Adds `factor` times the slope at nodes j of the parabola through them and their neighbours."""
+    """Adds `factor` times the slope at nodes j of the parabola through their neighbours."""
     first = np.clip(j - 1, 0, len(nodes) - 3)
     rows, here = np.arange(len(j)), nodes[j]
     for p in range(3):

@@ -53,7 +53,7 @@ _COUNT_LIMITS = {
 
 
 def require(condition, message):
-    """Refuses a file with class `value` unless `condition` holds. A comparison with NaN does not."""
+    """Refuses a file unless `condition` holds, which a comparison with NaN does not."""
     if not condition:
         raise InvalidValueError(message)
 

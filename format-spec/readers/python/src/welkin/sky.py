@@ -124,7 +124,7 @@ class Sky:
 
     @np.errstate(all="ignore")
     def _blockwise(self, directions, evaluate):
-        """Applies `evaluate` to unit vectors (n, 3), so many at once that little memory is needed."""
+        """Applies `evaluate` to unit vectors (n, 3), few at once to save memory."""
         units = unit_vectors(directions)
         counts = self._head.counts
         widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"])
