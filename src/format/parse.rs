@@ -303,13 +303,19 @@ fn check_ranks(entries: &[Entry]) -> Result<()> {
             .map(|e| e.rank)
             .max()
     };
-    match (rank_of(Kind::RadianceBasis), rank_of(Kind::Radiance)) {
-        (Some(basis), Some(rank)) if rank > basis => {
-            let detail = format!("a radiance chunk of rank {rank} with a basis of rank {basis}");
-            Err(Error::invalid("directory", detail))
+    for (basis, kind) in [
+        (Kind::RadianceBasis, Kind::Radiance),
+        (Kind::PolarisationBasis, Kind::Polarisation),
+    ] {
+        if let (Some(most), Some(rank)) = (rank_of(basis), rank_of(kind))
+            && rank > most
+        {
+            let name = kind.name();
+            let detail = format!("a {name} chunk of rank {rank} with a basis of rank {most}");
+            return Err(Error::invalid("directory", detail));
         }
-        _ => Ok(()),
     }
+    Ok(())
 }
 
 /// Checks that the chunk follows its predecessor without hole or overlap; returns its end.

@@ -16,6 +16,8 @@ pub const TENSOR: usize = 4;
 pub const SOURCE_FIELDS: usize = 2;
 /// Most nodes of an axis.
 const MAX_NODES: usize = 256;
+/// Most altitudes times wavelengths times components of the moments.
+const MAX_SOURCE_TABLE: usize = 1 << 18;
 /// Largest degree of the harmonics.
 const MAX_DEGREE: usize = 24;
 /// Most components along one mode.
@@ -82,6 +84,8 @@ impl<'a> SourceBasisView<'a> {
         let degree = within("degree", counts.degree, 0, MAX_DEGREE)?;
         let orders = within("orders", counts.orders, 0, degree)?;
         let ranks = ranks(&counts.ranks)?;
+        // A few bytes of factors must not make a reader allocate gigabytes.
+        within_table(altitudes * wavelengths * ranks[2])?;
         let moments = TENSOR + harmonics(degree, orders);
         let rows = [altitudes, suns, moments, SOURCE_FIELDS * wavelengths];
         let factors: usize = rows.iter().zip(ranks).map(|(n, r)| n * r).sum();
@@ -199,6 +203,15 @@ pub(crate) fn phase_function(code: u32) -> Option<PhaseFunction> {
         2 => Some(PhaseFunction::HenyeyGreenstein),
         _ => None,
     }
+}
+
+fn within_table(size: usize) -> Result<()> {
+    if size <= MAX_SOURCE_TABLE {
+        return Ok(());
+    }
+    let detail =
+        format!("expected altitudes · wavelengths · rm up to {MAX_SOURCE_TABLE}, got {size}");
+    Err(Error::invalid("source basis chunk", detail))
 }
 
 fn within(what: &'static str, got: U32, min: usize, max: usize) -> Result<usize> {

@@ -21,6 +21,7 @@ pub fn of(case: &Case) -> Vec<Value> {
     let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
     all.extend(special(&case.bytes));
     if case.needs.contains(&"transmittance") {
+        all.retain(|query| query.direction != [0.0; 3]);
         return all
             .iter()
             .enumerate()
@@ -113,6 +114,9 @@ fn special(file: &[u8]) -> Vec<Query> {
         at(high, 0.0, sloped(high, 1e-5)),
         at(high, 0.0, sloped(high, -1e-5)),
         at(low, 0.1, [-1.0, 0.1, -0.2]),
+        // Rounding beyond the ends is no error.
+        at(high * (1.0 + 1e-12), noon + 1e-12, [0.2, 0.1, 0.3]),
+        at(low, 0.5, [0.0; 3]),
     ]
 }
 
@@ -133,7 +137,13 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     if let Err(error) = model.sky(&conditions) {
         return vec![with_error(ask("relative_radiance"), error.class())];
     }
+    if query.direction == [0.0; 3] {
+        return vec![with_error(ask("relative_radiance"), "direction")];
+    }
     let oracle = Oracle::new(&case.raw);
+    let asking = query;
+    let query = &clamped(query, &ranges(&case.bytes));
+    let ask = |quantity| value(quantity, asking, wavelength);
     let zenith = Query {
         direction: [0.0, 0.0, 1.0],
         ..*query
@@ -146,7 +156,9 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     let lowest = floor.iter().copied().fold(f64::INFINITY, f64::min);
     let relative = oracle.radiance(query);
     let (at, solar) = oracle.radiance_at(query, wavelength);
+    let outside = value("radiance_at", query, last + 1.0);
     let mut queries = vec![
+        with_error(outside, "range"),
         with_values(ask("relative_radiance"), &relative, &floor),
         with_values(
             ask("xyz"),
@@ -178,6 +190,17 @@ fn through(case: &Case, query: &Query, i: usize) -> Value {
     let expected = Oracle::new(&case.raw).transmittance(query, distance);
     let absolute = vec![1e-9; expected.len()];
     with_values(asked, &expected, &absolute)
+}
+
+/// What a query means whose conditions lie outside by no more than rounding.
+fn clamped(query: &Query, ranges: &Ranges) -> Query {
+    let within = |value: f64, [low, high]: [f64; 2]| value.clamp(low, high);
+    Query {
+        altitude: within(query.altitude, ranges.altitude),
+        visibility: within(query.visibility, ranges.visibility),
+        solar_elevation: within(query.solar_elevation, ranges.elevation),
+        ..*query
+    }
 }
 
 /// L, then Q, then U, each at all wavelengths.
@@ -212,6 +235,7 @@ fn refusals(file: &[u8]) -> Vec<Value> {
         ask(&|q| q.albedo = -0.1),
         ask(&|q| q.albedo = 1.1),
         ask(&|q| q.solar_elevation = ranges.elevation[0] - 0.01),
+        ask(&|q| q.solar_elevation = ranges.elevation[1] + 0.01),
     ]
 }
 
