@@ -10,6 +10,7 @@ use crate::format::{
 use crate::math::LANES;
 use crate::model::{Key, Model};
 use crate::phase::PhaseTable;
+use crate::simd::{Instructions, Kernel, dispatch};
 use crate::sky::Sky;
 use crate::tables::{Cell, Layout, SideTable, Tables};
 use zerocopy::little_endian::F32;
@@ -203,8 +204,13 @@ impl Baker<'_> {
             }
         }
         let patterns = self.patterns(&basis);
-        patterns.expand(&alpha[0], &mut up);
-        patterns.expand(&alpha[1], &mut down);
+        for (alpha, side) in alpha.iter().zip([&mut up, &mut down]) {
+            dispatch(Expand {
+                patterns: &patterns,
+                alpha,
+                side,
+            });
+        }
         Ok((level.into_iter().map(f32::exp).collect(), [up, down]))
     }
 
@@ -281,8 +287,24 @@ struct Patterns {
     channel: Vec<Cell>,
 }
 
+/// Fills the nodes of `side`, given the components' weights `[alpha][rank]`.
+struct Expand<'a> {
+    patterns: &'a Patterns,
+    alpha: &'a [f32],
+    side: &'a mut SideTable,
+}
+
+impl Kernel for Expand<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) {
+        self.patterns.expand(self.alpha, self.side);
+    }
+}
+
 impl Patterns {
-    /// Fills the nodes of `side`, given the components' weights `[alpha][rank]`.
+    #[inline(always)]
     fn expand(&self, alpha: &[f32], side: &mut SideTable) {
         let cells = self.channel.len() / self.rank;
         let mut factors = vec![0.0; self.rank];
@@ -299,6 +321,7 @@ impl Patterns {
     }
 
     /// Sums all components in the cells of a node; the sums stay in registers.
+    #[inline(always)]
     fn fill(&self, factors: &[f32], node: &mut [Cell]) {
         for (out, channel) in node.iter_mut().zip(self.channel.chunks_exact(self.rank)) {
             let mut sum = Cell::ZERO;

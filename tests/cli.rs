@@ -483,3 +483,36 @@ fn render_shows_polarisation() {
         }
     }
 }
+
+#[test]
+fn plans_say_what_scenes_need() {
+    let bench = Bench::new();
+    let arguments = [
+        "plan",
+        "--altitudes",
+        "0..50",
+        "--visibilities",
+        "20..30",
+        "--json",
+    ];
+    let output = bench.on_model(&arguments, "");
+    assert!(output.status.success(), "{output:?}");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let number = |key: &str| report[key].as_u64().unwrap();
+    assert!(number("file_bytes") < number("model_bytes") && number("chunks") > 3);
+    assert_eq!(report["bake_p95"], 0.0025);
+    let text = bench.on_model(&["plan", "--rgb"], "");
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(
+        text.contains("per baked sky") && text.contains("p95 at most 0.25 %"),
+        "{text}"
+    );
+    for bad in [
+        ["--altitudes", "0..1e9"],
+        ["--altitudes", "high"],
+        ["--tolerance", "0"],
+    ] {
+        let output = bench.on_model(&["plan", bad[0], bad[1]], "");
+        assert_eq!(output.status.code(), Some(2), "{bad:?}");
+    }
+}

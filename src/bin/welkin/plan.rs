@@ -3,22 +3,23 @@
 use std::io::Write;
 
 use serde_json::json;
-use welkin::{BakedSky, Budget, Channels};
+use welkin::{Budget, Channels};
 
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
+use crate::subset::{percent, range};
 
 #[derive(clap::Args)]
 pub struct Options {
     #[command(flatten)]
     source: crate::Source,
     /// Lowest and highest altitude of observers, m.
-    #[arg(long, value_name = "LOW,HIGH", default_value = "0,0")]
-    altitudes: String,
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "0")]
+    altitudes: [f64; 2],
     /// Lowest and highest visibility, km.
-    #[arg(long, value_name = "LOW,HIGH", default_value = "59.4,59.4")]
-    visibilities: String,
-    /// Relative error that baking may add at 95 % of directions and channels.
-    #[arg(long, default_value_t = BakedSky::TOLERANCE)]
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "59.4")]
+    visibilities: [f64; 2],
+    /// What baking may add to the error at 95 % of directions and channels.
+    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true, default_value = "0.25%")]
     tolerance: f64,
     /// Colours instead of spectra.
     #[arg(long)]
@@ -31,8 +32,8 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let plan = model.plan(&Budget {
-        altitude: range("--altitudes", &options.altitudes)?,
-        visibility: range("--visibilities", &options.visibilities)?.map(|km| km * 1e3),
+        altitude: options.altitudes,
+        visibility: options.visibilities.map(|km| km * 1e3),
         tolerance: options.tolerance,
         channels: match options.rgb {
             true => Channels::Colour,
@@ -74,19 +75,4 @@ pub fn run(options: &Options) -> Result<()> {
         100.0 * plan.bake_p95
     )?;
     Ok(())
-}
-
-/// One number or two.
-fn range(name: &str, text: &str) -> Result<[f64; 2]> {
-    let numbers = text.split(',').map(|part| part.trim().parse::<f64>());
-    match numbers
-        .collect::<std::result::Result<Vec<_>, _>>()
-        .as_deref()
-    {
-        Ok([value]) => Ok([*value, *value]),
-        Ok([low, high]) => Ok([*low, *high]),
-        _ => Err(Failure::message(format!(
-            "{name}: expected LOW,HIGH, got \"{text}\""
-        ))),
-    }
 }

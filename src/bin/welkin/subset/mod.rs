@@ -205,7 +205,7 @@ fn print(report: &Value, json: bool) -> Result<()> {
     Ok(())
 }
 
-fn range(text: &str) -> std::result::Result<[f64; 2], String> {
+pub fn range(text: &str) -> std::result::Result<[f64; 2], String> {
     let (low, high) = text.split_once("..").unwrap_or((text, text));
     let number = |part: &str| {
         part.trim()
@@ -218,7 +218,7 @@ fn range(text: &str) -> std::result::Result<[f64; 2], String> {
     }
 }
 
-fn percent(text: &str) -> std::result::Result<f64, String> {
+pub fn percent(text: &str) -> std::result::Result<f64, String> {
     let number = text.trim_end_matches('%').trim().parse::<f64>();
     match number {
         Ok(value) if value > 0.0 && value <= 100.0 => Ok(value / 100.0),
