@@ -10,7 +10,9 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use welkin::Model;
-use welkin::format::{ENCODING_RAW, ENCODING_ZSTD, encode, parse, recode, replace_file, unpack};
+use welkin::format::{
+    ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, recode, replace_file, unpack,
+};
 
 use crate::Source;
 use crate::failure::{Failure, Result};
@@ -19,6 +21,8 @@ use samples::{Differences, Quantity, Samples, Scope};
 
 /// Skies of the final comparison.
 const SKIES: usize = 256;
+/// Share of the tolerance below which a search for a model that keeps it gives up.
+const LEAST_SHARE: f64 = 0.3;
 /// Its skies are not those of the search.
 const HELD_OUT: usize = 1_000_000;
 
@@ -41,6 +45,9 @@ pub struct Options {
     /// Leave out what changes 99 % of all values by less than this; without it, nothing changes (with --rgb: 1 %).
     #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
     tolerance: Option<f64>,
+    /// Leave out what the file can do besides radiance.
+    #[arg(long, value_name = "WHAT", value_enum, value_delimiter = ',')]
+    without: Vec<Extra>,
     /// Compress the chunks.
     #[arg(long)]
     zstd: bool,
@@ -52,32 +59,55 @@ pub struct Options {
     json: bool,
 }
 
+/// What a file can hold besides radiance.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Extra {
+    Polarisation,
+    Transmittance,
+    Haze,
+}
+
+impl Extra {
+    /// What needs a chunk, if it is not radiance. Haze needs the transmittance too.
+    fn of(payload: &Payload) -> Option<Self> {
+        match payload {
+            Payload::Polarisation(_) | Payload::PolarisationBasis(_) => Some(Self::Polarisation),
+            Payload::Transmittance(_) => Some(Self::Transmittance),
+            Payload::Source(_) | Payload::SourceBasis(_) => Some(Self::Haze),
+            _ => None,
+        }
+    }
+}
+
 pub fn run(options: &Options) -> Result<()> {
     let bytes = options.source.bytes()?;
     let name = options.source.name();
     let in_source = |error: welkin::Error| Failure::message(format!("{name}: {error}"));
     let model = Model::from_bytes(bytes.clone()).map_err(in_source)?;
     let scope = scope(options, &model)?;
-    let wish = Wish {
-        scope,
-        wavelengths: options.wavelengths,
-        rgb: options.rgb,
-        tolerance: options.tolerance,
-    };
-    let reducer = Reducer::new(&model, unpack(&bytes).map_err(in_source)?, wish)?;
-    let (mut head, chunks, kept) = reducer.reduce()?;
-
-    let smaller = Model::from_bytes(encode(&head, &chunks)?)?;
-    let samples = Samples::new(&model, &scope, SKIES, HELD_OUT);
+    let (head, mut chunks) = unpack(&bytes).map_err(in_source)?;
+    chunks.retain(|chunk| {
+        Extra::of(&chunk.payload).is_none_or(|extra| !options.without.contains(&extra))
+    });
     let quantity = match options.rgb {
         true => Quantity::Colour,
         false => Quantity::Spectrum,
     };
-    let all: Vec<usize> = (0..kept.len()).collect();
-    let differences = Differences::between(
-        &samples.values(&smaller, quantity, &all)?,
-        &samples.values(&model, quantity, &kept)?,
-    );
+    let samples = Samples::new(&model, &scope, SKIES, HELD_OUT);
+    let mut reducer = Reducer::new(&model, (head, chunks), wish(options, scope));
+    let (mut head, chunks, differences) = loop {
+        let (head, chunks, kept) = reducer.reduce()?;
+        let smaller = Model::from_bytes(encode(&head, &chunks)?)?;
+        let all: Vec<usize> = (0..kept.len()).collect();
+        let differences = Differences::between(
+            &samples.values(&smaller, quantity, &all)?,
+            &samples.values(&model, quantity, &kept)?,
+        );
+        let promise = reducer.promise();
+        if differences.quantile(0.99) <= promise || !reducer.strive(LEAST_SHARE) {
+            break (head, chunks, differences);
+        }
+    };
     let mut report = report(&scope, quantity, &differences);
     head.metadata = with_report(&head.metadata, &report);
     let encoding = match options.zstd {
@@ -95,6 +125,15 @@ pub fn run(options: &Options) -> Result<()> {
     report["visibilities_km"] = json!(kilometres(&head.visibilities));
     report["wavelengths_nm"] = json!(head.wavelengths);
     print(&report, options.json)
+}
+
+fn wish(options: &Options, scope: Scope) -> Wish {
+    Wish {
+        scope,
+        wavelengths: options.wavelengths,
+        rgb: options.rgb,
+        tolerance: options.tolerance,
+    }
 }
 
 fn scope(options: &Options, model: &Model) -> Result<Scope> {

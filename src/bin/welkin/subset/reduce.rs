@@ -1,7 +1,7 @@
 //! Leaves out of a model what a wish does not need.
 
 use welkin::Model;
-use welkin::format::{Chunk, Head, Selection, crop, encode};
+use welkin::format::{Chunk, Head, Payload, Selection, crop, encode};
 
 use super::colour::Quadrature;
 use super::nodes::{covers, needed};
@@ -30,18 +30,33 @@ pub struct Reducer<'a> {
     chunks: Vec<Chunk>,
     wish: Wish,
     samples: Samples,
+    /// Share of the tolerance that the search may use.
+    share: f64,
 }
 
 impl<'a> Reducer<'a> {
-    pub fn new(model: &'a Model, (head, chunks): (Head, Vec<Chunk>), wish: Wish) -> Result<Self> {
+    pub fn new(model: &'a Model, (head, chunks): (Head, Vec<Chunk>), wish: Wish) -> Self {
         let samples = Samples::new(model, &wish.scope, SKIES, 0);
-        Ok(Self {
+        Self {
             model,
             head,
             chunks,
             wish,
             samples,
-        })
+            share: 1.0,
+        }
+    }
+
+    /// What the 99th percentile of the differences must not exceed.
+    pub fn promise(&self) -> f64 {
+        let colour = if self.wish.rgb { COLOUR_TOLERANCE } else { 0.0 };
+        self.wish.tolerance.unwrap_or(colour)
+    }
+
+    /// Lets the next search use less of the tolerance; false if that would be less than `least`.
+    pub fn strive(&mut self, least: f64) -> bool {
+        self.share *= 0.75;
+        self.share >= least
     }
 
     /// The smaller model, and which wavelengths of the source it has.
@@ -52,9 +67,14 @@ impl<'a> Reducer<'a> {
             selection.wavelengths = self.colour_wavelengths(&selection, &quadrature)?;
         }
         if let Some(tolerance) = self.wish.tolerance {
-            self.thin(&mut selection, &quadrature, tolerance)?;
+            self.thin(&mut selection, &quadrature, self.share * tolerance)?;
         }
-        let (head, chunks) = self.build(&selection, &quadrature)?;
+        let (head, mut chunks) = self.build(&selection, &quadrature)?;
+        if head.altitudes == [0.0] {
+            chunks
+                .iter_mut()
+                .for_each(|chunk| hide_ground(&mut chunk.payload));
+        }
         Ok((head, chunks, selection.wavelengths))
     }
 
@@ -79,7 +99,7 @@ impl<'a> Reducer<'a> {
 
     /// The fewest wavelengths that keep colours.
     fn colour_wavelengths(&self, all: &Selection, quadrature: &Quadrature) -> Result<Vec<usize>> {
-        let share = COLOUR_SHARE * self.wish.tolerance.unwrap_or(COLOUR_TOLERANCE);
+        let share = COLOUR_SHARE * self.share * self.promise();
         for count in 3..all.wavelengths.len() {
             let selection = Selection {
                 wavelengths: quadrature.best(count),
@@ -174,6 +194,15 @@ impl<'a> Reducer<'a> {
             head.xyz = quadrature.weights(&selection.wavelengths);
         }
         Ok((head, chunks))
+    }
+}
+
+/// From the ground nothing is seen below the horizon: zeros compress well.
+fn hide_ground(payload: &mut Payload) {
+    match payload {
+        Payload::Radiance(factors) => factors.alpha_down.fill(0.0),
+        Payload::Polarisation(factors) => factors.alpha_down.fill(0.0),
+        _ => {}
     }
 }
 
