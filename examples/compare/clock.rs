@@ -3,12 +3,12 @@
 use std::time::Instant;
 
 /// Rounds of a comparison.
-const ROUNDS: usize = 201;
+const ROUNDS: usize = 41;
 
 /// Median times of one of the `queries` of a round of `ours` and of `peer`, ns.
 ///
-/// Rounds should be short against the time slices of the system: then few are interrupted, and the median is none of
-/// those. Both get the number of their round.
+/// Rounds should be short against the time slices of the system, so that few are interrupted, and long against the
+/// time that it takes to get back the cache that the other one used. Both get the number of their round.
 pub fn duel(queries: usize, mut ours: impl FnMut(usize), mut peer: impl FnMut(usize)) -> [f64; 2] {
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..ROUNDS {

@@ -22,7 +22,7 @@ use welkin::{BakedColour, BakedSky, Conditions, Directions, General, Model, Resu
 
 const QUERIES: usize = 8192;
 /// Queries of one round.
-const ROUND: usize = 256;
+const ROUND: usize = 2048;
 
 /// The queries of a round.
 fn span(round: usize) -> Range<usize> {
