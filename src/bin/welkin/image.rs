@@ -63,7 +63,8 @@ pub fn png_of_display(size: [usize; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn display(pixel: [f32; 3], white: f32) -> [u8; 3] {
+/// An sRGB pixel from a linear one; `white` is the luminance of display white.
+pub fn display(pixel: [f32; 3], white: f32) -> [u8; 3] {
     let rgb = pixel.map(|v| (v / white).max(0.0));
     soften(rgb).map(|v| (encode_srgb(v) * 255.0 + 0.5) as u8)
 }

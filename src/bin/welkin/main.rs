@@ -9,6 +9,7 @@ mod polarised;
 mod projection;
 mod query;
 mod render;
+mod sheet;
 mod subset;
 mod verify;
 
@@ -32,6 +33,8 @@ struct Arguments {
 enum Command {
     /// Render a sky to EXR and PNG.
     Render(render::Options),
+    /// Render skies from all over the model into one PNG.
+    ContactSheet(sheet::Options),
     /// Answer the rows of a CSV table with values.
     Query(query::Options),
     /// Describe a model file.
@@ -86,6 +89,7 @@ fn main() -> ExitCode {
     };
     let outcome = match &arguments.command {
         Command::Render(options) => render::run(options).map(done),
+        Command::ContactSheet(options) => sheet::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),
         Command::Info(options) => info::run(options).map(done),
         Command::Plan(options) => plan::run(options).map(done),
@@ -113,7 +117,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
-            "a command is missing: render, query, info, plan, subset or verify (see welkin --help)",
+            "a command is missing: render, contact-sheet, query, info, plan, subset or verify (see welkin --help)",
         ),
         _ => {
             let text = error.render().to_string();

@@ -78,7 +78,8 @@ impl View {
         pixels.map(|pixel| self.projection.direction(pixel, self.size, self.azimuth))
     }
 
-    fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
+    /// Linear sRGB, cd m⁻²; black outside the fish-eye.
+    pub fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
         let pixel = |direction: Option<[f32; 3]>| match direction {
             Some(direction) => sky.linear_srgb(direction),
             None => Ok([0.0; 3]),

@@ -188,7 +188,7 @@ pub fn run(options: &Options) -> Result<()> {
     let rendering = Instant::now();
     let white = match options.exposure {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),
-        None => WHITE_OVER_MEAN * mean_luminance(&sky)?,
+        None => automatic_white(&sky)?,
     };
     let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32)?;
     let rendered = rendering.elapsed();
@@ -222,6 +222,11 @@ fn write(options: &Options, picture: Picture) -> Result<Vec<PathBuf>> {
         }
     }
     Ok(written)
+}
+
+/// The luminance of display white that suits a sky, cd m⁻².
+pub fn automatic_white(sky: &Sky) -> Result<f64> {
+    Ok(WHITE_OVER_MEAN * mean_luminance(sky)?)
 }
 
 /// Geometric mean over the upper hemisphere, cd m⁻².
