@@ -7,13 +7,14 @@ use crate::finite;
 use crate::pack::{self, Air};
 use crate::progress::bar;
 use crate::report;
+use crate::round_trip;
 use crate::units::{Plan, Solved};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use std::path::Path;
 use std::time::Instant;
 use welkin::Model;
-use welkin::format::{self, ColumnTable, Payload, encode, replace_file};
+use welkin::format::{self, ColumnTable, Head, Payload, encode, replace_file};
 
 /// How the traced tensors are fitted.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +39,7 @@ impl Default for Fitting {
 }
 
 /// A chunk of the model before it is packed.
-struct Traced {
+pub(crate) struct Traced {
     altitude: usize,
     visibility: usize,
     chunk: Chunk,
@@ -79,13 +80,13 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<S
 }
 
 /// Where a chunk belongs and what it is judged by.
-struct Place {
-    altitude: usize,
-    visibility: usize,
-    truth: Vec<Sample>,
+pub(crate) struct Place {
+    pub altitude: usize,
+    pub visibility: usize,
+    pub truth: Vec<Sample>,
 }
 
-fn split(traced: Vec<Traced>) -> (Vec<Chunk>, Vec<Place>) {
+pub(crate) fn split(traced: Vec<Traced>) -> (Vec<Chunk>, Vec<Place>) {
     let parts = traced.into_iter().map(|t| {
         let place = Place {
             altitude: t.altitude,
@@ -97,7 +98,7 @@ fn split(traced: Vec<Traced>) -> (Vec<Chunk>, Vec<Place>) {
     parts.unzip()
 }
 
-fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
+pub(crate) fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
     let solve = |&visibility: &f64| {
         let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
         let tell = |share: f64| progress.set_position((100.0 * share) as u64);
@@ -109,7 +110,7 @@ fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
 }
 
 /// Chunks in the order of the file: altitude by altitude, so that a range of altitudes is one piece of the file.
-fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<Traced>> {
+pub(crate) fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<Traced>> {
     let altitudes = plan.grid.altitudes.len();
     let progress = bar(altitudes * solved.len(), "tracing");
     let mut out = vec![];
@@ -130,7 +131,12 @@ fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<Traced
     Ok(out)
 }
 
-fn fit_all(plan: &Plan, fitting: Fitting, store: &Store, chunks: &[Chunk]) -> Result<Fit> {
+pub(crate) fn fit_all(
+    plan: &Plan,
+    fitting: Fitting,
+    store: &Store,
+    chunks: &[Chunk],
+) -> Result<Fit> {
     let rank = fitting.options.rank;
     let nodes = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
     let name = |what: &str, settings: String| {
@@ -176,10 +182,9 @@ fn assemble(
     places: &[Place],
     fit: &Fit,
 ) -> Result<(Vec<u8>, Vec<Vec<Error>>)> {
-    let air = |s: &Solved| Air::new(&s.medium, s.light.spherical_albedo);
-    let airs: Vec<Air> = solved.iter().map(air).collect();
-    let mut head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
-    let mut file = file_chunks(plan, solved, chunks, places, fit)?;
+    let (mut head, mut file) = radiance_file(plan, solved, chunks, places, fit)?;
+    check_rounding(plan, chunks, places, fit, &file)?;
+    file.extend(finite::chunks(solved)?);
     let model = Model::from_bytes(encode(&head, &file)?)?;
     let errors = places
         .par_iter()
@@ -198,14 +203,48 @@ fn assemble(
     Ok((encode(&head, &file)?, errors))
 }
 
-/// The basis, then for each altitude its column and its radiance chunks, then what finite distances need.
-fn file_chunks(
+/// Refuses chunks that half precision spoils.
+fn check_rounding(
+    plan: &Plan,
+    chunks: &[Chunk],
+    places: &[Place],
+    fit: &Fit,
+    file: &[format::Chunk],
+) -> Result<()> {
+    let shared = file.iter().find_map(|c| match &c.payload {
+        Payload::RadianceBasis(basis) => Some(basis),
+        _ => None,
+    });
+    let shared = shared.context("a file without a basis")?;
+    let radiance: Vec<_> = file
+        .iter()
+        .filter_map(|c| match &c.payload {
+            Payload::Radiance(factors) => Some(factors),
+            _ => None,
+        })
+        .collect();
+    radiance.par_iter().enumerate().try_for_each(|(k, packed)| {
+        let fitted = (&fit.own[k], &fit.basis);
+        let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, shared));
+        let [altitude, visibility] = [
+            plan.grid.altitudes[places[k].altitude],
+            plan.grid.visibilities[places[k].visibility],
+        ];
+        outcome.with_context(|| format!("chunk at {altitude} m, visibility {visibility} m"))
+    })
+}
+
+/// The head, and the basis, then for each altitude its column and its radiance chunks.
+pub(crate) fn radiance_file(
     plan: &Plan,
     solved: &[Solved],
     chunks: &[Chunk],
     places: &[Place],
     fit: &Fit,
-) -> Result<Vec<format::Chunk>> {
+) -> Result<(Head, Vec<format::Chunk>)> {
+    let air = |s: &Solved| Air::new(&s.medium, s.light.spherical_albedo);
+    let airs: Vec<Air> = solved.iter().map(air).collect();
+    let head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
     let chunk = |altitude, visibility, payload| format::Chunk {
         altitude,
         visibility,
@@ -236,6 +275,5 @@ fn file_chunks(
             Payload::Radiance(factors),
         ));
     }
-    out.extend(finite::chunks(solved)?);
-    Ok(out)
+    Ok((head, out))
 }

@@ -5,6 +5,7 @@
 pub mod assess;
 pub mod atmosphere;
 pub mod build;
+pub mod chart;
 pub mod column;
 pub mod dataset;
 pub mod decompose;
@@ -16,5 +17,6 @@ pub mod picture;
 pub mod progress;
 pub mod reference;
 pub mod report;
+pub mod round_trip;
 pub mod tracer;
 pub mod units;

@@ -18,6 +18,8 @@ enum Command {
     Build(command::build::Args),
     /// Compare a model file with freshly traced radiance between its nodes.
     Assess(command::assess::Args),
+    /// Chart ways to represent a sky: bytes and time against held-out error.
+    Chart(command::chart::Args),
     /// Compare traced data with the unbiased tracer.
     Judge(command::judge::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
+        Command::Chart(args) => command::chart::run(&args),
         Command::Judge(args) => command::judge::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Picture(args) => command::picture::run(&args),

@@ -3,6 +3,7 @@
 pub mod assess;
 pub mod bench;
 pub mod build;
+pub mod chart;
 pub mod judge;
 mod output;
 pub mod picture;

@@ -8,6 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 use welkin::geometry::Side;
 
 /// A chunk as the fit sees it.
+#[derive(Clone)]
 pub struct Chunk {
     /// Lengths of the view, azimuth and elevation axes.
     pub sites: [usize; 3],
@@ -50,6 +51,23 @@ impl Chunk {
         }
     }
 
+    /// A chunk without light, phase functions or weights.
+    #[cfg(test)]
+    pub fn synthetic(sites: [usize; 3]) -> Self {
+        let count = sites.iter().product::<usize>();
+        Self {
+            sites,
+            values: vec![0.0; count * FIELDS * NW],
+            cosine: vec![0.0; count],
+            weight: [vec![1.0; sites[0]], vec![1.0; sites[2]]],
+            polarising: [0.0; NW],
+            asymmetry: [[0.0; NW]; 2],
+            spherical_albedo: [0.0; NW],
+            level: vec![0.0; sites[2] * NW],
+            seed: 0,
+        }
+    }
+
     /// Tells chunks apart.
     pub fn seed(&self) -> u64 {
         self.seed
@@ -72,17 +90,52 @@ impl Chunk {
 
     /// Factors that turn fields into radiance relative to the traced one.
     pub fn radiance_equation(&self, site: usize, w: usize, albedo: f32) -> (usize, [f32; FIELDS]) {
+        let (share, total) = self.shares(site, w, albedo);
+        (w, share.map(|s| s / total))
+    }
+
+    /// Normalised radiance at a site for a ground albedo.
+    pub fn radiance(&self, site: usize, w: usize, albedo: f32) -> f32 {
+        self.shares(site, w, albedo).1
+    }
+
+    /// What each field counts in the radiance, and the radiance.
+    fn shares(&self, site: usize, w: usize, albedo: f32) -> ([f32; FIELDS], f32) {
         let c = self.cosine[site];
         let share = [
             rayleigh_phase(&[self.polarising[w]; NW], c)[0],
             one_phase(self.asymmetry[0][w], c),
             one_phase(self.asymmetry[1][w], c),
             1.0,
-            albedo / (1.0 - albedo * self.spherical_albedo[w]),
+            self.interreflection(w, albedo),
         ];
         let total: f32 = (0..FIELDS).map(|f| share[f] * self.value(site, f, w)).sum();
-        let total = total.max(1e-12);
-        (w, share.map(|s| s / total))
+        (share, total.max(1e-12))
+    }
+
+    /// A / (1 − A s): how much light a ground of albedo A sends up relative to a white one that is lit once.
+    pub fn interreflection(&self, w: usize, albedo: f32) -> f32 {
+        albedo / (1.0 - albedo * self.spherical_albedo[w])
+    }
+
+    /// Phase function of every field and wavelength at a cosine of the angle to the sun; 1 for fields that have none.
+    pub fn phase_functions(&self, cosine: f32) -> [Spectrum; FIELDS] {
+        let aerosol = |k: usize| self.asymmetry[k].map(|g| one_phase(g, cosine));
+        [
+            rayleigh_phase(&self.polarising, cosine),
+            aerosol(0),
+            aerosol(1),
+            [1.0; NW],
+            [1.0; NW],
+        ]
+    }
+
+    /// The same chunk with other normalised fields.
+    pub fn with_values(&self, values: Vec<f32>) -> Self {
+        Self {
+            values,
+            ..self.clone()
+        }
     }
 
     /// Root of the weight of a site.

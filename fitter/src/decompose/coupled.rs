@@ -117,7 +117,10 @@ struct Problem {
 
 impl Problem {
     fn new(cores: &[Dense], shared: [bool; 4]) -> Self {
-        let norm = |core: &Dense| core.values.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let norm = |core: &Dense| {
+            let square = core.values.iter().map(|v| v * v).sum::<f64>();
+            square.sqrt().max(f64::MIN_POSITIVE)
+        };
         let norms: Vec<f64> = cores.par_iter().map(norm).collect();
         let unfold = |(core, norm): (&Dense, &f64)| {
             let [a, b, c, d] = core.shape;

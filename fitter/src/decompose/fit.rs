@@ -28,12 +28,49 @@ pub struct Fit {
 /// Decomposes all chunks together. `progress` is told the sweep and the root mean square of the relative errors.
 pub fn decompose_all(chunks: &[Chunk], options: Options, progress: &dyn Fn(usize, f64)) -> Fit {
     let weights = channel_weights(chunks);
-    let (bases, cores): (Vec<_>, Vec<_>) = compress(chunks, &weights)
+    decompose_weighted(chunks, &weights, COMPRESSION, options, progress)
+}
+
+/// Decomposes in tiers: each tier fits what the tiers before it, which stay as they are, leave. Its first components are a model of
+/// their own.
+pub fn decompose_nested(chunks: &[Chunk], tiers: &[usize], options: Options) -> Fit {
+    let weights = channel_weights(chunks);
+    let first = Options {
+        rank: tiers[0],
+        ..options
+    };
+    let mut fit = decompose_weighted(chunks, &weights, COMPRESSION, first, &|_, _| ());
+    for &rank in &tiers[1..] {
+        let pairs = chunks.par_iter().zip(&fit.own);
+        let rest = pairs.map(|(chunk, own)| refine::residual(chunk, own, &fit.basis));
+        let rest: Vec<Chunk> = rest.collect();
+        // As much may be lost as in the first tier.
+        let tolerance = COMPRESSION * energy(chunks) / energy(&rest).max(1e-300);
+        let tier = Options { rank, ..options };
+        let next = decompose_weighted(&rest, &weights, tolerance.min(1e-2), tier, &|_, _| ());
+        fit = fit.join(&next);
+    }
+    fit
+}
+
+fn energy(chunks: &[Chunk]) -> f64 {
+    let values = chunks.iter().flat_map(|c| c.values());
+    values.map(|v| f64::from(*v).powi(2)).sum()
+}
+
+fn decompose_weighted(
+    chunks: &[Chunk],
+    weights: &[f64],
+    tolerance: f64,
+    options: Options,
+    progress: &dyn Fn(usize, f64),
+) -> Fit {
+    let (bases, cores): (Vec<_>, Vec<_>) = compress(chunks, weights, tolerance)
         .into_iter()
         .map(|t| (t.bases, t.core))
         .unzip();
     let cpd = decompose(&cores, SHARED, options, progress);
-    assemble(&bases, &cpd.factors, &weights)
+    assemble(&bases, &cpd.factors, weights)
 }
 
 /// Refines the fit in relative radiance by `sweeps` passes.
@@ -52,7 +89,7 @@ pub fn refine_all(chunks: &[Chunk], fit: &mut Fit, sweeps: usize, progress: &dyn
     }
 }
 
-fn compress(chunks: &[Chunk], weights: &[f64]) -> Vec<Tucker> {
+fn compress(chunks: &[Chunk], weights: &[f64], tolerance: f64) -> Vec<Tucker> {
     let one = |chunk: &Chunk| {
         let weighted = chunk.values().chunks_exact(weights.len());
         let values = weighted.flat_map(|cell| {
@@ -64,13 +101,13 @@ fn compress(chunks: &[Chunk], weights: &[f64]) -> Vec<Tucker> {
             shape: [views, phis, elevations, weights.len()],
             values: values.collect(),
         });
-        tucker.compress(0, COMPRESSION);
-        tucker.compress(2, COMPRESSION);
+        tucker.compress(0, tolerance);
+        tucker.compress(2, tolerance);
         tucker
     };
     let mut tuckers: Vec<Tucker> = chunks.par_iter().map(one).collect();
-    compress_together(&mut tuckers, 1, COMPRESSION);
-    compress_together(&mut tuckers, 3, COMPRESSION);
+    compress_together(&mut tuckers, 1, tolerance);
+    compress_together(&mut tuckers, 3, tolerance);
     tuckers
 }
 
@@ -129,6 +166,27 @@ impl Fit {
         });
         let own = own.collect::<Option<Vec<_>>>()?;
         rest.is_empty().then_some(Self { basis, own })
+    }
+
+    /// The components of both.
+    fn join(&self, other: &Self) -> Self {
+        let ranks = [self.basis.rank, other.basis.rank];
+        let beside = |a: &[f32], b: &[f32]| {
+            let rows = a.chunks_exact(ranks[0]).zip(b.chunks_exact(ranks[1]));
+            rows.flat_map(|(a, b)| [a, b].concat()).collect()
+        };
+        let own = |(a, b): (&Own, &Own)| Own {
+            view: beside(&a.view, &b.view),
+            elevation: beside(&a.elevation, &b.elevation),
+        };
+        Self {
+            basis: Basis {
+                rank: ranks[0] + ranks[1],
+                phi: beside(&self.basis.phi, &other.basis.phi),
+                channel: beside(&self.basis.channel, &other.basis.channel),
+            },
+            own: self.own.iter().zip(&other.own).map(own).collect(),
+        }
     }
 
     /// Sum of the norms of a chunk's components over the norm of their sum, which is that of the chunk: large when components

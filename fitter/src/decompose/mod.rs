@@ -4,6 +4,8 @@ mod chunk;
 mod collocation;
 mod coupled;
 mod fit;
+#[cfg(test)]
+mod ill_conditioned;
 mod normalise;
 mod refine;
 mod tucker;
@@ -12,7 +14,7 @@ mod weights;
 pub use chunk::Chunk;
 pub use collocation::Collocation;
 pub use coupled::{Options, decompose};
-pub use fit::{Fit, decompose_all, refine_all, row_major, splines};
+pub use fit::{Fit, decompose_all, decompose_nested, refine_all, row_major, splines};
 pub use normalise::{ChunkGeometry, chunk_geometry};
-pub use refine::{Basis, Own, errors};
+pub use refine::{Basis, Own, relative_radiance, residual};
 pub use tucker::{Dense, Tucker, compress_together};

@@ -377,8 +377,8 @@ fn channels(chunks: &[Chunk], own: &[Own], basis: &mut Basis, seed: u64) {
     }
 }
 
-/// Relative errors of the radiance at random sites (albedo 0.3), unweighted: median, 95th and 99th percentile, largest.
-pub fn errors(chunk: &Chunk, own: &Own, basis: &Basis, count: usize) -> Vec<f32> {
+/// Radiance relative to the traced one at random sites (albedo 0.3), unweighted.
+pub fn relative_radiance(chunk: &Chunk, own: &Own, basis: &Basis, count: usize) -> Vec<f32> {
     let rank = basis.rank;
     let [views, phis, elevations] = chunk.sites;
     let mut rng = random(0, chunk, 99);
@@ -398,10 +398,30 @@ pub fn errors(chunk: &Chunk, own: &Own, basis: &Basis, count: usize) -> Vec<f32>
             mix(basis, &equation, &mut mixed);
             let (view, elevation) = (row(&own.view, v, rank), row(&own.elevation, e, rank));
             let phi = row(&basis.phi, p, rank);
-            let value: f32 = (0..rank)
+            (0..rank)
                 .map(|r| mixed[r] * view[r] * elevation[r] * phi[r])
-                .sum();
-            (value - 1.0).abs()
+                .sum()
         })
         .collect()
+}
+
+/// What the factors leave of a chunk.
+pub fn residual(chunk: &Chunk, own: &Own, basis: &Basis) -> Chunk {
+    let rank = basis.rank;
+    let [_, phis, elevations] = chunk.sites;
+    let mut z = vec![0.0; rank];
+    let mut values = chunk.values().to_vec();
+    for (site, cell) in values.chunks_exact_mut(FIELDS * NW).enumerate() {
+        let view = row(&own.view, site / (phis * elevations), rank);
+        let phi = row(&basis.phi, site / elevations % phis, rank);
+        let elevation = row(&own.elevation, site % elevations, rank);
+        for r in 0..rank {
+            z[r] = view[r] * phi[r] * elevation[r];
+        }
+        for (c, value) in cell.iter_mut().enumerate() {
+            let channel = row(&basis.channel, c, rank);
+            *value -= channel.iter().zip(&z).map(|(c, z)| c * z).sum::<f32>();
+        }
+    }
+    chunk.with_values(values)
 }
