@@ -135,8 +135,8 @@ fn svg(points: &[Point]) -> String {
 <text x="16" y="190" text-anchor="middle" transform="rotate(-90 16 190)">time per direction (ns)</text>
 "##,
     );
-    let x = |error: f64| 70.0 + 500.0 * ((100.0 * error).log10() + 1.3) / 1.8;
-    let y = |ns: f64| 350.0 - 310.0 * (ns.log10() - 1.0) / 0.9;
+    let x = |error: f64| 70.0 + 500.0 * ((100.0 * error).log10() + 1.5) / 2.0;
+    let y = |ns: f64| 350.0 - 310.0 * (ns.log10() - 1.0) / 0.7;
     for percent in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
         let x = x(percent / 100.0);
         let _ = writeln!(
@@ -144,7 +144,7 @@ fn svg(points: &[Point]) -> String {
             r##"<path d="M{x:.1} 40V350" stroke="#ddd"/><text x="{x:.1}" y="366" text-anchor="middle">{percent}</text>"##
         );
     }
-    for ns in [10.0, 15.0, 20.0, 30.0, 40.0, 60.0] {
+    for ns in [10.0, 15.0, 20.0, 30.0, 40.0] {
         let y = y(ns);
         let _ = writeln!(
             out,

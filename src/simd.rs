@@ -18,6 +18,8 @@ pub(crate) trait Kernel {
 pub(crate) trait Instructions: Copy {
     /// Widens finite half-precision numbers.
     fn widen(self, halves: &[U16; 8]) -> Lanes<8>;
+    /// Asks for numbers that will be read soon.
+    fn fetch(self, halves: &[U16]);
 }
 
 /// For every processor.
@@ -33,6 +35,9 @@ impl Instructions for Portable {
         }
         Lanes(lanes)
     }
+
+    #[inline(always)]
+    fn fetch(self, _: &[U16]) {}
 }
 
 /// Runs a kernel with the widest vectors of this processor.
@@ -47,7 +52,9 @@ pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86 {
-    use core::arch::x86_64::{_mm_set_epi64x, _mm256_cvtph_ps, _mm256_storeu_ps};
+    use core::arch::x86_64::{
+        _MM_HINT_T0, _mm_prefetch, _mm_set_epi64x, _mm256_cvtph_ps, _mm256_storeu_ps,
+    };
 
     use zerocopy::IntoBytes;
     use zerocopy::little_endian::U16;
@@ -94,6 +101,17 @@ mod x86 {
                 _mm256_storeu_ps(lanes.0.as_mut_ptr(), _mm256_cvtph_ps(packed));
             }
             lanes
+        }
+
+        #[inline(always)]
+        fn fetch(self, halves: &[U16]) {
+            const LINE: usize = 32;
+            let mut first = 0;
+            while first < halves.len() {
+                // SAFETY: the address is in the slice, and prefetching is a hint that never faults.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(halves[first..].as_ptr().cast()) };
+                first += LINE;
+            }
         }
     }
 

@@ -21,13 +21,15 @@ use texture::Texture;
 use welkin::{BakedColour, BakedSky, Conditions, Directions, General, Model, Result, Sky};
 
 const QUERIES: usize = 8192;
-/// Queries of one round.
+/// Queries of one round: of prepared skies, of the paper's scheme, of the whole model.
 const ROUND: usize = 2048;
+const SLOW: usize = 64;
+const GENERAL: usize = 256;
 
-/// The queries of a round.
-fn span(round: usize) -> Range<usize> {
-    let first = round * ROUND % QUERIES;
-    first..first + ROUND
+/// The queries of a round of `n`.
+fn span(round: usize, n: usize) -> Range<usize> {
+    let first = round * n % QUERIES;
+    first..first + n
 }
 
 fn main() -> Result<()> {
@@ -101,7 +103,7 @@ impl Scene {
         let mut out = vec![0.0; n];
         let mut peer_out = vec![0.0; n];
         let mut paper_all = |round| {
-            for &d in &self.directions[span(round)] {
+            for &d in &self.directions[span(round, SLOW)] {
                 paper.radiance(0, &self.conditions, black_box(d), &mut peer_out);
                 black_box(&peer_out);
             }
@@ -118,24 +120,24 @@ impl Scene {
             self.spectral
                 .radiance_batch(&self.part(round), &mut spectra[..n * ROUND])
         };
-        let batch = clock::duel(ROUND, unwrapped(batch), &mut paper_all);
+        let batch = clock::duel([ROUND, SLOW], unwrapped(batch), &mut paper_all);
         let single = |round| {
             let mut ask = |d| self.spectral.radiance(black_box(d), &mut out);
-            self.directions[span(round)]
+            self.directions[span(round, ROUND)]
                 .iter()
                 .try_for_each(|&d| ask(d))
         };
-        let single = clock::duel(ROUND, unwrapped(single), &mut paper_all);
+        let single = clock::duel([ROUND, SLOW], unwrapped(single), &mut paper_all);
         let heroes = self.heroes();
         let mut four = vec![[0.0; 4]; QUERIES];
         self.spectral.hero_batch(&directions, &heroes, &mut four)?;
         let hero_error = self.hero_error(&heroes, &four)?;
         let hero = |round| {
-            let (part, span) = (self.part(round), span(round));
+            let (part, span) = (self.part(round), span(round, ROUND));
             self.spectral
                 .hero_batch(&part, &heroes[span], &mut four[..ROUND])
         };
-        let hero = clock::duel(ROUND, unwrapped(hero), &mut paper_all);
+        let hero = clock::duel([ROUND, SLOW], unwrapped(hero), &mut paper_all);
         let mut rows = vec![
             paper_row("prepared_spectral_batch", batch),
             paper_row("prepared_spectral_single", single),
@@ -159,7 +161,7 @@ impl Scene {
         .expect("within the range of Hosek-Wilkie");
         let sun = self.sky.sun_direction();
         let mut peer = |round| {
-            for &d in &self.directions[span(round)] {
+            for &d in &self.directions[span(round, ROUND)] {
                 let [x, y, z] = black_box(d);
                 let theta = z.max(0.0).acos();
                 let gamma = (x * sun[0] + y * sun[1] + z * sun[2])
@@ -180,18 +182,18 @@ impl Scene {
             let part = self.part(round);
             self.colour.linear_srgb_batch(&part, &mut rgb[..ROUND])
         };
-        let batch = clock::duel(ROUND, unwrapped(batch), &mut peer);
+        let batch = clock::duel([ROUND; 2], unwrapped(batch), &mut peer);
         let single = |round| {
             let ask = |d| {
                 self.colour
                     .linear_srgb(black_box(d))
                     .map(|c| _ = black_box(c))
             };
-            self.directions[span(round)]
+            self.directions[span(round, ROUND)]
                 .iter()
                 .try_for_each(|&d| ask(d))
         };
-        let single = clock::duel(ROUND, unwrapped(single), &mut peer);
+        let single = clock::duel([ROUND; 2], unwrapped(single), &mut peer);
         let row = |name, ns| Row {
             name,
             peer: "hw-skymodel, RGB",
@@ -224,14 +226,14 @@ impl Scene {
                 .radiance_batch(&part, &mut spectra[..n * ROUND])
         };
         let peer = |round| {
-            for &d in &self.directions[span(round)] {
+            for &d in &self.directions[span(round, ROUND)] {
                 black_box(texture.at(black_box(d)));
             }
         };
         Ok(Row {
             name: "prepared_spectral_batch_floor",
             peer: "texture 512 x 256, nearest pixel",
-            ns: clock::duel(ROUND, unwrapped(ours), peer),
+            ns: clock::duel([ROUND; 2], unwrapped(ours), peer),
             p95_error: [Some(error), Some(texture_error)],
             bytes: [self.spectral.bytes(), texture.bytes()],
         })
@@ -265,10 +267,10 @@ impl Scene {
             let mut ask = |i: usize| {
                 general.radiance(black_box(&anywhere[i]), self.directions[i], &mut spectrum)
             };
-            span(round).try_for_each(&mut ask)
+            span(round, GENERAL).try_for_each(&mut ask)
         };
         let peer_queries = |round| {
-            for i in span(round) {
+            for i in span(round, SLOW) {
                 // A step that visits all copies in no order that a cache knows.
                 paper.radiance(i * 89, black_box(&inside[i]), self.directions[i], &mut out);
                 black_box(&out);
@@ -277,7 +279,7 @@ impl Scene {
         Ok(Row {
             name: "general_spectral",
             peer: "paper's scheme, all random",
-            ns: clock::duel(ROUND, unwrapped(ours), peer_queries),
+            ns: clock::duel([GENERAL, SLOW], unwrapped(ours), peer_queries),
             p95_error: [Some(p95(got.into_iter())), Some(p95(peer.into_iter()))],
             bytes: [welkin::DEFAULT_MODEL.len(), paper.bytes()],
         })
@@ -289,7 +291,7 @@ impl Scene {
             model.verify()
         };
         let open = clock::duel(
-            1,
+            [1; 2],
             unwrapped(|_| Model::default_model().map(drop)),
             unwrapped(whole),
         );
@@ -321,13 +323,13 @@ impl Scene {
             row(
                 "prepare",
                 "rendering a texture 128 x 64",
-                clock::duel(1, unwrapped(fresh), picture),
+                clock::duel([1; 2], unwrapped(fresh), picture),
                 [self.spectral.bytes(), picture_bytes],
             ),
             row(
                 "prepare_rgb",
                 "rendering a texture 128 x 64",
-                clock::duel(1, unwrapped(colour), picture),
+                clock::duel([1; 2], unwrapped(colour), picture),
                 [self.colour.bytes(), picture_bytes],
             ),
             row(
@@ -342,7 +344,7 @@ impl Scene {
     /// The directions of a round.
     fn part(&self, round: usize) -> Directions<'_> {
         let [x, y, z] = &self.components;
-        let span = span(round);
+        let span = span(round, ROUND);
         black_box(Directions {
             x: &x[span.clone()],
             y: &y[span.clone()],

@@ -55,6 +55,20 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Asks for what [`add_chunk`] will read.
+#[inline(always)]
+pub(super) fn fetch_chunk<I: Instructions>(
+    instructions: I,
+    chunk: &RadianceView,
+    heights: &[U16],
+    [alpha, elevation]: [&Taps; 2],
+) {
+    // The four rows stand together.
+    let stride = chunk.stride;
+    instructions.fetch(&heights[alpha.index[0] * stride..][..4 * stride]);
+    instructions.fetch(&chunk.elevation[elevation.index[0] * stride..][..4 * stride]);
+}
+
 /// Adds the components of a chunk at the place of a query, times `weight`.
 #[inline(always)]
 pub(super) fn add_chunk<I: Instructions>(

@@ -9,6 +9,7 @@ mod place;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::format::RadianceView;
 use crate::geometry::Side;
 use crate::lanes::Lanes;
 #[cfg(not(feature = "std"))]
@@ -24,6 +25,10 @@ use place::Place;
 /// Most wavelengths, in vectors, and most constituents that this evaluator has room for.
 const WAVELENGTH_BLOCKS: usize = 8;
 const MOST_CONSTITUENTS: usize = 16;
+/// Most chunks around a query.
+const MOST_AROUND: usize = 16;
+/// Chunks between asking for one and using it.
+const AHEAD: usize = 2;
 
 /// A model, evaluated where it stands: for queries that share nothing, like those of path vertices at any altitude.
 ///
@@ -180,6 +185,9 @@ impl Kernel for Query<'_, '_> {
         let mut columns = [0.0; MOST_CONSTITUENTS];
         let basis = chunks.basis();
         let basis = basis.ok_or_else(|| model.missing("radiance basis", None, None))?;
+        let mut around = [None; MOST_AROUND];
+        let mut n = 0;
+        let taps = [&place.alpha, &place.elevation];
         for (a, altitude_weight) in place.altitudes.taps() {
             let column = chunks.column(a);
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
@@ -187,16 +195,28 @@ impl Kernel for Query<'_, '_> {
             for (v, weight) in place.visibilities.taps() {
                 let chunk = chunks.radiance(a, v);
                 let chunk = chunk.ok_or_else(|| model.missing("radiance", Some(a), Some(v)))?;
-                let weight = (altitude_weight * weight) as f32;
-                let heights = match place.ray.side {
-                    Side::Up => chunk.alpha_up,
-                    Side::Down => chunk.alpha_down,
-                };
-                let taps = [&place.alpha, &place.elevation];
-                contract::add_chunk(instructions, chunk, heights, taps, weight, &mut components);
-                let n = model.head.shape.wavelengths;
-                contract::add_level(instructions, chunk, n, taps[1], weight, &mut level);
+                around[n] = Some((chunk, (altitude_weight * weight) as f32));
+                n += 1;
             }
+        }
+        for i in 0..n + AHEAD {
+            if let Some((chunk, _)) = around.get(i).copied().flatten() {
+                contract::fetch_chunk(instructions, chunk, heights(chunk, place), taps);
+            }
+            let Some((chunk, weight)) = i.checked_sub(AHEAD).and_then(|i| around[i]) else {
+                continue;
+            };
+            let rows = heights(chunk, place);
+            contract::add_chunk(instructions, chunk, rows, taps, weight, &mut components);
+            let wavelengths = model.head.shape.wavelengths;
+            contract::add_level(
+                instructions,
+                chunk,
+                wavelengths,
+                taps[1],
+                weight,
+                &mut level,
+            );
         }
         contract::align(model.head.shape.wavelengths, &mut level);
         contract::turn(instructions, basis, &place.phi, &mut components);
@@ -208,6 +228,15 @@ impl Kernel for Query<'_, '_> {
         }
         model.light.mix(place, &flat, &level, &columns, out);
         Ok(())
+    }
+}
+
+/// The factor matrix on the ray's side of the horizon.
+#[inline(always)]
+fn heights<'a>(chunk: &RadianceView<'a>, place: &Place) -> &'a [zerocopy::little_endian::U16] {
+    match place.ray.side {
+        Side::Up => chunk.alpha_up,
+        Side::Down => chunk.alpha_down,
     }
 }
 
