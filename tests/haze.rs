@@ -340,7 +340,7 @@ fn hostile_payloads_are_typed_errors() {
     };
     shared(&|b| b.degree = 99);
     shared(&|b| b.orders = 3);
-    shared(&|b| b.ranks[2] = 65);
+    shared(&|b| b.ranks[2] = 33);
     shared(&|b| b.sun[1] = 0.5);
     shared(&|b| b.altitude[2] = f64::INFINITY);
     shared(&|b| b.factors[3][2] = f32::NAN);

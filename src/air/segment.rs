@@ -75,6 +75,14 @@ impl Segment {
         }
     }
 
+    /// Sine of the elevation of a far-away direction at the distance `s` from the tangent point and `radius` from the centre.
+    #[inline(always)]
+    pub fn sine_of(&self, direction: [f64; 3], s: f64, radius: f64) -> f64 {
+        let way = s - self.from;
+        let along = dot(self.start, direction) + way * dot(self.direction, direction);
+        (along / radius).clamp(-1.0, 1.0)
+    }
+
     pub fn to(&self) -> f64 {
         self.from + self.length
     }

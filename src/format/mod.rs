@@ -64,7 +64,8 @@ pub use polarisation::{
 pub use replace::replace_file;
 #[cfg(feature = "std")]
 pub use source::{
-    Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView, TENSOR, harmonics,
+    MAX_MOMENTS, Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView,
+    TENSOR, harmonics,
 };
 #[cfg(feature = "std")]
 pub use verify::{Problem, verify};

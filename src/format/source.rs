@@ -22,6 +22,8 @@ const MAX_SOURCE_TABLE: usize = 1 << 18;
 const MAX_DEGREE: usize = 24;
 /// Most components along one mode.
 const MAX_COMPONENTS: usize = 64;
+/// Most components along the mode of the moments: evaluation takes time for each.
+pub const MAX_MOMENTS: usize = 32;
 /// Most species of scatterers.
 const MAX_SPECIES: usize = 16;
 
@@ -228,6 +230,7 @@ fn ranks(raw: &[U32; 4]) -> Result<Ranks> {
     for (out, &raw) in out.iter_mut().zip(raw) {
         *out = within("rank of the source", raw, 1, MAX_COMPONENTS)?;
     }
+    within("rank of the source's moments", raw[2], 1, MAX_MOMENTS)?;
     Ok(out)
 }
 

@@ -3,11 +3,11 @@
 use core::f64::consts::PI;
 
 use super::harmonics::orders;
-use crate::format::{SourceBasisView, TENSOR};
+use crate::format::{MAX_MOMENTS, SourceBasisView, TENSOR};
 use crate::math::LANES;
 
 /// Most components of the moments, in vectors.
-pub(crate) const MOST_COMPONENTS: usize = 64 / LANES;
+pub(crate) const MOST_COMPONENTS: usize = MAX_MOMENTS / LANES;
 /// Zenith angles of the table: 1.5° apart.
 const ANGLES: usize = 120;
 

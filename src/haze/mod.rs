@@ -2,7 +2,7 @@
 
 mod directions;
 mod harmonics;
-mod nodes;
+mod panels;
 mod source;
 mod species;
 mod sunlight;
@@ -15,10 +15,10 @@ use crate::math::{LANES, bound, one_minus_exp_neg};
 use crate::model::Model;
 use crate::phase::SunAngle;
 use directions::{Components, Local};
-use nodes::{MOST_PANELS, Panel, place, point};
+use panels::{Heaven, MOST_PANELS, Panels, Stations, point};
 use source::{SourceTable, Spot, blocks, ground_factor};
 use species::Species;
-use sunlight::Sunlight;
+use sunlight::{Beam, Sunlight};
 
 /// Most constituents that a file can have.
 const MOST_CONSTITUENTS: usize = 16;
@@ -41,6 +41,7 @@ pub struct Haze {
     sun: [f64; 3],
     species: Species,
     source: SourceTable,
+    beam: Beam,
     /// Mean extinction coefficient of each constituent, m⁻¹: a typical wavelength.
     grey: Amounts,
     irradiance: Vec<[f32; LANES]>,
@@ -77,6 +78,7 @@ impl Model {
             source: SourceTable::new(self, conditions.visibility, elevation, &ground)?,
             species: Species::new(head, around.into_iter()),
             sun: sun_direction(elevation, azimuth),
+            beam: Beam::new(&air.layers, elevation),
             grey: air.grey(),
             irradiance: blocks(&irradiance(head)).collect(),
             xyz: xyz(head),
@@ -118,7 +120,7 @@ impl Haze {
     /// components.
     pub fn bytes(&self) -> usize {
         let own = size_of_val(self.irradiance.as_slice()) + size_of_val(self.xyz.as_slice());
-        self.air.bytes() + self.source.bytes() + self.species.bytes() + own
+        self.air.bytes() + self.beam.bytes() + self.source.bytes() + self.species.bytes() + own
     }
 
     /// The same haze with the sun at another azimuth (rad). Costs no preparation.
@@ -255,89 +257,78 @@ impl Haze {
     #[inline]
     fn integrate(&self, segment: &Segment, mut emit: impl FnMut(usize, Block)) {
         let layers = &self.air.layers;
-        let constituents = layers.constituents;
-        let mut panels = [Panel::default(); MOST_PANELS];
-        let count = place(layers, segment, &self.grey, &mut panels);
-        let stations = self.stations(segment);
-        let lit: [Lit; MOST_PANELS] = core::array::from_fn(|i| match i < count {
-            true => self.lit(segment, &panels[i], &stations),
-            false => Lit::default(),
-        });
-        let cosine = dot(segment.direction, self.sun);
-        let angle = SunAngle::between(segment.direction, self.sun);
-        debug_assert!(cosine.is_finite());
-        let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
-        for block in 0..self.irradiance.len() {
-            self.species
-                .sunlit(block, angle, &mut sunlit[..constituents]);
-            let mut scattered = [0.0; LANES];
-            let mut total = Amounts::default();
-            let mut through = [1.0; LANES];
-            for (panel, lit) in panels[..count].iter().zip(&lit) {
-                let depth = self.air.extinction.depth(&panel.columns, block);
-                let sunlight = self.air.extinction.depth(&lit.sunlight.columns, block);
-                let light = self.source.scattered(&lit.spot, &lit.seen, block);
-                let mut source = [0.0; LANES];
-                for (k, sunlit) in sunlit[..constituents].iter().enumerate() {
-                    let column = panel.columns.get(k);
-                    let [molecules, particles] = [0, 1].map(|c| self.species.totals(c, k, block));
-                    for i in 0..LANES {
-                        let direct = lit.sunlight.share * sunlit[i] * fade(sunlight[i]);
-                        let diffuse = molecules[i] * light[0][i] + particles[i] * light[1][i];
-                        source[i] += column * (direct + diffuse);
-                    }
-                }
-                for i in 0..LANES {
-                    let absorbed = one_minus_exp_neg(depth[i]);
-                    // Mean transmittance over the panel; the limit is reached before the quotient loses its digits.
-                    let mean = if depth[i] > 1e-4 {
-                        absorbed / depth[i]
-                    } else {
-                        1.0 - 0.5 * depth[i]
-                    };
-                    scattered[i] += source[i] * through[i] * mean;
-                    through[i] *= 1.0 - absorbed;
-                }
-                total.add(&panel.columns, layers.quads);
-            }
-            let depth = self.air.extinction.depth(&total, block);
-            emit(block, Block { scattered, depth });
-        }
-    }
-
-    /// How the components look from points of the segment.
-    fn stations(&self, segment: &Segment) -> Stations {
-        let at = |s: f64| {
-            let local = self.local(segment, s);
-            self.source.directions.at(&local.1)
+        let sky = Heaven {
+            sun: self.sun,
+            low: self.conditions.solar_elevation < LOW_SUN,
         };
-        let middle = segment.from + 0.5 * segment.length;
-        if segment.length < SHORT {
-            return Stations::One(at(middle));
+        let panels = Panels::place(layers, segment, &self.grey, &sky);
+        let panels = panels.as_slice();
+        let mut sunlight = [Sunlight::default(); MOST_PANELS];
+        for (panel, sunlight) in panels.iter().zip(&mut sunlight) {
+            *sunlight = self.sunlight(segment, panel.at);
         }
-        Stations::Three([at(segment.from), at(middle), at(segment.to())])
+        let stations = Stations::along(panels.len());
+        let mut views = [const { None }; 3];
+        for (view, panel) in views.iter_mut().zip(stations.panels()) {
+            *view = Some(self.view(segment, panels[panel].at));
+        }
+        let angle = SunAngle::between(segment.direction, self.sun);
+        let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
+        let sunlit = &mut sunlit[..layers.constituents];
+        for block in 0..self.irradiance.len() {
+            self.species.sunlit(block, angle, sunlit);
+            let mut diffuse = [[[0.0; LANES]; 2]; 3];
+            for (out, view) in diffuse.iter_mut().zip(views.iter().flatten()) {
+                *out = self.source.scattered(&view.spot, &view.seen, block);
+            }
+            let mut path = Walk::start();
+            for (i, (panel, sunlight)) in panels.iter().zip(&sunlight).enumerate() {
+                let diffuse = stations.between(&diffuse, i);
+                let direct = self.direct(sunlight, block);
+                let source = self
+                    .species
+                    .source(&panel.columns, block, sunlit, &direct, &diffuse);
+                path.step(&source, &self.air.extinction.depth(&panel.columns, block));
+            }
+            emit(
+                block,
+                Block {
+                    scattered: path.scattered,
+                    depth: path.depth,
+                },
+            );
+        }
     }
 
-    /// Altitude, and the directions of view and sun in the local frame, with the sine of the sun's elevation.
+    /// Sunlight that arrives, for a block.
     #[inline(always)]
-    fn local(&self, segment: &Segment, s: f64) -> (f64, Local, f64) {
-        let (altitude, view) = point(&self.air.layers, segment.line, s);
-        let radius = self.air.planet().radius + altitude;
-        let way = s - segment.from;
-        let place: [f64; 3] =
-            core::array::from_fn(|i| segment.start[i] + way * segment.direction[i]);
-        let sun = (dot(place, self.sun) / radius).clamp(-1.0, 1.0);
+    fn direct(&self, sunlight: &Sunlight, block: usize) -> [f32; LANES] {
+        if sunlight.share == 0.0 {
+            return [0.0; LANES];
+        }
+        let mut light = self.air.extinction.depth(&sunlight.columns, block);
+        for value in &mut light {
+            *value = sunlight.share * fade(*value);
+        }
+        light
+    }
+
+    #[inline(always)]
+    fn sunlight(&self, segment: &Segment, s: f64) -> Sunlight {
+        let (altitude, _) = point(&self.air.layers, segment.line, s);
+        let sun = segment.sine_of(self.sun, s, self.air.planet().radius + altitude);
+        self.beam.at(&self.air.layers, altitude, sun)
+    }
+
+    /// What the source looks like from a point of the segment.
+    #[inline(always)]
+    fn view(&self, segment: &Segment, s: f64) -> View {
+        let (altitude, zenith) = point(&self.air.layers, segment.line, s);
+        let sun = segment.sine_of(self.sun, s, self.air.planet().radius + altitude);
         let between = dot(segment.direction, self.sun);
-        (altitude, Local::new(view, sun, between), sun)
-    }
-
-    #[inline(always)]
-    fn lit(&self, segment: &Segment, panel: &Panel, stations: &Stations) -> Lit {
-        let (altitude, _, sun) = self.local(segment, panel.at);
-        Lit {
-            sunlight: Sunlight::at(&self.air.layers, altitude, sun),
+        View {
             spot: self.source.spot(altitude as f32, sun as f32),
-            seen: stations.at(((panel.at - segment.from) / segment.length.max(1e-9)) as f32),
+            seen: self.source.directions.at(&Local::new(zenith, sun, between)),
         }
     }
 
@@ -356,57 +347,46 @@ impl Haze {
     }
 }
 
-/// Segments up to this length (m) see the source in one direction: the vertical turns by a twentieth of a degree.
-const SHORT: f64 = 6000.0;
+/// Where the sun stands lower than this (rad), panels crowd where it shines.
+const LOW_SUN: f64 = 0.14;
 
-/// The components in the directions of a segment.
-#[allow(clippy::large_enum_variant)]
-enum Stations {
-    One([Components; 2]),
-    /// At the start, the middle and the end.
-    Three([[Components; 2]; 3]),
-}
-
-impl Stations {
-    #[inline(always)]
-    fn at(&self, t: f32) -> [Components; 2] {
-        match self {
-            Stations::One(seen) => *seen,
-            Stations::Three(seen) => {
-                let weight = [
-                    (1.0 - t) * (1.0 - 2.0 * t),
-                    4.0 * t * (1.0 - t),
-                    t * (2.0 * t - 1.0),
-                ];
-                let mut out = [Components::default(); 2];
-                for (seen, weight) in seen.iter().zip(weight) {
-                    for (out, seen) in out.iter_mut().zip(seen) {
-                        directions::add(out, seen, weight);
-                    }
-                }
-                out
-            }
-        }
-    }
-}
-
-/// The light in a panel.
-#[derive(Clone, Copy)]
-struct Lit {
-    sunlight: Sunlight,
+/// A place in the source and how its components look from there.
+struct View {
     spot: Spot,
     seen: [Components; 2],
 }
 
-impl Default for Lit {
-    fn default() -> Self {
+/// Light and optical depth from the start of a segment to where one has got.
+struct Walk {
+    scattered: [f32; LANES],
+    through: [f32; LANES],
+    depth: [f32; LANES],
+}
+
+impl Walk {
+    fn start() -> Self {
         Self {
-            sunlight: Sunlight {
-                share: 0.0,
-                columns: Amounts::default(),
-            },
-            spot: Spot::default(),
-            seen: [Components::default(); 2],
+            scattered: [0.0; LANES],
+            through: [1.0; LANES],
+            depth: [0.0; LANES],
+        }
+    }
+
+    /// Goes on through a panel with this source over its whole length and this optical depth.
+    #[inline(always)]
+    fn step(&mut self, source: &[f32; LANES], depth: &[f32; LANES]) {
+        for i in 0..LANES {
+            let absorbed = one_minus_exp_neg(depth[i]);
+            // Mean transmittance of the panel; the limit is reached before the quotient loses its digits.
+            let thin = 1.0 - 0.5 * depth[i];
+            let mean = if depth[i] > 1e-3 {
+                absorbed / depth[i]
+            } else {
+                thin
+            };
+            self.scattered[i] += source[i] * self.through[i] * mean;
+            self.through[i] *= 1.0 - absorbed;
+            self.depth[i] += depth[i];
         }
     }
 }

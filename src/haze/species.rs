@@ -1,5 +1,6 @@
 //! Scattering coefficients and phase functions of what is in the air.
 
+use crate::air::Amounts;
 use crate::format::{Field, Head, PhaseFunction, SourceView, phase_function};
 use crate::math::LANES;
 use crate::phase::{PhaseTable, SunAngle};
@@ -98,9 +99,27 @@ impl Species {
         }
     }
 
-    /// Scattering coefficients of molecules and of particles: `[constituent]` of a block.
+    /// What the columns of a panel scatter towards the observer: `sunlit` of each constituent times `direct` light, and
+    /// the `diffuse` source of molecules and of particles.
     #[inline(always)]
-    pub fn totals(&self, class: usize, constituent: usize, block: usize) -> &[f32; LANES] {
-        &self.totals[class][constituent * self.blocks + block]
+    pub fn source(
+        &self,
+        columns: &Amounts,
+        block: usize,
+        sunlit: &[[f32; LANES]],
+        direct: &[f32; LANES],
+        diffuse: &[[f32; LANES]; 2],
+    ) -> [f32; LANES] {
+        let mut sum = [0.0; LANES];
+        for (k, sunlit) in sunlit.iter().enumerate() {
+            let column = columns.get(k);
+            let row = k * self.blocks + block;
+            let (molecules, particles) = (&self.totals[0][row], &self.totals[1][row]);
+            for i in 0..LANES {
+                let scattered = molecules[i] * diffuse[0][i] + particles[i] * diffuse[1][i];
+                sum[i] += column * (sunlit[i] * direct[i] + scattered);
+            }
+        }
+        sum
     }
 }
