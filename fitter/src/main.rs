@@ -20,6 +20,8 @@ enum Command {
     Assess(command::assess::Args),
     /// Chart ways to represent a sky: bytes and time against held-out error.
     Chart(command::chart::Args),
+    /// Compare methods for the light of finite segments with exact integrals.
+    Finite(command::finite::Args),
     /// Compare traced data with the unbiased tracer.
     Judge(command::judge::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
@@ -37,6 +39,7 @@ fn main() -> ExitCode {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
         Command::Chart(args) => command::chart::run(&args),
+        Command::Finite(args) => command::finite::run(&args),
         Command::Judge(args) => command::judge::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Picture(args) => command::picture::run(&args),

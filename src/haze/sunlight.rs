@@ -106,9 +106,7 @@ impl Beam {
             for (corner, weight) in corners.iter().zip(weights) {
                 sum = core::array::from_fn(|i| sum[i] + weight * corner.0[q][i]);
             }
-            for i in 0..LANES {
-                columns.0[q][i] = exp(sum[i]);
-            }
+            columns.0[q] = core::array::from_fn(|i| exp(sum[i]));
         }
         columns
     }

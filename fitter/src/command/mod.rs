@@ -4,6 +4,7 @@ pub mod assess;
 pub mod bench;
 pub mod build;
 pub mod chart;
+pub mod finite;
 pub mod judge;
 mod output;
 pub mod picture;

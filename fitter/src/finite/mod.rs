@@ -3,6 +3,7 @@
 pub mod density;
 mod modes;
 pub mod source;
+pub mod study;
 
 use crate::units::Solved;
 use anyhow::Result;

@@ -72,6 +72,11 @@ impl Colour {
     }
 }
 
+/// Solar irradiance at wavelengths (nm), W m⁻² nm⁻¹.
+pub fn irradiance(wavelengths: &[f64]) -> Result<Vec<f64>> {
+    Ok(Colour::new(wavelengths)?.irradiance)
+}
+
 /// The nodes between which `x` lies, with their shares of it.
 fn shares(nodes: &[f64], x: f64) -> [(usize, f64); 2] {
     let last = nodes.len() - 1;

@@ -11,5 +11,6 @@ mod mesh;
 mod render;
 pub mod scene;
 
+pub use colour::irradiance;
 pub use mesh::{Triangle, load_obj};
 pub use render::{Picture, Settings, render};

@@ -1,8 +1,11 @@
 //! The `welkin` command: renders, queries and describes clear-sky models.
 
+mod camera;
 mod failure;
+mod froxels;
 mod image;
 mod info;
+mod landscape;
 mod picture;
 mod plan;
 mod polarised;
@@ -11,6 +14,7 @@ mod query;
 mod render;
 mod sheet;
 mod subset;
+mod terrain;
 mod verify;
 
 use std::path::PathBuf;
@@ -35,6 +39,8 @@ enum Command {
     Render(render::Options),
     /// Render skies from all over the model into one PNG.
     ContactSheet(sheet::Options),
+    /// Write aerial perspective as a camera-aligned volume for real-time engines.
+    Froxels(froxels::Options),
     /// Answer the rows of a CSV table with values.
     Query(query::Options),
     /// Describe a model file.
@@ -90,6 +96,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Render(options) => render::run(options).map(done),
         Command::ContactSheet(options) => sheet::run(options).map(done),
+        Command::Froxels(options) => froxels::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),
         Command::Info(options) => info::run(options).map(done),
         Command::Plan(options) => plan::run(options).map(done),
@@ -117,7 +124,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
-            "a command is missing: render, contact-sheet, query, info, plan, subset or verify (see welkin --help)",
+            "a command is missing: render, froxels, contact-sheet, query, info, plan, subset or verify (see welkin --help)",
         ),
         _ => {
             let text = error.render().to_string();

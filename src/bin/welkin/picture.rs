@@ -39,6 +39,33 @@ impl Picture {
         })
     }
 
+    /// Finished pixels: linear sRGB, cd m⁻².
+    pub fn of_pixels(
+        size: [usize; 2],
+        pixels: &[[f32; 3]],
+        white: f32,
+        wanted: Wanted,
+    ) -> Result<Self> {
+        let channel = |c: usize| pixels.iter().map(|p| p[c]).collect();
+        let encode_exr = || {
+            exr(Planes {
+                size,
+                planes: ["R", "G", "B"]
+                    .iter()
+                    .zip(0..)
+                    .map(|(n, c)| ((*n).to_owned(), channel(c)))
+                    .collect(),
+                attributes: Vec::new(),
+                comment: "linear sRGB, cd m^-2",
+            })
+        };
+        let encode_png = || png(size, pixels, white);
+        Ok(Self {
+            exr: wanted.exr.then(encode_exr).transpose()?,
+            png: wanted.png.then(encode_png).transpose()?,
+        })
+    }
+
     /// Its polarisation in false colours.
     pub fn of_polarisation(
         view: &View,

@@ -9,6 +9,7 @@ use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
 use crate::failure::{Failure, Result};
+use crate::landscape::{self, Landscape};
 use crate::picture::{Picture, View, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
@@ -92,6 +93,8 @@ pub struct Options {
     /// Axes of q, u and aolp.
     #[arg(long, value_enum, default_value = "sun")]
     frame: Axes,
+    #[command(flatten)]
+    landscape: landscape::Options,
     /// Exposure value of the PNG at ISO 100; automatic if absent.
     #[arg(long, allow_negative_numbers = true, value_name = "EV", value_parser = exposure)]
     exposure: Option<f64>,
@@ -148,6 +151,20 @@ impl Options {
         })
     }
 
+    /// The picture of a landscape and the number of its pixels.
+    fn scene(&self, landscape: &Landscape, white: f32) -> Result<(Picture, usize)> {
+        if self.spectral || self.stokes || self.quantity != Quantity::Radiance {
+            let text = "landscapes are in colour only, without --spectral, --stokes and --quantity";
+            return Err(Failure::message(text));
+        }
+        let height = usize::from(self.size);
+        let size = [(height as f64 * landscape::ASPECT) as usize, height];
+        let pixels = landscape.pixels(size)?;
+        let [exr, png] = self.outputs().map(|path| path.is_some());
+        let picture = Picture::of_pixels(size, &pixels, white, Wanted { exr, png })?;
+        Ok((picture, pixels.len()))
+    }
+
     fn picture(
         &self,
         view: &View,
@@ -190,10 +207,16 @@ pub fn run(options: &Options) -> Result<()> {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),
         None => automatic_white(&sky)?,
     };
-    let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32)?;
+    let azimuth = options.view_azimuth.to_radians();
+    let (picture, count) = match options.landscape.prepare(&model, &conditions, azimuth)? {
+        Some(landscape) => options.scene(&landscape, white as f32)?,
+        None => {
+            let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32)?;
+            (picture, view.size[0] * view.size[1])
+        }
+    };
     let rendered = rendering.elapsed();
     let written = write(options, picture)?;
-    let count = view.size[0] * view.size[1];
     report(options, &model, &sky, white, &written)?;
     let mut out = std::io::stdout().lock();
     writeln!(

@@ -87,6 +87,7 @@ def decode_source_basis(payload, entry, head):
 def _take_ranks(payload):
     ranks = tuple(map(int, payload.take("<u4", 4)))
     require(all(1 <= rank <= 64 for rank in ranks), "rank of the source outside 1 to 64")
+    require(ranks[2] <= 32, "rank of the source's moments above 32")
     return ranks
 
 

@@ -1,0 +1,114 @@
+//! A perspective camera.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::failure::{Failure, Result};
+
+/// Where a perspective camera looks.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct Lens {
+    /// Angle of the axis above the horizontal in perspective, degrees.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pitch: f64,
+    /// Vertical field of view in perspective, degrees.
+    #[arg(
+        long,
+        default_value_t = 40.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    field_of_view: f64,
+}
+
+/// Axes of a camera in the world frame, +z up.
+pub struct Camera {
+    right: [f64; 3],
+    above: [f64; 3],
+    ahead: [f64; 3],
+    /// Width and height of what is seen at distance 1, halved.
+    half: [f64; 2],
+}
+
+impl Lens {
+    /// A camera that looks towards `azimuth` (rad); `aspect` is width over height.
+    pub fn camera(&self, azimuth: f64, aspect: f64) -> Result<Camera> {
+        let (pitch, field) = (self.pitch.to_radians(), self.field_of_view.to_radians());
+        if !azimuth.is_finite() || pitch.is_nan() || pitch.abs() > FRAC_PI_2 {
+            return Err(Failure::message(
+                "the view azimuth must be finite, the pitch within -90..90°",
+            ));
+        }
+        if !(1e-3..=3.1).contains(&field) {
+            return Err(Failure::message("the field of view must be in 0.1..=177°"));
+        }
+        let ((sp, cp), (sa, ca)) = (pitch.sin_cos(), azimuth.sin_cos());
+        let half = (0.5 * field).tan();
+        Ok(Camera {
+            right: [sa, -ca, 0.0],
+            above: [-sp * ca, -sp * sa, cp],
+            ahead: [cp * ca, cp * sa, sp],
+            half: [half * aspect, half],
+        })
+    }
+
+    /// Vertical field of view, rad.
+    pub fn field(&self) -> f64 {
+        self.field_of_view.to_radians()
+    }
+}
+
+impl Camera {
+    /// Unit vector at a place in the picture, both coordinates from 0 to 1 to the right and downwards.
+    pub fn direction(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        let right = (2.0 * u - 1.0) * self.half[0];
+        let above = (1.0 - 2.0 * v) * self.half[1];
+        let length = (1.0 + right * right + above * above).sqrt();
+        std::array::from_fn(|k| {
+            (self.ahead[k] + right * self.right[k] + above * self.above[k]) / length
+        })
+    }
+
+    /// Cosine of the angle between a unit vector and the axis.
+    pub fn depth(&self, direction: [f64; 3]) -> f64 {
+        (0..3).map(|k| self.ahead[k] * direction[k]).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_looks_ahead_and_the_left_is_left() {
+        let lens = Lens {
+            pitch: 10.0,
+            field_of_view: 90.0,
+        };
+        let camera = lens.camera(FRAC_PI_2, 1.0).unwrap();
+        let [x, y, z] = camera.direction([0.5, 0.5]);
+        assert!(x.abs() < 1e-9 && y > 0.9 && (z - 10f64.to_radians().sin()).abs() < 1e-9);
+        // Facing +y, +x is to the right.
+        assert!(camera.direction([1.0, 0.5])[0] > 0.5 && camera.direction([0.5, 0.0])[2] > z);
+        assert!(
+            Lens {
+                pitch: f64::NAN,
+                ..lens
+            }
+            .camera(0.0, 1.0)
+            .is_err()
+        );
+        assert!(
+            Lens {
+                field_of_view: 0.0,
+                ..lens
+            }
+            .camera(0.0, 1.0)
+            .is_err()
+        );
+    }
+}

@@ -1,0 +1,185 @@
+//! `welkin froxels`: aerial perspective as a camera-aligned 3-D texture for real-time engines.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use welkin::format::replace_file;
+use welkin::{Conditions, Haze, Model};
+
+use crate::Source;
+use crate::camera::{Camera, Lens};
+use crate::failure::{Failure, Result};
+use crate::image::{Planes, exr};
+
+/// First bytes of a raw volume.
+const MAGIC: &[u8; 8] = b"WLKFROXL";
+/// Channels: in-scattered light, transmittance.
+const CHANNELS: usize = 6;
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    lens: Lens,
+    /// Solar elevation, degrees.
+    #[arg(
+        long,
+        default_value_t = 20.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_elevation: f64,
+    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_azimuth: f64,
+    /// Azimuth of the camera's axis, degrees.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    view_azimuth: f64,
+    /// Visibility (meteorological range) at the ground, km.
+    #[arg(long, default_value_t = 59.4, value_name = "KM")]
+    visibility: f64,
+    /// Albedo of the ground, 0 to 1.
+    #[arg(long, default_value_t = 0.2, value_name = "SHARE")]
+    albedo: f64,
+    /// Altitude of the camera above the ground, m.
+    #[arg(long, default_value_t = 2.0, value_name = "M")]
+    altitude: f64,
+    /// Width, height and depth of the volume.
+    #[arg(long, default_value = "32x18x64", value_parser = size, value_name = "WxHxD")]
+    size: [usize; 3],
+    /// Depth of the first slice along the axis, m.
+    #[arg(long, default_value_t = 50.0, value_name = "M")]
+    near: f64,
+    /// Depth of the last slice along the axis, m.
+    #[arg(long, default_value_t = 100_000.0, value_name = "M")]
+    far: f64,
+    /// The volume: .exr (six channels per slice) or .raw (a header of 64 bytes, then single precision).
+    #[arg(long, default_value = "froxels.exr", value_name = "FILE")]
+    out: PathBuf,
+}
+
+fn size(text: &str) -> std::result::Result<[usize; 3], String> {
+    let parts: Vec<usize> = text.split('x').map_while(|n| n.parse().ok()).collect();
+    match <[usize; 3]>::try_from(parts) {
+        Ok(size) if size.iter().all(|n| (1..=1024).contains(n)) => Ok(size),
+        _ => Err("expected WIDTHxHEIGHTxDEPTH, each 1..=1024".to_owned()),
+    }
+}
+
+/// `[slice][row][column][channel]`.
+struct Volume {
+    size: [usize; 3],
+    values: Vec<[f32; CHANNELS]>,
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    if !(options.near > 0.0 && options.near < options.far && options.far <= 1e7) {
+        return Err(Failure::message(
+            "near and far must be positive, near the smaller, far at most 10000 km",
+        ));
+    }
+    let model = options.source.open()?;
+    let haze = options.haze(&model)?;
+    let [width, height, _] = options.size;
+    let azimuth = options.view_azimuth.to_radians();
+    let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
+    let start = Instant::now();
+    let volume = fill(options, &haze, &camera)?;
+    let time = start.elapsed();
+    let extension = options.out.extension().map(|e| e.to_ascii_lowercase());
+    let bytes = match extension.as_ref().and_then(|e| e.to_str()) {
+        Some("exr") => layers(&volume)?,
+        Some("raw") => raw(options, &volume),
+        _ => return Err(Failure::message("the volume is written as .exr or .raw")),
+    };
+    replace_file(&options.out, &bytes)?;
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "wrote           {}", options.out.display())?;
+    writeln!(
+        out,
+        "time            {:.0} ms for {} froxels",
+        1e3 * time.as_secs_f64(),
+        volume.values.len()
+    )?;
+    Ok(())
+}
+
+impl Options {
+    fn haze(&self, model: &Model) -> Result<Haze> {
+        Ok(model.haze(&Conditions {
+            solar_elevation: self.sun_elevation.to_radians(),
+            solar_azimuth: self.sun_azimuth.to_radians(),
+            visibility: 1e3 * self.visibility,
+            albedo: self.albedo,
+            altitude: self.altitude,
+        })?)
+    }
+
+    /// Depth of a slice along the axis: by equal factors from near to far.
+    fn depth(&self, slice: usize) -> f64 {
+        let share = slice as f64 / (self.size[2] - 1).max(1) as f64;
+        self.near * (self.far / self.near).powf(share)
+    }
+}
+
+fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
+    let [width, height, depth] = options.size;
+    let place = [0.0, 0.0, options.altitude];
+    let mut values = Vec::with_capacity(width * height * depth);
+    for slice in 0..depth {
+        for i in 0..width * height {
+            let at = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+            let direction = camera.direction([at(i % width, width), at(i / width, height)]);
+            let distance = options.depth(slice) / camera.depth(direction);
+            let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
+            let ([r, g, b], [tr, tg, tb]) = haze.linear_srgb(place, point)?;
+            values.push([r, g, b, tr, tg, tb]);
+        }
+    }
+    Ok(Volume {
+        size: options.size,
+        values,
+    })
+}
+
+/// One picture with the channels `slice000.R` … `slice000.TB` and so on.
+fn layers(volume: &Volume) -> Result<Vec<u8>> {
+    let [width, height, depth] = volume.size;
+    let mut planes = Vec::with_capacity(CHANNELS * depth);
+    for (slice, values) in volume.values.chunks_exact(width * height).enumerate() {
+        for (c, name) in ["R", "G", "B", "TR", "TG", "TB"].into_iter().enumerate() {
+            let plane = values.iter().map(|v| v[c]).collect();
+            planes.push((format!("slice{slice:03}.{name}"), plane));
+        }
+    }
+    exr(Planes {
+        size: [width, height],
+        planes,
+        attributes: Vec::new(),
+        comment: "in-scattered light, linear sRGB, cd m^-2 (R, G, B); transmittance (TR, TG, TB)",
+    })
+}
+
+/// Header, then `[slice][row][column][R, G, B, TR, TG, TB]` as f32, all little-endian.
+fn raw(options: &Options, volume: &Volume) -> Vec<u8> {
+    let mut bytes = MAGIC.to_vec();
+    let counts = [1, volume.size[0], volume.size[1], volume.size[2], CHANNELS];
+    bytes.extend(counts.iter().flat_map(|&n| (n as u32).to_le_bytes()));
+    let numbers = [options.near, options.far, options.lens.field()];
+    bytes.extend(numbers.iter().flat_map(|&v| (v as f32).to_le_bytes()));
+    bytes.resize(64, 0);
+    bytes.extend(volume.values.iter().flatten().flat_map(|v| v.to_le_bytes()));
+    bytes
+}

@@ -1,0 +1,195 @@
+//! A landscape that recedes: terrain in sunlight and skylight, seen through the air.
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use welkin::{Conditions, Haze, Model, Sky, xyz_to_linear_srgb};
+
+use crate::camera::{Camera, Lens};
+use crate::failure::{Failure, Result};
+use crate::terrain::{FARTHEST, Field, Terrain, altitude};
+
+/// What stands on the ground.
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    lens: Lens,
+    /// Render a landscape in perspective instead of the sky alone: `flat`, `hills`, or a height field (.png or .exr, +y up).
+    #[arg(long, value_name = "FILE")]
+    terrain: Option<PathBuf>,
+    /// Width of the height field on the ground, km.
+    #[arg(long, default_value_t = 50.0, value_name = "KM")]
+    terrain_width: f64,
+    /// Height of the hills or of white in the height field, m; 3000 m, or 1 for an EXR, if absent.
+    #[arg(long, value_name = "M")]
+    terrain_height: Option<f64>,
+}
+
+/// Width over height of a picture in perspective.
+pub const ASPECT: f64 = 1.5;
+/// Reflectance in linear sRGB of plains, slopes and snow.
+const COVER: [[f32; 3]; 3] = [[0.10, 0.14, 0.06], [0.20, 0.18, 0.15], [0.75, 0.77, 0.80]];
+
+/// All that a landscape needs.
+pub struct Landscape {
+    terrain: Terrain,
+    camera: Camera,
+    place: [f64; 3],
+    haze: Haze,
+    sky: Sky,
+    /// XYZ per unit of relative radiance.
+    xyz: Vec<[f64; 3]>,
+    /// Irradiance of a level plane by the sky, linear sRGB.
+    skylight: [f32; 3],
+}
+
+impl Options {
+    /// Prepares the landscape around an observer, if one is wanted.
+    pub fn prepare(
+        &self,
+        model: &Model,
+        conditions: &Conditions,
+        azimuth: f64,
+    ) -> Result<Option<Landscape>> {
+        let Some(terrain) = &self.terrain else {
+            return Ok(None);
+        };
+        let sky = model.sky(conditions)?;
+        let camera = self.lens.camera(azimuth, ASPECT)?;
+        let terrain = self.read(terrain)?;
+        let place = [
+            0.0,
+            0.0,
+            conditions.altitude.max(terrain.height(0.0, 0.0)) + 2.0,
+        ];
+        Ok(Some(Landscape {
+            haze: model.haze(conditions)?,
+            skylight: skylight(&sky)?,
+            xyz: model.head().xyz.clone(),
+            terrain,
+            camera,
+            place,
+            sky,
+        }))
+    }
+
+    fn read(&self, terrain: &Path) -> Result<Terrain> {
+        let wrong = |name: &str| {
+            Err(Failure::message(format!(
+                "the {name} of the terrain must be positive"
+            )))
+        };
+        if !(self.terrain_width > 0.0 && self.terrain_width.is_finite()) {
+            return wrong("width");
+        }
+        if self
+            .terrain_height
+            .is_some_and(|h| !(h > 0.0 && h <= 20_000.0))
+        {
+            return Err(Failure::message(
+                "the height of the terrain must be in 0..=20000 m",
+            ));
+        }
+        Ok(match terrain.to_str() {
+            Some("flat") => Terrain::Flat,
+            Some("hills") => Terrain::Hills(self.terrain_height.unwrap_or(3000.0)),
+            _ => {
+                let width = 1e3 * self.terrain_width;
+                Terrain::Field(Field::read(terrain, width, self.terrain_height)?)
+            }
+        })
+    }
+}
+
+impl Landscape {
+    /// Linear sRGB of every pixel, cd m⁻².
+    pub fn pixels(&self, [width, height]: [usize; 2]) -> Result<Vec<[f32; 3]>> {
+        let pixel = |i: usize| {
+            let place = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+            self.pixel(
+                self.camera
+                    .direction([place(i % width, width), place(i / width, height)]),
+            )
+        };
+        (0..width * height).map(pixel).collect()
+    }
+
+    fn pixel(&self, direction: [f64; 3]) -> Result<[f32; 3]> {
+        let radius = self.haze.air().planet().radius;
+        let Some(distance) = self.terrain.hit(radius, self.place, direction) else {
+            return Ok(self.sky.linear_srgb(direction.map(|v| v as f32))?);
+        };
+        let point = std::array::from_fn(|k| self.place[k] + distance.min(FARTHEST) * direction[k]);
+        let (light, through) = self.haze.linear_srgb(self.place, point)?;
+        let surface = self.surface(radius, point)?;
+        Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]))
+    }
+
+    /// Radiance that the surface sends out.
+    fn surface(&self, radius: f64, point: [f64; 3]) -> Result<[f32; 3]> {
+        let normal = self.terrain.normal(radius, point);
+        let sun = self.haze.sun_direction();
+        let cosine = (0..3).map(|k| normal[k] * sun[k]).sum::<f64>().max(0.0);
+        let direct = self.sunlight(radius, point, sun, cosine)?;
+        let open = (0.5 + 0.5 * normal[2]) as f32;
+        let cover = cover(altitude(radius, point), normal[2]);
+        let reflect = |c: usize| cover[c] / PI as f32 * (direct[c] + open * self.skylight[c]);
+        Ok(std::array::from_fn(reflect))
+    }
+
+    /// Irradiance by the sun, linear sRGB; none in the shadow of the terrain.
+    fn sunlight(
+        &self,
+        radius: f64,
+        point: [f64; 3],
+        sun: [f64; 3],
+        cosine: f64,
+    ) -> Result<[f32; 3]> {
+        let raised = std::array::from_fn(|k| point[k] + if k == 2 { 3.0 } else { 0.0 });
+        if cosine == 0.0 || self.terrain.hit(radius, raised, sun).is_some() {
+            return Ok([0.0; 3]);
+        }
+        let mut through = vec![0.0; self.xyz.len()];
+        self.haze
+            .air()
+            .transmittance_to_space(raised, sun, &mut through)?;
+        let mut sum = [0.0; 3];
+        for (weight, t) in self.xyz.iter().zip(through) {
+            sum = std::array::from_fn(|c| sum[c] + weight[c] * f64::from(t) * cosine);
+        }
+        Ok(xyz_to_linear_srgb(sum.map(|v| v as f32)))
+    }
+}
+
+/// Snow high up on gentle slopes, rock where it is steep, meadows below.
+fn cover(altitude: f64, level: f64) -> [f32; 3] {
+    let mix = |a: [f32; 3], b: [f32; 3], t: f64| -> [f32; 3] {
+        let t = t.clamp(0.0, 1.0) as f32;
+        std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
+    };
+    let ground = mix(COVER[0], COVER[1], (altitude - 500.0) / 900.0);
+    let ground = mix(COVER[1], ground, (level - 0.75) / 0.15);
+    mix(
+        ground,
+        COVER[2],
+        ((altitude - 1500.0) / 400.0).min((level - 0.7) / 0.1),
+    )
+}
+
+/// Irradiance of a level plane by the sky.
+fn skylight(sky: &Sky) -> Result<[f32; 3]> {
+    const RINGS: usize = 12;
+    const SPOKES: usize = 24;
+    let mut sum = [0.0; 3];
+    for ring in 0..RINGS {
+        // Equal shares of sin² of the zenith angle: equal weights under a cosine.
+        let sine = ((ring as f64 + 0.5) / RINGS as f64).sqrt();
+        let z = (1.0 - sine * sine).sqrt();
+        for spoke in 0..SPOKES {
+            let (y, x) = (2.0 * PI * spoke as f64 / SPOKES as f64).sin_cos();
+            let rgb = sky.linear_srgb([sine * x, sine * y, z].map(|v| v as f32))?;
+            sum = std::array::from_fn(|c| sum[c] + rgb[c]);
+        }
+    }
+    Ok(sum.map(|v| v * PI as f32 / (RINGS * SPOKES) as f32))
+}
