@@ -54,5 +54,50 @@ fn prepare(c: &mut Criterion) {
     c.bench_function("prepare between nodes", |b| b.iter(|| model.sky(&between)));
 }
 
-criterion_group!(benches, query, prepare);
+/// A segment of finite length, by the stored source and as the paper's Eq. 2 has it: the difference of two skies.
+fn segment(c: &mut Criterion) {
+    let model = Model::default_model().expect("the embedded model is valid");
+    let conditions = between_nodes();
+    let haze = model.haze(&conditions).expect("inside the model");
+    let n = haze.wavelengths().len();
+    let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+    let mut next = 0;
+    let mut segment = || {
+        next = (next + 1) % 1024;
+        let u = |step: f64| (f64::from(next) * step).fract();
+        let from = [0.0, 0.0, 14e3 * u(0.618_034)];
+        let to = [1e5 * u(0.754_878), 3e4 * u(0.569_84), 14e3 * u(0.430_16)];
+        (from, to)
+    };
+    c.bench_function("segment, by the source", |b| {
+        b.iter(|| {
+            let (from, to) = black_box(segment());
+            haze.in_scatter(from, to, &mut light, &mut through)
+        })
+    });
+    c.bench_function("segment, transmittance alone", |b| {
+        b.iter(|| {
+            let (from, to) = black_box(segment());
+            haze.air().transmittance(from, to, &mut through)
+        })
+    });
+    c.bench_function("segment, by Eq. 2 at new conditions", |b| {
+        b.iter(|| {
+            let (from, to) = black_box(segment());
+            for place in [from, to] {
+                let altitude = place[2];
+                let sky = model.sky(&Conditions {
+                    altitude,
+                    ..conditions
+                });
+                let direction = [0, 1, 2].map(|k| (to[k] - from[k]) as f32);
+                let _ = sky.and_then(|sky| sky.relative_radiance(direction, &mut light));
+            }
+            haze.air().transmittance(from, to, &mut through)
+        })
+    });
+    c.bench_function("prepare a haze", |b| b.iter(|| model.haze(&conditions)));
+}
+
+criterion_group!(benches, query, segment, prepare);
 criterion_main!(benches);

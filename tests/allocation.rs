@@ -117,3 +117,29 @@ fn baked_queries_do_not_allocate() {
     let _ = colour.set_solar_azimuth(2.0);
     assert_eq!(COUNT.get(), before);
 }
+
+#[cfg(feature = "default-model")]
+#[test]
+fn finite_segments_do_not_allocate() {
+    let model = Model::default_model().unwrap();
+    for elevation in [-3.0f64, 0.5, 30.0] {
+        let conditions = Conditions {
+            solar_elevation: elevation.to_radians(),
+            ..Conditions::default()
+        };
+        let mut haze = model.haze(&conditions).unwrap();
+        let n = haze.wavelengths().len();
+        let (mut light, mut through) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
+        let camera = [0.0, 0.0, 1500.0];
+        let points = [[30_000.0, 900.0, 2500.0], [10.0, 0.0, 1490.0]];
+        let before = COUNT.get();
+        let _ = haze.set_solar_azimuth(0.3);
+        let _ = haze.aerial_perspective(camera, &points, &mut light, &mut through);
+        let _ = haze.linear_srgb(camera, points[0]);
+        let _ = haze.to_end(camera, [1.0, 0.0, 0.1], &mut light[..n], &mut through[..n]);
+        let air = haze.air();
+        let _ = air.transmittance(camera, points[1], &mut through[..n]);
+        let _ = air.transmittance_to_space(camera, [0.0, 0.0, 1.0], &mut through[..n]);
+        assert_eq!(COUNT.get(), before);
+    }
+}

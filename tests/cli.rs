@@ -516,3 +516,59 @@ fn plans_say_what_scenes_need() {
         assert_eq!(output.status.code(), Some(2), "{bad:?}");
     }
 }
+
+#[test]
+fn landscapes_and_froxel_volumes_are_written() {
+    let bench = Bench::new();
+    let run = |arguments: &[&str]| {
+        let output = bench.run(arguments, "");
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments:?}: {text}");
+    };
+    let exists = |name: &str| bench.folder.path().join(name).metadata().unwrap().len();
+    run(&[
+        "render",
+        "--terrain",
+        "hills",
+        "--size",
+        "24",
+        "--out",
+        "hills",
+    ]);
+    assert!(exists("hills.png") > 500 && exists("hills.exr") > 500);
+    // The picture itself is a height field.
+    let field = ["--terrain", "hills.png", "--terrain-height", "900"];
+    let rest = ["--size", "16", "--pitch", "-10", "--out", "field.png"];
+    run(&[&["render"], &field[..], &rest].concat());
+    run(&["froxels", "--size", "3x2x4", "--out", "volume.raw"]);
+    let bytes = std::fs::read(bench.folder.path().join("volume.raw")).unwrap();
+    assert_eq!(bytes.len(), 64 + 4 * 6 * 3 * 2 * 4);
+    let value = |i: usize| f32::from_le_bytes(bytes[64 + 4 * i..][..4].try_into().unwrap());
+    // Slice by slice the air takes light away and adds some.
+    let slices = 6 * 3 * 2;
+    for i in 0..slices {
+        let grows = i % 6 < 3;
+        let (near, far) = (value(i), value(3 * slices + i));
+        assert!(
+            if grows {
+                far > near
+            } else {
+                far < near && near <= 1.0
+            },
+            "{i}: {near} {far}"
+        );
+    }
+    run(&["froxels", "--size", "3x2x4", "--out", "volume.exr"]);
+    assert!(exists("volume.exr") > 500);
+    for wrong in [
+        &["froxels", "--size", "0x2x2"][..],
+        &["froxels", "--near", "10", "--far", "5"],
+        &["froxels", "--out", "volume.png"],
+        &["render", "--terrain", "nowhere.png"],
+        &["render", "--terrain", "hills", "--spectral"],
+        &["render", "--terrain", "hills", "--field-of-view", "0"],
+        &["render", "--terrain", "hills", "--terrain-height", "-3"],
+    ] {
+        bench.refusal(wrong, "");
+    }
+}

@@ -6,6 +6,7 @@ use std::path::Path;
 pub type Result<T> = std::result::Result<T, Failure>;
 
 /// The one line that the user gets, or silence.
+#[derive(Debug)]
 pub enum Failure {
     /// Goes to standard error; the exit code is 2.
     Message(String),

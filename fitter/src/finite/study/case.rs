@@ -76,8 +76,8 @@ pub fn cases(solved: &[Solved], count: usize, highest: f64, seed: u64) -> Vec<Ca
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let mut uniform = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let mut out = vec![];
-    for visibility in 0..solved.len() {
-        let planet = crate::column::planet(&solved[visibility].medium.atmosphere);
+    for (visibility, one) in solved.iter().enumerate() {
+        let planet = crate::column::planet(&one.medium.atmosphere);
         while out.len() < count * (visibility + 1) {
             let altitude = highest * uniform().powi(2);
             let t = 2.0 * uniform() - 1.0;
