@@ -4,11 +4,13 @@ use crate::assess::{self, Error, Quantiles};
 use crate::dataset::{Sample, Store};
 use crate::decompose::{self, Chunk, Fit, Options, chunk_geometry};
 use crate::finite;
-use crate::pack::{self, Air};
+use crate::orders::{FIELDS, NW};
+use crate::pack::{self, Air, PackedBasis};
 use crate::progress::bar;
 use crate::report;
 use crate::round_trip;
 use crate::units::{Plan, Solved};
+use crate::{polarimetry, polarise};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use std::path::Path;
@@ -23,6 +25,8 @@ pub struct Fitting {
     pub options: Options,
     /// Passes of the refinement.
     pub refinements: usize,
+    /// The same for the polarisation; without components there is none.
+    pub polarisation: Options,
 }
 
 impl Default for Fitting {
@@ -34,6 +38,11 @@ impl Default for Fitting {
                 seed: 1,
             },
             refinements: 12,
+            polarisation: Options {
+                rank: 48,
+                sweeps: 400,
+                seed: 1,
+            },
         }
     }
 }
@@ -55,8 +64,13 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<S
     let tracing = started.elapsed();
     let (chunks, places) = split(traced);
     let fit = fit_all(plan, fitting, &store, &chunks)?;
+    let polarisation = fit_polarisation(plan, fitting, &store, &solved, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
-    let (bytes, errors) = assemble(plan, fitting, &solved, &chunks, &places, &fit)?;
+    let (head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
+    check_rounding(plan, &chunks, &places, &fit, &file)?;
+    file.extend(finite::chunks(&solved)?);
+    file.extend(polarisation);
+    let (bytes, errors, polarimetry) = assemble(plan, fitting, head, file, &places)?;
     replace_file(out, &bytes).with_context(|| format!("cannot write {}", out.display()))?;
     let rows: Vec<report::Row> = places
         .iter()
@@ -69,9 +83,10 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<S
         })
         .collect();
     Ok(format!(
-        "{}\n{}\n{} bytes in {}\ntracing {:.0} s, fitting {:.0} s\n",
+        "{}\n{}\n{}\n{} bytes in {}\ntracing {:.0} s, fitting {:.0} s\n",
         report::chunk_table(&rows),
         assess::table(&errors.concat()),
+        polarimetry::table(&polarimetry),
         bytes.len(),
         out.display(),
         tracing.as_secs_f64(),
@@ -144,7 +159,7 @@ pub(crate) fn fit_all(
         format!("{what}-{rank}-{key:08x}")
     };
     let read = |values: Vec<f32>| {
-        let fit = Fit::from_values(&values, &plan.grid, rank, chunks.len());
+        let fit = Fit::from_values(&values, &plan.grid, rank, chunks.len(), FIELDS * NW);
         fit.context("a fit of another size")
     };
     let first = || -> Result<Vec<f32>> {
@@ -170,37 +185,78 @@ pub(crate) fn fit_all(
         progress.finish();
         Ok(fit.to_values())
     };
-    read(store.unit(&name("refinement", format!("{fitting:?}")), refine)?)
+    let Fitting {
+        options,
+        refinements,
+        ..
+    } = fitting;
+    let settings = format!("Fitting {{ options: {options:?}, refinements: {refinements} }}");
+    read(store.unit(&name("refinement", settings), refine)?)
+}
+
+fn fit_polarisation(
+    plan: &Plan,
+    fitting: Fitting,
+    store: &Store,
+    solved: &[Solved],
+    chunks: &[Chunk],
+    places: &[Place],
+) -> Result<Vec<format::Chunk>> {
+    if fitting.polarisation.rank == 0 {
+        return Ok(vec![]);
+    }
+    let places: Vec<polarise::Place> = places.iter().map(|p| (p.altitude, p.visibility)).collect();
+    let fit = polarise::fit(plan, fitting.polarisation, store, solved, chunks, &places)?;
+    Ok(polarise::file_chunks(plan, &fit, &places))
 }
 
 /// Encodes the file twice: once to measure the errors of its chunks, once with them.
 fn assemble(
     plan: &Plan,
     fitting: Fitting,
-    solved: &[Solved],
-    chunks: &[Chunk],
+    mut head: Head,
+    mut file: Vec<format::Chunk>,
     places: &[Place],
-    fit: &Fit,
-) -> Result<(Vec<u8>, Vec<Vec<Error>>)> {
-    let (mut head, mut file) = radiance_file(plan, solved, chunks, places, fit)?;
-    check_rounding(plan, chunks, places, fit, &file)?;
-    file.extend(finite::chunks(solved)?);
+) -> Result<Assembled> {
     let model = Model::from_bytes(encode(&head, &file)?)?;
+    let visibility = |p: &Place| plan.grid.visibilities[p.visibility];
     let errors = places
         .par_iter()
-        .map(|p| assess::errors(&model, plan.grid.visibilities[p.visibility], &p.truth))
+        .map(|p| assess::errors(&model, visibility(p), &p.truth))
         .collect::<Result<Vec<_>>>()?;
-    let radiance = file
-        .iter_mut()
-        .filter(|c| matches!(c.payload, Payload::Radiance(_)));
-    for (chunk, errors) in radiance.zip(&errors) {
-        if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
+    let polarimetry = match model.is_polarised() {
+        true => places
+            .par_iter()
+            .map(|p| polarimetry::errors(&model, visibility(p), &p.truth))
+            .collect::<Result<Vec<_>>>()?,
+        false => vec![],
+    };
+    let relative = errors.iter().map(|e| e.iter().map(|e| e.relative));
+    let radiance = |payload: &Payload| matches!(payload, Payload::Radiance(_));
+    note(&mut file, radiance, relative);
+    let degree = polarimetry.iter().map(|e| e.iter().map(|e| e.degree));
+    let polarisation = |payload: &Payload| matches!(payload, Payload::Polarisation(_));
+    note(&mut file, polarisation, degree);
+    head.metadata = report::metadata(plan, fitting, &head, &errors, &polarimetry.concat());
+    Ok((encode(&head, &file)?, errors, polarimetry.concat()))
+}
+
+/// The bytes of a file, the errors of its radiance chunks and of its polarisation.
+type Assembled = (Vec<u8>, Vec<Vec<Error>>, Vec<polarimetry::Error>);
+
+/// Notes errors in the chunks with some payload, in their order.
+fn note(
+    file: &mut [format::Chunk],
+    payload: impl Fn(&Payload) -> bool,
+    errors: impl Iterator<Item = impl Iterator<Item = f64>>,
+) {
+    let chunks = file.iter_mut().filter(|c| payload(&c.payload));
+    for (chunk, errors) in chunks.zip(errors) {
+        if let Some(q) = Quantiles::of(errors) {
             chunk.error_median = q.median as f32;
             chunk.error_p99 = q.p99 as f32;
         }
     }
-    head.metadata = report::metadata(plan, fitting, &head, &errors);
-    Ok((encode(&head, &file)?, errors))
 }
 
 /// Refuses chunks that half precision spoils.
@@ -252,10 +308,10 @@ pub(crate) fn radiance_file(
         error_p99: 0.0,
         payload,
     };
-    let basis = pack::pack_basis(&plan.grid, &fit.basis);
+    let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let medium = &solved[0].medium;
     let planet = crate::column::planet(&medium.atmosphere);
-    let shared = Payload::RadianceBasis(basis.basis.clone());
+    let shared = Payload::RadianceBasis(basis.radiance());
     let mut out = vec![chunk(None, None, shared)];
     for (k, place) in places.iter().enumerate() {
         let a = place.altitude;
@@ -268,7 +324,7 @@ pub(crate) fn radiance_file(
                 Payload::Column(ColumnTable { values }),
             ));
         }
-        let factors = pack::pack_chunk(&plan.grid, &basis, &chunks[k], &fit.own[k]);
+        let factors = basis.radiance_chunk(&plan.grid, &chunks[k], &fit.own[k]);
         out.push(chunk(
             Some(a),
             Some(place.visibility),

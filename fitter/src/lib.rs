@@ -14,6 +14,8 @@ pub mod judge;
 pub mod orders;
 pub mod pack;
 pub mod picture;
+pub mod polarimetry;
+pub mod polarise;
 pub mod progress;
 pub mod reference;
 pub mod report;

@@ -3,11 +3,14 @@
 use crate::atmosphere::table::Table;
 use crate::dataset::{Grid, WAVELENGTHS};
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
-use crate::orders::{FIELDS, Gatherer, Medium, NW, Spectrum};
+use crate::orders::{Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
 use faer::Mat;
 use welkin::axis::hermite;
-use welkin::format::{AlphaAxis, Field, Head, PhaseFunction, RadianceBasis, RadianceFactors};
+use welkin::format::{
+    AlphaAxis, Field, Head, PhaseFunction, PolarisationBasis, PolarisationFactors, RadianceBasis,
+    RadianceFactors,
+};
 
 /// Luminous efficacy in the definition of XYZ, lm/W.
 const EFFICACY: f64 = 683.0;
@@ -125,51 +128,100 @@ fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
     Ok(out)
 }
 
-/// The shared factor matrices, every column scaled to a largest magnitude of 1; the scales go into the chunks.
+/// The shared factor matrices as splines, every column scaled to a largest magnitude of 1; the scales go into the chunks.
 pub struct PackedBasis {
-    /// For the file.
-    pub basis: RadianceBasis,
+    rank: usize,
+    phi: Vec<f32>,
+    /// `[rank][channels]`.
+    channel: Vec<f32>,
     scale: Vec<f64>,
 }
 
-/// Turns the shared factor matrices into splines.
-pub fn pack_basis(grid: &Grid, basis: &Basis) -> PackedBasis {
-    let rank = basis.rank;
-    let mut phi = splines(grid.phi, &basis.phi, rank);
-    let mut channel = Mat::from_fn(FIELDS * NW, rank, |i, r| {
-        f64::from(basis.channel[i * rank + r])
-    });
-    let mut scale = vec![1.0; rank];
-    normalise(&mut [&mut phi], &mut scale);
-    normalise(&mut [&mut channel], &mut scale);
-    PackedBasis {
-        basis: RadianceBasis {
+impl PackedBasis {
+    /// From factor matrices at sites.
+    pub fn new(grid: &Grid, basis: &Basis) -> Self {
+        let rank = basis.rank;
+        let mut phi = splines(grid.phi, &basis.phi, rank);
+        let mut channel = Mat::from_fn(basis.channel.len() / rank, rank, |i, r| {
+            f64::from(basis.channel[i * rank + r])
+        });
+        let mut scale = vec![1.0; rank];
+        normalise(&mut [&mut phi], &mut scale);
+        normalise(&mut [&mut channel], &mut scale);
+        Self {
             rank,
             phi: row_major(&phi),
             channel: row_major(&channel.transpose().to_owned()),
-        },
-        scale,
+            scale,
+        }
+    }
+
+    /// For the radiance.
+    pub fn radiance(&self) -> RadianceBasis {
+        RadianceBasis {
+            rank: self.rank,
+            phi: self.phi.clone(),
+            channel: self.channel.clone(),
+        }
+    }
+
+    /// For the polarisation.
+    pub fn polarisation(&self) -> PolarisationBasis {
+        PolarisationBasis {
+            rank: self.rank,
+            phi: self.phi.clone(),
+            channel: self.channel.clone(),
+        }
+    }
+
+    /// Radiance factors of a chunk.
+    pub fn radiance_chunk(&self, grid: &Grid, chunk: &Chunk, own: &Own) -> RadianceFactors {
+        let packed = self.chunk(grid, own);
+        RadianceFactors {
+            rank: self.rank,
+            scale: packed.scale,
+            alpha_up: packed.alpha_up,
+            alpha_down: packed.alpha_down,
+            elevation: packed.elevation,
+            level: chunk.level.clone(),
+        }
+    }
+
+    /// Polarisation factors of a chunk.
+    pub fn polarisation_chunk(&self, grid: &Grid, own: &Own) -> PolarisationFactors {
+        let packed = self.chunk(grid, own);
+        PolarisationFactors {
+            rank: self.rank,
+            scale: packed.scale,
+            alpha_up: packed.alpha_up,
+            alpha_down: packed.alpha_down,
+            elevation: packed.elevation,
+        }
+    }
+
+    fn chunk(&self, grid: &Grid, own: &Own) -> PackedChunk {
+        let (above, below) = own.view.split_at(grid.up.0.len() * self.rank);
+        let mut up = splines(grid.up.0, above, self.rank);
+        let mut down = splines(grid.down.0, below, self.rank);
+        let mut elevation = splines(grid.elevation_axis(), &own.elevation, self.rank);
+        let mut scale = self.scale.clone();
+        normalise(&mut [&mut up, &mut down], &mut scale);
+        normalise(&mut [&mut elevation], &mut scale);
+        PackedChunk {
+            scale: scale.into_iter().map(|s| s as f32).collect(),
+            alpha_up: row_major(&up),
+            alpha_down: row_major(&down),
+            elevation: row_major(&elevation),
+        }
     }
 }
 
-/// Turns the factor matrices of a chunk into splines.
-pub fn pack_chunk(grid: &Grid, basis: &PackedBasis, chunk: &Chunk, own: &Own) -> RadianceFactors {
-    let rank = basis.basis.rank;
-    let (above, below) = own.view.split_at(grid.up.0.len() * rank);
-    let mut up = splines(grid.up.0, above, rank);
-    let mut down = splines(grid.down.0, below, rank);
-    let mut elevation = splines(grid.elevation_axis(), &own.elevation, rank);
-    let mut scale = basis.scale.clone();
-    normalise(&mut [&mut up, &mut down], &mut scale);
-    normalise(&mut [&mut elevation], &mut scale);
-    RadianceFactors {
-        rank,
-        scale: scale.into_iter().map(|s| s as f32).collect(),
-        alpha_up: row_major(&up),
-        alpha_down: row_major(&down),
-        elevation: row_major(&elevation),
-        level: chunk.level.clone(),
-    }
+/// The factor matrices of a chunk as splines.
+struct PackedChunk {
+    scale: Vec<f32>,
+    alpha_up: Vec<f32>,
+    alpha_down: Vec<f32>,
+    elevation: Vec<f32>,
 }
 
 /// Scales every column to a largest magnitude of 1 over all `matrices`, keeping the product with `scale`.

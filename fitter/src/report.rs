@@ -2,6 +2,7 @@
 
 use crate::assess::{self, Error, Quantiles};
 use crate::build::Fitting;
+use crate::polarimetry;
 use crate::units::Plan;
 use welkin::format::Head;
 
@@ -41,7 +42,13 @@ pub fn chunk_table(rows: &[Row]) -> String {
 }
 
 /// The metadata of the file.
-pub fn metadata(plan: &Plan, fitting: Fitting, head: &Head, errors: &[Vec<Error>]) -> String {
+pub fn metadata(
+    plan: &Plan,
+    fitting: Fitting,
+    head: &Head,
+    errors: &[Vec<Error>],
+    polarimetry: &[polarimetry::Error],
+) -> String {
     let all = errors.concat();
     let classes: serde_json::Map<String, serde_json::Value> = assess::CLASSES
         .iter()
@@ -50,6 +57,8 @@ pub fn metadata(plan: &Plan, fitting: Fitting, head: &Head, errors: &[Vec<Error>
             Some(((*name).to_owned(), serde_json::to_value(q).ok()?))
         })
         .collect();
+    let degree = Quantiles::of(polarimetry.iter().map(|e| e.degree));
+    let angle = Quantiles::of(polarimetry.iter().filter_map(|e| e.angle));
     let options = fitting.options;
     serde_json::json!({
         "title": "Clear sky of the US standard atmosphere with OPAC continental aerosol",
@@ -67,8 +76,15 @@ pub fn metadata(plan: &Plan, fitting: Fitting, head: &Head, errors: &[Vec<Error>
             "sweeps": options.sweeps,
             "refinements": fitting.refinements,
             "seed": options.seed,
+            "polarisation": {
+                "rank": fitting.polarisation.rank,
+                "sweeps": fitting.polarisation.sweeps,
+                "seed": fitting.polarisation.seed,
+            },
         },
         "relative_error_held_out": classes,
+        "degree_of_polarisation_error_held_out": degree,
+        "angle_of_polarisation_error_deg_held_out": angle,
     })
     .to_string()
 }

@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use crate::decompose::residual;
     use crate::orders::{FIELDS, NW};
-    use crate::pack::{pack_basis, pack_chunk};
+    use crate::pack::PackedBasis;
     use welkin::axis::{ElevationAxis, Ends};
 
     const RANK: usize = 8;
@@ -157,9 +157,9 @@ mod tests {
     fn outcome(own: &Own, basis: &Basis, noise: f32) -> Result<(), RoundingExceedsFit> {
         let grid = grid();
         let chunk = chunk(&grid, own, basis, noise);
-        let shared = pack_basis(&grid, basis);
-        let packed = pack_chunk(&grid, &shared, &chunk, own);
-        check(&grid, &chunk, (own, basis), (&packed, &shared.basis))
+        let shared = PackedBasis::new(&grid, basis);
+        let packed = shared.radiance_chunk(&grid, &chunk, own);
+        check(&grid, &chunk, (own, basis), (&packed, &shared.radiance()))
     }
 
     #[test]

@@ -192,6 +192,7 @@ impl Bench {
         Fitting {
             options: self.options(rank),
             refinements,
+            ..self.fitting
         }
     }
 
@@ -243,7 +244,7 @@ impl Bench {
         let name = format!("nested-{total}-{:08x}", crc32fast::hash(what.as_bytes()));
         let fit = || Ok(decompose_nested(&self.chunks, tiers, options).to_values());
         let values = self.store.unit(&name, fit)?;
-        let fit = Fit::from_values(&values, grid, total, self.chunks.len());
+        let fit = Fit::from_values(&values, grid, total, self.chunks.len(), FIELDS * NW);
         let fit = fit.context("a fit of another size")?;
         let names: Vec<String> = tiers.iter().map(usize::to_string).collect();
         self.of_shared("shared, nested tiers", names.join("+"), &fit)

@@ -29,6 +29,9 @@ pub struct Args {
     /// Passes of the refinement in relative radiance.
     #[arg(long)]
     refinements: Option<usize>,
+    /// Components of the polarisation; 0 leaves it out.
+    #[arg(long)]
+    polarisation_rank: Option<usize>,
 }
 
 /// Runs the command.
@@ -46,6 +49,10 @@ pub fn run(args: &Args) -> Result<()> {
         fitting.options.rank = rank;
     }
     fitting.options.sweeps = args.sweeps.unwrap_or(fitting.options.sweeps);
+    if let Some(rank) = args.polarisation_rank {
+        anyhow::ensure!(rank <= 4096, "--polarisation-rank must be 0..=4096");
+        fitting.polarisation.rank = rank;
+    }
     fitting.refinements = args.refinements.unwrap_or(fitting.refinements);
     print!("{}", build(&plan, fitting, &args.work, &args.out)?);
     Ok(())

@@ -6,6 +6,7 @@ use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
+use welkin::Conditions;
 use welkin::geometry::Side;
 
 /// One held-out direction under one sun.
@@ -193,6 +194,41 @@ impl Sample {
             radiance: std::array::from_fn(|w| v[5 + w]),
             polarisation: std::array::from_fn(|s| std::array::from_fn(|w| v[5 + (s + 1) * NW + w])),
         }
+    }
+
+    /// The conditions of the sample at a visibility (m), with the sun's azimuth along +x.
+    pub fn conditions(&self, visibility: f64) -> Conditions {
+        Conditions {
+            solar_elevation: self.solar_elevation,
+            solar_azimuth: 0.0,
+            visibility,
+            albedo: self.albedo,
+            altitude: self.altitude,
+        }
+    }
+
+    /// Angle to the sun, rad.
+    pub fn to_sun(&self) -> f64 {
+        let [along, across] = self.sun_across();
+        let (sv, cv) = self.view_elevation.sin_cos();
+        let (ss, cs) = self.solar_elevation.sin_cos();
+        along
+            .hypot(across)
+            .atan2(cv * cs * self.view_azimuth.cos() + sv * ss)
+    }
+
+    /// Angle from the vertical e1 towards e2 to the normal of the plane of view and sun, rad.
+    pub fn sun_aligned(&self) -> f64 {
+        let [along, across] = self.sun_across();
+        along.atan2(-across)
+    }
+
+    /// The sun's direction along e1 and e2.
+    fn sun_across(&self) -> [f64; 2] {
+        let (sv, cv) = self.view_elevation.sin_cos();
+        let (ss, cs) = self.solar_elevation.sin_cos();
+        let (sa, ca) = self.view_azimuth.sin_cos();
+        [cv * ss - sv * cs * ca, cs * sa]
     }
 
     /// View direction in the frame whose +x points towards the sun.

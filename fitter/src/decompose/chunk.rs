@@ -40,7 +40,7 @@ impl Chunk {
         let level = Level::new(tensor, &geometry, medium, grid.elevation_axis());
         Self {
             sites: [views, phis, elevations],
-            values: normalise(tensor, &geometry, medium, &level),
+            values: normalise(tensor, &geometry, medium, &level, 0..FIELDS * NW),
             level: level.coefficients,
             cosine: cosines(gatherer, grid, a),
             weight: [view_weights(gatherer, grid, a), elevation_weights(grid)],
@@ -136,6 +136,12 @@ impl Chunk {
             values,
             ..self.clone()
         }
+    }
+
+    /// One over the normalised radiance.
+    pub fn inverse_radiance(&self, site: usize, w: usize, albedo: f32) -> f32 {
+        // The share of multiply scattered light, whose phase function is 1.
+        self.radiance_equation(site, w, albedo).1[3]
     }
 
     /// Root of the weight of a site.

@@ -7,7 +7,6 @@ use super::refine::{self, Basis, Own};
 use super::tucker::{Dense, Tucker, compress_together};
 use super::weights::channel_weights;
 use crate::dataset::{Axis, Grid};
-use crate::orders::{FIELDS, NW};
 use faer::Mat;
 use rayon::prelude::*;
 
@@ -111,7 +110,7 @@ fn compress(chunks: &[Chunk], weights: &[f64], tolerance: f64) -> Vec<Tucker> {
     tuckers
 }
 
-fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f64]) -> Fit {
+pub(super) fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f64]) -> Fit {
     let product = |k: usize, m: usize| &bases[k][m] * &factors.0[k][m];
     let mut channel = product(0, 3);
     for (c, weight) in weights.iter().enumerate() {
@@ -144,8 +143,14 @@ impl Fit {
         all.flatten().copied().collect()
     }
 
-    /// The inverse of [`Fit::to_values`] for a grid, a rank and a number of chunks; `None` for another number of values.
-    pub fn from_values(values: &[f32], grid: &Grid, rank: usize, chunks: usize) -> Option<Self> {
+    /// The inverse of [`Fit::to_values`] for a grid, a rank and numbers of chunks and channels; `None` for another number of values.
+    pub fn from_values(
+        values: &[f32],
+        grid: &Grid,
+        rank: usize,
+        chunks: usize,
+        channels: usize,
+    ) -> Option<Self> {
         let mut rest = values;
         let mut take = |rows: usize| {
             let (part, tail) = rest.split_at_checked(rows * rank)?;
@@ -155,7 +160,7 @@ impl Fit {
         let basis = Basis {
             rank,
             phi: take(grid.phi.len())?,
-            channel: take(FIELDS * NW)?,
+            channel: take(channels)?,
         };
         let views = grid.up.0.len() + grid.down.0.len();
         let own = (0..chunks).map(|_| {

@@ -7,6 +7,7 @@ mod fit;
 #[cfg(test)]
 mod ill_conditioned;
 mod normalise;
+mod polarised;
 mod refine;
 mod tucker;
 mod weights;
@@ -16,5 +17,6 @@ pub use collocation::Collocation;
 pub use coupled::{Options, decompose};
 pub use fit::{Fit, decompose_all, decompose_nested, refine_all, row_major, splines};
 pub use normalise::{ChunkGeometry, chunk_geometry};
+pub use polarised::{POLARISED_CHANNELS, PolarisedChunk, polarise};
 pub use refine::{Basis, Own, relative_radiance, residual};
 pub use tucker::{Dense, Tucker, compress_together};

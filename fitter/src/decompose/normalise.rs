@@ -6,6 +6,7 @@ use crate::column::ColumnIntegrator;
 use crate::dataset::{Axis, Grid, Tensor};
 use crate::orders::{FIELDS, Medium, NW};
 use faer::Mat;
+use std::ops::Range;
 use welkin::geometry::{Planet, Side};
 
 /// Mean densities along the view sites of one altitude; independent of visibility.
@@ -113,22 +114,23 @@ fn mean_logarithm(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium) ->
     mean
 }
 
-/// Intensities divided by opacity and level: values of order one, `[view][phi][elevation][field][wavelength]`.
+/// Some channels (whole fields) divided by opacity and level: values of order one, `[view][phi][elevation][field][wavelength]`.
 pub fn normalise(
     tensor: &Tensor,
     geometry: &ChunkGeometry,
     medium: &Medium,
     level: &Level,
+    fields: Range<usize>,
 ) -> Vec<f32> {
     let [views, phis, elevations, channels] = tensor.shape;
-    let mut out = Vec::with_capacity(views * phis * elevations * FIELDS * NW);
+    let mut out = Vec::with_capacity(views * phis * elevations * fields.len());
     let mut opacity = [0.0; NW];
     for (site, cell) in tensor.values.chunks_exact(channels).enumerate() {
         let (v, e) = (site / (phis * elevations), site % elevations);
         if site % (phis * elevations) == 0 {
             opacity = std::array::from_fn(|w| geometry.opacity(medium, v, w));
         }
-        out.extend(cell[..FIELDS * NW].iter().enumerate().map(|(c, value)| {
+        out.extend(cell[fields.clone()].iter().enumerate().map(|(c, value)| {
             let w = c % NW;
             (f64::from(*value) / (opacity[w] * level.scale[(e, w)])) as f32
         }));
