@@ -1,12 +1,13 @@
-//! `welkin-fit assess`: a model file against freshly traced radiance at conditions between its nodes.
+//! `welkin-fit assess`: a model file against freshly traced light at conditions between its nodes.
 
 use anyhow::{Context, Result};
 use std::path::PathBuf;
 use welkin::Model;
 use welkin_fitter::assess::{self, Error, band_table, table};
+use welkin_fitter::polarimetry;
 use welkin_fitter::units::Plan;
 
-/// Compares a model with freshly traced radiance at visibilities and altitudes between its nodes.
+/// Compares a model with freshly traced radiance and polarisation at visibilities and altitudes between its nodes.
 #[derive(clap::Args)]
 pub struct Args {
     /// The model file.
@@ -38,6 +39,7 @@ pub fn run(args: &Args) -> Result<()> {
         .filter(|h| (lowest..=highest).contains(h))
         .collect();
     let mut rows = vec![];
+    let (mut polarised, mut without_u) = (vec![], vec![]);
     let plan = Plan::default();
     let store = plan.store(&args.work)?;
     for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
@@ -46,10 +48,21 @@ pub fn run(args: &Args) -> Result<()> {
             let samples = plan.held_out(&store, &solved, altitude)?;
             let errors = assess::errors(&model, visibility, &samples)?;
             rows.push((visibility, altitude, errors));
+            if model.is_polarised() {
+                polarised.extend(polarimetry::errors(&model, visibility, &samples)?);
+                without_u.extend(polarimetry::without_u(&model, visibility, &samples));
+            }
         }
     }
     println!("{}", band_table(&rows));
     let all: Vec<Error> = rows.into_iter().flat_map(|(_, _, errors)| errors).collect();
     println!("all conditions\n{}", table(&all));
+    if model.is_polarised() {
+        println!("degree of polarisation\n{}", polarimetry::table(&polarised));
+        println!(
+            "traced polarisation without U in the sun-aligned frame\n{}",
+            polarimetry::table(&without_u)
+        );
+    }
     Ok(())
 }
