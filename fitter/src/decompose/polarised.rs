@@ -86,27 +86,44 @@ fn is_odd(channel: usize) -> bool {
 /// Divides U, which is odd in the azimuth, by the azimuth's sine. Its sine series gives the limits towards the sun and away from it.
 fn divide_by_sine(values: &mut [f64], [_, phis, elevations, channels]: [usize; 4]) {
     let stride = elevations * channels;
-    let n = phis - 1;
-    let angle = |j: usize| PI * j as f64 / n as f64;
+    let divisor = SineDivision::new(phis);
     let mut column = vec![0.0; phis];
     for block in values.chunks_exact_mut(phis * stride) {
         for k in (0..stride).filter(|k| is_odd(k % channels)) {
             for (j, c) in column.iter_mut().enumerate() {
                 *c = block[j * stride + k];
             }
-            let [mut towards, mut away] = [0.0; 2];
-            for order in 1..n {
-                let harmonic = |j: usize| column[j] * (order as f64 * angle(j)).sin();
-                let term = order as f64 * 2.0 / n as f64 * (1..n).map(harmonic).sum::<f64>();
-                towards += term;
-                away += if order % 2 == 1 { term } else { -term };
+            for (j, row) in divisor.0.iter().enumerate() {
+                block[j * stride + k] = row.iter().zip(&column).map(|(m, c)| m * c).sum();
             }
-            for j in 1..n {
-                block[j * stride + k] = column[j] / angle(j).sin();
-            }
-            block[k] = towards;
-            block[n * stride + k] = away;
         }
+    }
+}
+
+/// A matrix from values of an odd function at azimuths 0..=π to values of its ratio to the sine.
+struct SineDivision(Vec<Vec<f64>>);
+
+impl SineDivision {
+    fn new(phis: usize) -> Self {
+        let n = phis - 1;
+        let angle = |j: usize| PI * j as f64 / n as f64;
+        // Σ_k k · b_k (±1)^(k+1), with b_k = 2/n Σ_j u_j sin(k φ_j).
+        let limit = |sign: f64, j: usize| {
+            let term = |k: usize| {
+                let harmonic = (k as f64 * angle(j)).sin();
+                k as f64 * harmonic * sign.powi(k as i32 + 1)
+            };
+            2.0 / n as f64 * (1..n).map(term).sum::<f64>()
+        };
+        let entry = |i: usize, j: usize| match i {
+            _ if j == 0 || j == n => 0.0,
+            0 => limit(1.0, j),
+            i if i == n => limit(-1.0, j),
+            i if i == j => 1.0 / angle(j).sin(),
+            _ => 0.0,
+        };
+        let row = |i: usize| (0..phis).map(|j| entry(i, j)).collect();
+        Self((0..phis).map(row).collect())
     }
 }
 
