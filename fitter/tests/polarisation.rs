@@ -1,13 +1,16 @@
 //! Polarisation from the tracer to the file: a small model, built and judged; neutral points where the air has them.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 use welkin::axis::Ends;
-use welkin::{Conditions, Frame, Model, PolarisedSky};
+use welkin::geometry::Side;
+use welkin::{Conditions, Frame, Model, PolarisedSky, Stokes};
 use welkin_fitter::assess::Quantiles;
 use welkin_fitter::build::{Fitting, build};
 use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
-use welkin_fitter::orders::Settings;
+use welkin_fitter::orders::source::Sun;
+use welkin_fitter::orders::{NW, Settings};
 use welkin_fitter::polarimetry;
 use welkin_fitter::units::{HeldOut, Plan};
 
@@ -76,15 +79,6 @@ fn built() -> &'static Built {
     })
 }
 
-fn sky(visibility: f64, degrees: f64) -> PolarisedSky {
-    let conditions = Conditions {
-        solar_elevation: degrees.to_radians(),
-        visibility,
-        ..Conditions::default()
-    };
-    built().model.polarised_sky(&conditions).unwrap()
-}
-
 #[test]
 fn a_small_model_follows_the_traced_polarisation() {
     let Built { model, work } = built();
@@ -109,60 +103,110 @@ fn a_small_model_follows_the_traced_polarisation() {
     }
 }
 
-/// Angles from the sun (degrees, upwards over the zenith) in the sun's vertical plane where the polarisation changes its sign.
-fn neutral_points(sky: &PolarisedSky, wavelength: f64) -> Vec<f64> {
-    let sun = sky.sky().conditions().solar_elevation.to_degrees();
-    let signed = |from_sun: f64| {
-        let (z, x) = (sun + from_sun).to_radians().sin_cos();
-        let direction = [x as f32, 0.0, z as f32];
-        let light = sky
-            .stokes_at(direction, Frame::SunAligned, wavelength)
-            .unwrap();
-        light.signed_degree()
-    };
-    let steps: Vec<f64> = (0..)
-        .map(|k| 0.25 * f64::from(k) - sun + 0.5)
-        .take_while(|a| sun + a < 179.5)
-        .filter(|a| a.abs() > 1.0)
-        .collect();
-    let changes = steps
-        .windows(2)
-        .filter(|w| signed(w[0]) * signed(w[1]) < 0.0);
-    changes.map(|w| 0.5 * (w[0] + w[1])).collect()
+/// Signed degree of polarisation in the vertical plane of the sun at an angle (degrees) from it, upwards over the zenith: of the
+/// model and as traced.
+struct Plane {
+    sky: PolarisedSky,
+    visibility: f64,
+    sun: f64,
 }
 
-/// Babinet's point above the sun, Brewster's below it, Arago's above the point opposite to the sun: each some 10..35° away.
+const WAVELENGTH: usize = 3;
+
+impl Plane {
+    fn new(visibility: f64, sun: f64) -> Self {
+        let conditions = Conditions {
+            solar_elevation: sun.to_radians(),
+            visibility,
+            ..Conditions::default()
+        };
+        Self {
+            sky: built().model.polarised_sky(&conditions).unwrap(),
+            visibility,
+            sun,
+        }
+    }
+
+    fn modelled(&self) -> Vec<f64> {
+        self.neutral_points(|elevation| {
+            let (z, x) = elevation.sin_cos();
+            let mut light = [Stokes::default(); NW];
+            let direction = [x as f32, 0.0, z as f32];
+            self.sky
+                .relative_stokes(direction, Frame::SunAligned, &mut light)
+                .unwrap();
+            f64::from(light[WAVELENGTH].signed_degree())
+        })
+    }
+
+    fn traced(&self) -> Vec<f64> {
+        let Built { work, .. } = built();
+        let solved = plan().solve(work.path(), self.visibility, &|_| {}).unwrap();
+        let gatherer = solved.gatherer();
+        let (se, ce) = self.sun.to_radians().sin_cos();
+        self.neutral_points(|elevation| {
+            let above = elevation.min(PI - elevation);
+            let side = if elevation < FRAC_PI_2 { 1.0 } else { -1.0 };
+            let sun = Sun {
+                elevation: (ce, se),
+                azimuth: (side, 0.0),
+            };
+            let path = gatherer.path(0.0, above, Side::Up);
+            let albedo = Conditions::default().albedo as f32;
+            let [i, q, _] = gatherer.stokes(&path, above.sin(), &sun, albedo);
+            // e1 is vertical, the plane of view and sun too.
+            f64::from(-q[WAVELENGTH] / i[WAVELENGTH])
+        })
+    }
+
+    /// Where the sign changes, degrees from the sun.
+    fn neutral_points(&self, signed: impl Fn(f64) -> f64) -> Vec<f64> {
+        let angles = (1..180)
+            .map(|k| f64::from(k) - self.sun)
+            .filter(|a| a.abs() > 1.5);
+        let values: Vec<(f64, f64)> = angles
+            .map(|a| (a, signed((self.sun + a).to_radians())))
+            .collect();
+        let crossing = |w: &[(f64, f64)]| {
+            let ((a, p), (b, q)) = (w[0], w[1]);
+            (p * q < 0.0 && b - a < 1.5).then(|| a + (b - a) * p / (p - q))
+        };
+        values.windows(2).filter_map(crossing).collect()
+    }
+}
+
+/// Babinet's point above the sun, Brewster's below it, Arago's above the point opposite to the sun.
 #[test]
 fn neutral_points_stand_where_the_air_has_them() {
-    let babinet = |points: &[f64]| points.iter().copied().find(|a| (1.0..60.0).contains(a));
-    let brewster = |points: &[f64]| points.iter().copied().find(|a| (-60.0..-1.0).contains(a));
-    let arago = |points: &[f64]| points.iter().copied().find(|a| (120.0..180.0).contains(a));
-
-    let low = neutral_points(&sky(CLEAR, 5.0), 440.0);
-    println!("sun at 5°: {low:?}");
-    let from_antisun = 180.0 - arago(&low).expect("Arago's point");
-    assert!((12.0..35.0).contains(&from_antisun), "{from_antisun}");
-    let above = babinet(&low).expect("Babinet's point");
-    assert!((8.0..30.0).contains(&above), "{above}");
-    assert_eq!(brewster(&low), None, "below the horizon");
-
-    let high = neutral_points(&sky(CLEAR, 45.0), 440.0);
-    println!("sun at 45°: {high:?}");
-    assert_eq!(arago(&high), None, "set");
-    let (babinet_high, brewster_high) = (babinet(&high).unwrap(), brewster(&high).unwrap());
-    assert!(babinet_high > 2.0 && brewster_high < -2.0);
-    // Both approach the sun as it rises.
-    let higher = neutral_points(&sky(CLEAR, 70.0), 440.0);
-    println!("sun at 70°: {higher:?}");
-    assert!(babinet(&higher).unwrap() < babinet_high);
-    assert!(brewster(&higher).unwrap() > brewster_high);
-
-    // Haze scatters more often: the points move away from the sun and from the point opposite to it.
-    let hazy = neutral_points(&sky(HAZY, 5.0), 440.0);
-    println!("haze, sun at 5°: {hazy:?}");
-    let from_antisun_hazy = 180.0 - arago(&hazy).expect("Arago's point");
+    let within = |points: &[f64], low: f64, high: f64| {
+        points.iter().copied().find(|a| (low..high).contains(a))
+    };
+    let mut babinet = vec![];
+    for (visibility, sun) in [(CLEAR, 5.0), (HAZY, 5.0), (CLEAR, 45.0), (CLEAR, 70.0)] {
+        let plane = Plane::new(visibility, sun);
+        let (modelled, traced) = (plane.modelled(), plane.traced());
+        println!("visibility {visibility} m, sun at {sun}°: {modelled:.1?}, traced {traced:.1?}");
+        for (low, high) in [(1.5, 60.0), (-60.0, -1.5), (120.0, 170.0)] {
+            let (got, want) = (within(&modelled, low, high), within(&traced, low, high));
+            assert_eq!(got.is_some(), want.is_some(), "{low}..{high}");
+            if let (Some(got), Some(want)) = (got, want) {
+                assert!((got - want).abs() < 1.0, "{got} {want}");
+            }
+        }
+        let arago = within(&modelled, 120.0, 170.0);
+        let brewster = within(&modelled, -60.0, -1.5);
+        if sun < 10.0 {
+            let from_antisun = 180.0 - arago.expect("Arago's point");
+            assert!((15.0..30.0).contains(&from_antisun), "{from_antisun}");
+            assert_eq!(brewster, None, "below the horizon");
+        } else {
+            assert_eq!(arago, None, "below the horizon");
+            assert!(brewster.is_some());
+        }
+        babinet.push(within(&modelled, 1.5, 60.0).expect("Babinet's point"));
+    }
+    // It approaches the sun as the sun rises.
     assert!(
-        from_antisun_hazy > from_antisun + 1.0,
-        "{from_antisun_hazy}"
+        (15.0..30.0).contains(&babinet[0]) && babinet[0] > babinet[2] && babinet[2] > babinet[3]
     );
 }
