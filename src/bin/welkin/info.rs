@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use welkin::Model;
-use welkin::format::{Entry, VERSION_MAJOR};
+use welkin::format::{Entry, Kind, VERSION_MAJOR};
 
 use crate::Source;
 use crate::failure::{Failure, Result};
@@ -78,8 +78,10 @@ fn describe(model: &Model, verified: bool) -> Value {
             "phi": head.phi_intervals,
             "elevation": head.elevation.intervals,
         },
-        "worst_error_median": worst(model, |e| e.error_median),
-        "worst_error_p99": worst(model, |e| e.error_p99),
+        "worst_error_median": worst(model, Kind::Radiance, |e| e.error_median),
+        "worst_error_p99": worst(model, Kind::Radiance, |e| e.error_p99),
+        "worst_polarisation_error_median": worst(model, Kind::Polarisation, |e| e.error_median),
+        "worst_polarisation_error_p99": worst(model, Kind::Polarisation, |e| e.error_p99),
         "verified": verified,
         "metadata": metadata,
         "chunks": chunks,
@@ -90,10 +92,9 @@ fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9
 }
 
-fn worst(model: &Model, error: impl Fn(&Entry) -> f32) -> f64 {
-    rounded(f64::from(
-        model.directory().iter().map(error).fold(0.0, f32::max),
-    ))
+fn worst(model: &Model, kind: Kind, error: impl Fn(&Entry) -> f32) -> f64 {
+    let entries = model.directory().iter().filter(|e| e.kind == kind);
+    rounded(f64::from(entries.map(error).fold(0.0, f32::max)))
 }
 
 fn chunk(model: &Model, entry: &Entry) -> Value {
