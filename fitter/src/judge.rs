@@ -22,6 +22,25 @@ pub struct Difference {
 }
 
 impl Difference {
+    /// As numbers for a file.
+    pub fn to_values(&self) -> [f32; 3] {
+        [self.solar_elevation, self.relative, self.standard_error].map(|v| v as f32)
+    }
+
+    /// The inverse of [`Difference::to_values`] for a row of differences.
+    pub fn from_values(values: &[f32]) -> Vec<Self> {
+        let rows = values.as_chunks::<3>().0.iter();
+        rows.map(|row| {
+            let [solar_elevation, relative, standard_error] = row.map(f64::from);
+            Self {
+                solar_elevation,
+                relative,
+                standard_error,
+            }
+        })
+        .collect()
+    }
+
     /// Difference over its standard error, the systematic allowance included.
     pub fn z(&self) -> f64 {
         self.relative / self.standard_error.hypot(SYSTEMATIC)
@@ -74,6 +93,46 @@ const BANDS: [(f64, f64); 5] = [
     (12.0, 90.0),
 ];
 
+/// Differences in a few numbers, all relative.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Summary {
+    /// Number of values.
+    pub values: usize,
+    /// Mean difference: the bias of the data.
+    pub mean: f64,
+    /// Standard error of the mean.
+    pub standard_error: f64,
+    /// Root mean square of the differences.
+    pub rms: f64,
+    /// Root mean square of the judge's own standard errors, the part of `rms` that is not due to the data.
+    pub judge_rms: f64,
+    /// Mean of z².
+    pub chi2: f64,
+    /// Largest |z|.
+    pub worst_z: f64,
+}
+
+impl Summary {
+    /// `None` without differences.
+    pub fn of<'a>(differences: impl IntoIterator<Item = &'a Difference>) -> Option<Self> {
+        let all: Vec<&Difference> = differences.into_iter().collect();
+        let n = all.len() as f64;
+        let mean_of = |f: &dyn Fn(&Difference) -> f64| all.iter().map(|d| f(d)).sum::<f64>() / n;
+        let mean = mean_of(&|d| d.relative);
+        let square = mean_of(&|d| d.relative.powi(2));
+        (!all.is_empty()).then(|| Self {
+            values: all.len(),
+            mean,
+            // The wavelengths of a sample share their walks: count samples, not values.
+            standard_error: ((square - mean * mean) / (n / NW as f64)).sqrt(),
+            rms: square.sqrt(),
+            judge_rms: mean_of(&|d| d.standard_error.powi(2)).sqrt(),
+            chi2: mean_of(&|d| d.z().powi(2)),
+            worst_z: all.iter().map(|d| d.z().abs()).fold(0.0, f64::max),
+        })
+    }
+}
+
 /// One line per band: number, mean difference and its standard error, rms, χ²/n, largest |z|.
 pub fn table(differences: &[Difference]) -> String {
     let mut out = format!(
@@ -81,27 +140,18 @@ pub fn table(differences: &[Difference]) -> String {
         "sun", "values", "mean difference %", "rms %", "chi2/n", "worst z"
     );
     for (low, high) in BANDS {
-        let band: Vec<&Difference> = differences
-            .iter()
-            .filter(|d| (low..high).contains(&d.solar_elevation.to_degrees()))
-            .collect();
-        if band.is_empty() {
-            continue;
+        let band = |d: &&Difference| (low..high).contains(&d.solar_elevation.to_degrees());
+        if let Some(s) = Summary::of(differences.iter().filter(band)) {
+            out += &format!(
+                "{low:>5}..{high:<4} deg {:>7} {:>+9.3} +- {:<7.3} {:>8.3} {:>8.2} {:>9.2}\n",
+                s.values,
+                100.0 * s.mean,
+                100.0 * s.standard_error,
+                100.0 * s.rms,
+                s.chi2,
+                s.worst_z,
+            );
         }
-        let n = band.len() as f64;
-        let mean = band.iter().map(|d| d.relative).sum::<f64>() / n;
-        let square = band.iter().map(|d| d.relative * d.relative).sum::<f64>() / n;
-        // The wavelengths of a sample share their walks: count samples, not values.
-        let spread = ((square - mean * mean) / (n / NW as f64)).sqrt();
-        out += &format!(
-            "{low:>5}..{high:<4} deg {:>7} {:>+9.3} +- {:<7.3} {:>8.3} {:>8.2} {:>9.2}\n",
-            band.len(),
-            100.0 * mean,
-            100.0 * spread,
-            100.0 * square.sqrt(),
-            band.iter().map(|d| d.z().powi(2)).sum::<f64>() / n,
-            band.iter().map(|d| d.z().abs()).fold(0.0, f64::max),
-        );
     }
     out
 }

@@ -11,6 +11,7 @@ pub mod dataset;
 pub mod decompose;
 pub mod finite;
 pub mod judge;
+pub mod manifest;
 pub mod orders;
 pub mod pack;
 pub mod picture;

@@ -24,6 +24,8 @@ enum Command {
     Finite(command::finite::Args),
     /// Compare traced data with the unbiased tracer.
     Judge(command::judge::Args),
+    /// List, do and describe the work units of a model, on one machine or many.
+    Units(command::units::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
@@ -41,6 +43,7 @@ fn main() -> ExitCode {
         Command::Chart(args) => command::chart::run(&args),
         Command::Finite(args) => command::finite::run(&args),
         Command::Judge(args) => command::judge::run(&args),
+        Command::Units(args) => command::units::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),

@@ -1,9 +1,9 @@
 //! `welkin-fit build`: traces and fits a model file.
 
+use super::plan::PlanArgs;
 use anyhow::Result;
 use std::path::PathBuf;
 use welkin_fitter::build::{Fitting, build};
-use welkin_fitter::units::Plan;
 
 /// Traces and fits a model file. Without arguments it rebuilds the embedded default model.
 #[derive(clap::Args)]
@@ -11,15 +11,8 @@ pub struct Args {
     /// Where the model goes.
     #[arg(long, default_value = "models/default.welkin")]
     out: PathBuf,
-    /// Folder for finished work units; an interrupted build goes on from them.
-    #[arg(long, default_value = "work")]
-    work: PathBuf,
-    /// Only these altitudes, m.
-    #[arg(long, value_delimiter = ',')]
-    altitudes: Option<Vec<f64>>,
-    /// Only these visibilities, km.
-    #[arg(long, value_delimiter = ',')]
-    visibilities: Option<Vec<f64>>,
+    #[command(flatten)]
+    plan: PlanArgs,
     /// Components per chunk.
     #[arg(long)]
     rank: Option<usize>,
@@ -36,14 +29,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
-    let (mut plan, mut fitting) = (Plan::default(), Fitting::default());
-    if let Some(altitudes) = &args.altitudes {
-        plan.grid.altitudes = altitudes.clone();
-    }
-    if let Some(visibilities) = &args.visibilities {
-        plan.grid.visibilities = visibilities.iter().map(|v| 1e3 * v).collect();
-    }
-    plan.grid.check()?;
+    let (plan, mut fitting) = (args.plan.plan()?, Fitting::default());
     if let Some(rank) = args.rank {
         anyhow::ensure!((1..=4096).contains(&rank), "--rank must be 1..=4096");
         fitting.options.rank = rank;
@@ -54,6 +40,6 @@ pub fn run(args: &Args) -> Result<()> {
         fitting.polarisation.rank = rank;
     }
     fitting.refinements = args.refinements.unwrap_or(fitting.refinements);
-    print!("{}", build(&plan, fitting, &args.work, &args.out)?);
+    print!("{}", build(&plan, fitting, &args.plan.work, &args.out)?);
     Ok(())
 }

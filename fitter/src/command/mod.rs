@@ -8,5 +8,7 @@ pub mod finite;
 pub mod judge;
 mod output;
 pub mod picture;
+mod plan;
 pub mod trace;
+pub mod units;
 pub mod validate;

@@ -1,8 +1,9 @@
 //! Results of work units on disk: written whole or not at all, found again after a kill.
 
 use anyhow::{Context, Result, ensure};
+use cpu_time::ProcessTime;
 use std::fs;
-use std::io::Write;
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// A folder of unit files. Every file carries the key of the settings that made it; others are not trusted.
@@ -29,9 +30,18 @@ impl Store {
         if let Some(values) = self.load(name)? {
             return Ok(values);
         }
+        let start = ProcessTime::now();
         let values = compute()?;
         self.save(name, &values)?;
+        let cost = format!("{:.3}\n", start.elapsed().as_secs_f64());
+        self.persist(&self.path(name, COST), &[cost.as_bytes()])?;
         Ok(values)
+    }
+
+    /// Core-seconds that it took to compute the unit `name`, all threads of the process together; `None` if nobody knows.
+    pub fn cost(&self, name: &str) -> Option<f64> {
+        let text = fs::read_to_string(self.path(name, COST)).ok()?;
+        text.trim().parse().ok()
     }
 
     /// As [`Store::unit`], for numbers that must come back exactly.
@@ -60,14 +70,12 @@ impl Store {
         let context = || format!("cannot clear {}", self.folder.display());
         for entry in fs::read_dir(&self.folder).with_context(context)? {
             let path = entry.with_context(context)?.path();
-            if path.extension().is_some_and(|e| e == "unit") {
+            if path.extension().is_some_and(|e| e == UNIT || e == COST) {
                 fs::remove_file(&path).with_context(context)?;
             }
         }
         match fs::remove_dir(&self.folder) {
-            Err(e) if e.kind() != std::io::ErrorKind::DirectoryNotEmpty => {
-                Err(e).with_context(context)
-            }
+            Err(e) if e.kind() != ErrorKind::DirectoryNotEmpty => Err(e).with_context(context),
             _ => Ok(()),
         }
     }
@@ -77,7 +85,28 @@ impl Store {
         Ok(self.load(name)?.is_some())
     }
 
-    fn load(&self, name: &str) -> Result<Option<Vec<f32>>> {
+    /// The checksum in the file of the unit `name`, if there is one that belongs to these settings. Only the header is read.
+    pub fn checksum(&self, name: &str) -> Result<Option<u32>> {
+        let mut start = [0; HEADER];
+        let read = fs::File::open(self.path(name, UNIT)).and_then(|mut f| f.read_exact(&mut start));
+        match read {
+            Ok(()) => {}
+            Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::UnexpectedEof) => {
+                return Ok(None);
+            }
+            Err(e) => return Err(e).with_context(|| format!("cannot read unit {name}")),
+        }
+        let (settings, body) = start.split_at(HEADER - 4);
+        let ours = settings == &self.header(&[])[..HEADER - 4];
+        Ok(body
+            .try_into()
+            .ok()
+            .filter(|_| ours)
+            .map(u32::from_le_bytes))
+    }
+
+    /// The values of the unit `name` if it is there and valid.
+    pub fn load(&self, name: &str) -> Result<Option<Vec<f32>>> {
         let bytes = self.read(name)?;
         Ok(bytes.and_then(|bytes| match bytes.as_chunks::<4>() {
             (words, []) => Some(words.iter().map(|w| f32::from_le_bytes(*w)).collect()),
@@ -87,10 +116,10 @@ impl Store {
 
     /// The body of the unit `name` if its file exists, belongs to these settings and is intact.
     fn read(&self, name: &str) -> Result<Option<Vec<u8>>> {
-        let path = self.path(name);
+        let path = self.path(name, UNIT);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
             Err(e) => return Err(e).with_context(|| format!("cannot read {}", path.display())),
         };
         let header = self.header(&bytes[bytes.len().min(HEADER)..]);
@@ -110,17 +139,22 @@ impl Store {
     }
 
     fn write(&self, name: &str, body: &[u8]) -> Result<()> {
-        let mut file = tempfile::NamedTempFile::new_in(&self.folder)?;
-        file.write_all(&self.header(body))?;
-        file.write_all(body)?;
-        file.as_file().sync_all()?;
-        file.persist(self.path(name))
-            .with_context(|| format!("cannot write unit {name}"))?;
+        self.persist(&self.path(name, UNIT), &[&self.header(body), body])
+    }
+
+    fn persist(&self, path: &Path, parts: &[&[u8]]) -> Result<()> {
+        let context = || format!("cannot write {}", path.display());
+        let mut file = tempfile::NamedTempFile::new_in(&self.folder).with_context(context)?;
+        for part in parts {
+            file.write_all(part).with_context(context)?;
+        }
+        file.as_file().sync_all().with_context(context)?;
+        file.persist(path).with_context(context)?;
         Ok(())
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(format!("{name}.unit"))
+    fn path(&self, name: &str, extension: &str) -> PathBuf {
+        self.folder.join(format!("{name}.{extension}"))
     }
 
     /// Checksums of the settings and of the body.
@@ -134,6 +168,10 @@ impl Store {
 }
 
 const HEADER: usize = 16;
+/// Extension of unit files.
+const UNIT: &str = "unit";
+/// Extension of the files that tell what units cost. It differs from run to run, so it is not in the unit files.
+const COST: &str = "cost";
 
 #[cfg(test)]
 mod tests {

@@ -1,5 +1,9 @@
 //! Work units: pure functions of (atmosphere, grid, settings) to one file each, found again after a kill.
 
+mod unit;
+
+pub use unit::{Kind, Unit};
+
 use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
 use crate::orders::{Gatherer, LightField, Medium, SUN_RADIUS, Settings, solve};
@@ -15,6 +19,26 @@ pub struct Plan {
     pub settings: Settings,
     /// Held-out view directions and suns per chunk.
     pub held_out: HeldOut,
+    /// How the traced data are compared with the unbiased tracer.
+    pub judging: Judging,
+}
+
+/// How thoroughly a chunk is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Judging {
+    /// Held-out samples per chunk.
+    pub samples: usize,
+    /// Relative standard error of the judge.
+    pub target_error: f64,
+}
+
+impl Default for Judging {
+    fn default() -> Self {
+        Self {
+            samples: 8,
+            target_error: 0.01,
+        }
+    }
 }
 
 /// How many held-out samples a chunk has.
@@ -58,6 +82,28 @@ impl Solved {
 }
 
 impl Plan {
+    /// Coarse in everything but altitude and visibility.
+    pub fn draft() -> Self {
+        let mut grid = Grid::default();
+        grid.up.0.intervals = 10;
+        grid.down.0.intervals = 8;
+        grid.phi.intervals = 6;
+        grid.elevation.intervals = 12;
+        Self {
+            grid,
+            settings: Settings {
+                up: 4,
+                down: 3,
+                azimuths: 4,
+                first: 1,
+                orders: 3,
+                fineness: 12.0,
+            },
+            held_out: HeldOut { views: 24, suns: 6 },
+            judging: Judging::default(),
+        }
+    }
+
     /// What the light fields depend on.
     fn light_key(&self) -> String {
         format!("{UNIT_VERSION} {:?} {WAVELENGTHS:?}", self.settings)
@@ -76,7 +122,7 @@ impl Plan {
 
     /// Units of tensors, samples and fits in the folder `work`.
     pub fn store(&self, work: &Path) -> Result<Store> {
-        Store::open(work, self.key())
+        self.store_of(work, Kind::Tensor)
     }
 
     /// The light field of a visibility (m). `progress` is told the share that is done.
@@ -86,9 +132,9 @@ impl Plan {
         visibility: f64,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
-        let store = Store::open(work, self.light_key())?;
+        let store = self.store_of(work, Kind::Light)?;
         let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
-        let values = store.unit(&format!("light-{visibility}"), || {
+        let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;
         let light = LightField::from_values(&values).context("a light field of another size")?;
@@ -102,7 +148,8 @@ impl Plan {
     /// The traced tensor of altitude `a` of the grid.
     pub fn tensor(&self, store: &Store, solved: &Solved, a: usize) -> Result<Tensor> {
         let altitude = self.grid.altitudes[a];
-        let values = store.unit(&format!("tensor-{}-{altitude}", solved.visibility), || {
+        let name = Kind::Tensor.unit(solved.visibility, Some(altitude));
+        let values = store.unit(&name, || {
             Ok(trace_tensor(&solved.gatherer(), &self.grid, a).values)
         })?;
         let views = self.grid.up.0.len() + self.grid.down.0.len();
@@ -115,7 +162,8 @@ impl Plan {
     pub fn held_out(&self, store: &Store, solved: &Solved, altitude: f64) -> Result<Vec<Sample>> {
         let seed = (solved.visibility + altitude) as u64;
         let counts = [self.held_out.views, self.held_out.suns];
-        let values = store.unit(&format!("truth-{}-{altitude}", solved.visibility), || {
+        let name = Kind::Truth.unit(solved.visibility, Some(altitude));
+        let values = store.unit(&name, || {
             let samples = truth(&solved.gatherer(), &solved.light, altitude, counts, seed);
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;

@@ -1,0 +1,41 @@
+//! What is traced: arguments that several commands share.
+
+use anyhow::Result;
+use std::path::PathBuf;
+use welkin_fitter::units::Plan;
+
+/// The plan and the folder of its work units.
+#[derive(clap::Args)]
+pub struct PlanArgs {
+    /// Folder for finished work units; whatever was interrupted goes on from them.
+    #[arg(long, default_value = "work")]
+    pub work: PathBuf,
+    /// Only these altitudes, m.
+    #[arg(long, value_delimiter = ',')]
+    altitudes: Option<Vec<f64>>,
+    /// Only these visibilities, km.
+    #[arg(long, value_delimiter = ',')]
+    visibilities: Option<Vec<f64>>,
+    /// Coarse axes and a coarse solver: a poor model within a minute, to try things with.
+    #[arg(long)]
+    draft: bool,
+}
+
+impl PlanArgs {
+    /// The plan, checked.
+    pub fn plan(&self) -> Result<Plan> {
+        let mut plan = if self.draft {
+            Plan::draft()
+        } else {
+            Plan::default()
+        };
+        if let Some(altitudes) = &self.altitudes {
+            plan.grid.altitudes = altitudes.clone();
+        }
+        if let Some(visibilities) = &self.visibilities {
+            plan.grid.visibilities = visibilities.iter().map(|v| 1e3 * v).collect();
+        }
+        plan.grid.check()?;
+        Ok(plan)
+    }
+}

@@ -1,0 +1,139 @@
+//! Units by name, so that any process can do any of them.
+
+use super::Plan;
+use crate::dataset::Store;
+use crate::judge::{Difference, judge};
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// What a unit computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The light field of a visibility; everything else of that visibility starts from it.
+    Light,
+    /// The tensor of a visibility and an altitude.
+    Tensor,
+    /// Held-out samples of a visibility and an altitude.
+    Truth,
+    /// Differences of some held-out samples to the unbiased tracer. A model can be built without.
+    Judge,
+}
+
+/// A pure function of a plan to one file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// What it computes.
+    pub kind: Kind,
+    /// Visibility, m.
+    pub visibility: f64,
+    /// Index of the altitude, except for light fields.
+    pub altitude: Option<usize>,
+}
+
+impl Kind {
+    /// All kinds, in the order of the list of units.
+    pub const ALL: [Self; 4] = [Self::Light, Self::Tensor, Self::Truth, Self::Judge];
+
+    /// First word of the names of its units.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Tensor => "tensor",
+            Self::Truth => "truth",
+            Self::Judge => "judge",
+        }
+    }
+
+    /// Name of the unit of a visibility and an altitude (m).
+    pub fn unit(self, visibility: f64, altitude: Option<f64>) -> String {
+        let name = self.name();
+        match altitude {
+            Some(altitude) => format!("{name}-{visibility}-{altitude}"),
+            None => format!("{name}-{visibility}"),
+        }
+    }
+}
+
+impl Plan {
+    /// All units: light fields, then what a model needs of each visibility and altitude, then its judgement.
+    pub fn units(&self) -> Vec<Unit> {
+        let mut out = vec![];
+        let lists: [(&[Kind], usize); 3] = [
+            (&[Kind::Light], 1),
+            (&[Kind::Tensor, Kind::Truth], self.grid.altitudes.len()),
+            (&[Kind::Judge], self.grid.altitudes.len()),
+        ];
+        for (kinds, altitudes) in lists {
+            for &visibility in &self.grid.visibilities {
+                for altitude in 0..altitudes {
+                    out.extend(kinds.iter().map(|&kind| Unit {
+                        kind,
+                        visibility,
+                        altitude: (kind != Kind::Light).then_some(altitude),
+                    }));
+                }
+            }
+        }
+        out
+    }
+
+    /// Name of a unit, also that of its file.
+    pub fn name(&self, unit: Unit) -> String {
+        let altitude = unit.altitude.map(|a| self.grid.altitudes[a]);
+        unit.kind.unit(unit.visibility, altitude)
+    }
+
+    /// The store that a unit is kept in.
+    pub fn store_of(&self, work: &Path, kind: Kind) -> Result<Store> {
+        let key = match kind {
+            Kind::Light => self.light_key(),
+            Kind::Tensor | Kind::Truth => self.key(),
+            Kind::Judge => format!("{} {:?}", self.key(), self.judging),
+        };
+        Store::open(work, key)
+    }
+
+    /// Does a unit, unless it is done. `progress` is told the share that is done of a light field.
+    pub fn run(&self, work: &Path, unit: Unit, progress: &(dyn Fn(f64) + Sync)) -> Result<()> {
+        if self.store_of(work, unit.kind)?.has(&self.name(unit))? {
+            return Ok(());
+        }
+        let solved = self.solve(work, unit.visibility, progress)?;
+        let Some(a) = unit.altitude else {
+            return Ok(());
+        };
+        let store = self.store(work)?;
+        if unit.kind == Kind::Tensor {
+            self.tensor(&store, &solved, a)?;
+            return Ok(());
+        }
+        let truth = self.held_out(&store, &solved, self.grid.altitudes[a])?;
+        if unit.kind == Kind::Judge {
+            let lit: Vec<_> = truth
+                .iter()
+                .filter(|s| s.radiance.iter().any(|&l| l > 0.0))
+                .collect();
+            // Spread over the suns, and never the same direction twice in a row.
+            let step = (lit.len() / self.judging.samples).max(1) + 1;
+            let chosen = lit.iter().cycle().step_by(step);
+            let chosen: Vec<_> = chosen.take(self.judging.samples).map(|s| **s).collect();
+            let air = &solved.medium.atmosphere;
+            self.store_of(work, Kind::Judge)?
+                .unit(&self.name(unit), || {
+                    let differences = judge(air, &chosen, self.judging.target_error, &|| ())?;
+                    Ok(differences.iter().flat_map(Difference::to_values).collect())
+                })?;
+        }
+        Ok(())
+    }
+
+    /// The unit that `which` names, or that is at this place among all units.
+    pub fn find(&self, which: &str) -> Result<Unit> {
+        let units = self.units();
+        let place = which.parse().ok();
+        let place = place.or_else(|| units.iter().position(|&u| self.name(u) == which));
+        let unit = place.and_then(|i: usize| units.get(i));
+        unit.copied()
+            .with_context(|| format!("no unit {which} in this plan"))
+    }
+}
