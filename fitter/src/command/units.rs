@@ -4,6 +4,7 @@ use super::output::write_whole;
 use super::plan::PlanArgs;
 use anyhow::{Result, ensure};
 use clap::Subcommand;
+use std::io::Write;
 use welkin_fitter::manifest::manifest;
 use welkin_fitter::progress::bar;
 use welkin_fitter::units::{Kind, Plan, Unit};
@@ -78,11 +79,12 @@ pub fn run(args: &Args) -> Result<()> {
 
 fn list(args: &UnitsArgs) -> Result<()> {
     let plan = args.plan()?;
+    let mut out = std::io::stdout().lock();
     for unit in plan.units() {
         let name = plan.name(unit);
         let store = plan.store_of(&args.plan.work, unit.kind)?;
         let done = store.checksum(&name)?.is_some();
-        println!("{name}\t{}", if done { "done" } else { "missing" });
+        writeln!(out, "{name}\t{}", if done { "done" } else { "missing" })?;
     }
     Ok(())
 }

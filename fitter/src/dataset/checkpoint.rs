@@ -186,7 +186,12 @@ mod tests {
             store.unit("x", || panic!("computed twice")).unwrap(),
             [1.0, 2.0]
         );
+        assert!(store.cost("x").unwrap() >= 0.0 && store.cost("y").is_none());
+        let body: Vec<u8> = [1f32, 2.0].iter().flat_map(|v| v.to_le_bytes()).collect();
+        let checksum = store.checksum("x").unwrap();
+        assert_eq!(checksum, Some(crc32fast::hash(&body)));
         let other = Store::open(folder.path(), "b").unwrap();
+        assert_eq!(other.checksum("x").unwrap(), None);
         assert!(!other.has("x").unwrap());
         let path = folder.path().join("x.unit");
         let mut bytes = fs::read(&path).unwrap();

@@ -137,3 +137,22 @@ impl Plan {
             .with_context(|| format!("no unit {which} in this plan"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_is_found_by_its_name_and_its_place() {
+        let plan = Plan::default();
+        let units = plan.units();
+        let (altitudes, visibilities) = (plan.grid.altitudes.len(), plan.grid.visibilities.len());
+        assert_eq!(units.len(), visibilities * (1 + 3 * altitudes));
+        for (place, &unit) in units.iter().enumerate() {
+            assert_eq!(plan.find(&plan.name(unit)).unwrap(), unit);
+            assert_eq!(plan.find(&place.to_string()).unwrap(), unit);
+        }
+        assert!(plan.find(&units.len().to_string()).is_err() && plan.find("light-1").is_err());
+        assert!(units[..visibilities].iter().all(|u| u.kind == Kind::Light));
+    }
+}
