@@ -1,7 +1,7 @@
 //! Makes lengths and checksums of a file right, so that the fuzzer spends its time behind them; and asks a model
 //! everything.
 
-use welkin::{Conditions, Model};
+use welkin::{Air, Conditions, Frame, Haze, Model, PolarisedSky, Stokes};
 
 /// `data` with the length of the file and all checksums that can be found set right.
 pub fn forged(data: &[u8]) -> Vec<u8> {
@@ -32,7 +32,56 @@ fn u64_at(bytes: &[u8], at: usize) -> u64 {
     u64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes"))
 }
 
-/// Skies at the ends and in the middle of the model: errors, or finite radiances that are not negative.
+/// Segments that are level, rise out of the air, dip below the ground, are short, or have no length.
+const SEGMENTS: [[[f64; 3]; 2]; 5] = [
+    [[0.0, 0.0, 2.0], [9e4, 0.0, 2.0]],
+    [[0.0, 0.0, 9e3], [1e5, 2e5, 3e5]],
+    [[0.0, 0.0, 500.0], [3e4, 1e4, -4e3]],
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+    [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+];
+
+/// Transmittance of segments is in 0..=1.
+pub fn look_through(air: &Air) {
+    let mut through = vec![0.0; air.wavelengths().len()];
+    for [from, to] in SEGMENTS {
+        air.transmittance(from, to, &mut through).expect("valid points");
+        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
+    }
+}
+
+/// Light of segments is finite and not negative.
+pub fn look_into(haze: &Haze) {
+    for [from, to] in SEGMENTS {
+        scatter(haze, from, to);
+    }
+}
+
+/// Light and transmittance of one segment.
+pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
+    let mut light = vec![0.0; haze.wavelengths().len()];
+    let mut through = light.clone();
+    if haze.in_scatter(from, to, &mut light, &mut through).is_ok() {
+        assert!(light.iter().all(|l| l.is_finite() && *l >= 0.0), "{light:?}");
+        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
+        let (colour, factor) = haze.xyz(from, to).expect("the same points");
+        assert!(colour.iter().chain(&factor).all(|v| v.is_finite()));
+    }
+}
+
+/// Stokes vectors are finite, and no light is more than polarised.
+pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
+    let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
+    if sky.relative_stokes(direction, Frame::Vertical, &mut light).is_ok() {
+        for stokes in light {
+            assert!(stokes.i.is_finite() && stokes.q.is_finite() && stokes.u.is_finite());
+            // Subnormal numbers have few digits.
+            assert!(stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40, "{stokes:?}");
+        }
+    }
+}
+
+/// Skies, Stokes vectors and haze at the ends and in the middle of the model: errors, or finite numbers in their ranges.
 pub fn interrogate(model: &Model) {
     let _ = model.verify();
     let [altitudes, visibilities, elevations] = [
@@ -49,6 +98,15 @@ pub fn interrogate(model: &Model) {
             albedo: t,
             ..Conditions::default()
         };
+        if let Ok(air) = model.air(conditions.visibility) {
+            look_through(&air);
+        }
+        if let Ok(haze) = model.haze(&conditions) {
+            look_into(&haze);
+        }
+        if let Ok(sky) = model.polarised_sky(&conditions) {
+            look_polarised(&sky, [0.3, -0.2, 0.5]);
+        }
         if let Ok(sky) = model.sky(&conditions) {
             let mut out = vec![0.0; sky.wavelengths().len()];
             for direction in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.01], [0.3, -0.2, -0.5]] {

@@ -1,14 +1,17 @@
-//! Any conditions and directions against the default model: an error or a finite, non-negative radiance.
+//! Any conditions, directions and points against the default model: errors, or finite numbers in their ranges.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::OnceLock;
 use welkin::{Conditions, Model};
+use welkin_fuzz::{look_polarised, scatter};
 
 static MODEL: OnceLock<Model> = OnceLock::new();
 
-fuzz_target!(|input: ([f64; 5], [f32; 3], f64)| {
-    let ([solar_elevation, solar_azimuth, visibility, albedo, altitude], direction, wavelength) = input;
+type Scene = ([f64; 5], [f32; 3], f64, [[f64; 3]; 2]);
+
+fuzz_target!(|input: Scene| {
+    let ([solar_elevation, solar_azimuth, visibility, albedo, altitude], direction, wavelength, points) = input;
     let model = MODEL.get_or_init(|| {
         Model::from_static(include_bytes!("../../models/default.welkin")).expect("a valid model")
     });
@@ -21,4 +24,6 @@ fuzz_target!(|input: ([f64; 5], [f32; 3], f64)| {
     if let Ok(xyz) = sky.xyz(direction) {
         assert!(xyz.iter().all(|v| v.is_finite()));
     }
+    look_polarised(&model.polarised_sky(&conditions).expect("a polarised model"), direction);
+    scatter(&model.haze(&conditions).expect("a model with haze"), points[0], points[1]);
 });

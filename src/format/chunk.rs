@@ -127,23 +127,26 @@ pub(super) fn check_length(what: &'static str, bytes: &[u8], expected: usize) ->
     if bytes.len() == expected {
         return Ok(());
     }
-    Err(Error::Length {
-        what,
-        expected: expected as u64,
-        got: bytes.len() as u64,
-    })
+    Err(wrong_length(what, expected, bytes.len()))
+}
+
+fn wrong_length(what: &'static str, expected: usize, got: usize) -> Error {
+    #[cfg(feature = "std")]
+    let detail = format!("expected {expected} bytes, got {got}");
+    #[cfg(not(feature = "std"))]
+    let detail = {
+        let _ = (expected, got);
+        "has another length than its counts give"
+    };
+    Error::invalid(what, detail)
 }
 
 pub(super) fn take<'a, T>(rest: &mut &'a [u8], n: usize) -> Result<&'a [T]>
 where
     T: FromBytes + zerocopy::Immutable + zerocopy::KnownLayout + zerocopy::Unaligned,
 {
-    let got = rest.len() as u64;
-    let (taken, tail) = <[T]>::ref_from_prefix_with_elems(rest, n).map_err(|_| Error::Length {
-        what: "chunk",
-        expected: (n * size_of::<T>()) as u64,
-        got,
-    })?;
+    let (taken, tail) = <[T]>::ref_from_prefix_with_elems(rest, n)
+        .map_err(|_| wrong_length("chunk", n * size_of::<T>(), rest.len()))?;
     *rest = tail;
     Ok(taken)
 }

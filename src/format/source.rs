@@ -171,6 +171,20 @@ impl<'a> SourceView<'a> {
         Ok(view)
     }
 
+    /// Checks what is said about source chunks together: they fit the basis, and have the species of any `other`.
+    pub(crate) fn check_with(&self, basis: &SourceBasisView, other: &SourceView) -> Result<()> {
+        if self.ranks != basis.ranks || self.suns != basis.sun.len() {
+            let detail = "ranks or suns differ from those of the source basis";
+            return Err(Error::invalid("source chunk", detail));
+        }
+        let [own, others] = [self, other].map(|view| view.phase.iter().map(|code| code.get()));
+        if !own.eq(others) {
+            let detail = "species differ from those of another source chunk";
+            return Err(Error::invalid("source chunk", detail));
+        }
+        Ok(())
+    }
+
     fn check(&self, wavelengths: usize) -> Result<()> {
         let broken = |detail: String| Err(Error::invalid("source chunk", detail));
         finite("source chunk", self.parameter.iter().chain(self.level))?;

@@ -6,6 +6,7 @@ use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
 use super::polarisation::{POLARISATION_PARTS, PolarisationBasisView, PolarisationView};
+use super::source::{SourceBasisView, SourceView};
 use crate::error::Error;
 
 /// A rule of the format specification that a file breaks.
@@ -40,7 +41,45 @@ pub fn verify(file: &[u8]) -> Vec<Problem> {
         }));
         end = entry.offset + entry.length;
     }
+    problems.extend(check_sources(&contents, file));
     problems
+}
+
+/// Source chunks that are sound by themselves, but do not fit their basis or the first of them.
+fn check_sources(contents: &Contents, file: &[u8]) -> Vec<Problem> {
+    let wavelengths = contents.head.wavelengths.len();
+    let payloads = |kind: Kind| {
+        let entries = contents.directory.iter().enumerate();
+        entries
+            .filter(move |(_, e)| e.kind == kind)
+            .filter_map(|(i, e)| {
+                let payload = decode(i, e, &file[e.offset..e.offset + e.length]).ok()?;
+                Some((i, payload))
+            })
+    };
+    let Some((_, basis)) = payloads(Kind::SourceBasis).next() else {
+        return Vec::new();
+    };
+    let Ok(basis) = SourceBasisView::new(&basis, wavelengths) else {
+        return Vec::new();
+    };
+    let sources: Vec<_> = payloads(Kind::Source).collect();
+    let views = sources.iter().filter_map(|(i, payload)| {
+        let view = SourceView::new(payload, contents.head.constituents, wavelengths).ok()?;
+        Some((*i, view))
+    });
+    let Some((_, first)) = views.clone().next() else {
+        return Vec::new();
+    };
+    views
+        .filter_map(|(i, view)| {
+            let error = view.check_with(&basis, &first).err()?;
+            Some(Problem {
+                chunk: Some(i),
+                error,
+            })
+        })
+        .collect()
 }
 
 fn check_gap(gap: &[u8]) -> Result<(), Error> {

@@ -54,12 +54,10 @@ impl SourceTable {
         let mut values = vec![0.0; altitude.len() * sun.len() * nw * basis.ranks[2]];
         let mut level = vec![0.0; sun.len() * nw];
         let stencil = hermite(&head.visibility_nodes(), visibility_node(visibility));
+        let mut first = None;
         for (v, share) in stencil.taps() {
             let source = model.source_chunk(v)?;
-            if source.ranks != basis.ranks || source.suns != basis.sun.len() {
-                let detail = "ranks or suns differ from those of the source basis";
-                return Err(Error::invalid("source chunk", detail));
-            }
+            source.check_with(&basis, first.get_or_insert(source))?;
             let levels = weights.levels(&source, nw);
             for (sum, value) in level.iter_mut().zip(&levels[0]) {
                 *sum += share * value;

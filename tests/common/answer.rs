@@ -33,9 +33,11 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
         solar_elevation,
         solar_azimuth,
     };
-    if quantity == "transmittance" {
-        let segment = (altitude, [x, y, z], distance);
-        return transmittance(model, visibility, segment).map_err(|error| error.class());
+    let segment = ends(altitude, [x, y, z], distance);
+    match quantity {
+        "transmittance" => return transmittance(model, visibility, segment).map_err(|e| e.class()),
+        "in_scatter" => return in_scatter(model, &conditions, segment).map_err(|e| e.class()),
+        _ => {}
     }
     let direction = [x, y, z].map(|v| v as f32);
     values(model, quantity, &conditions, direction, wavelength).map_err(|error| error.class())
@@ -73,16 +75,41 @@ fn values(
     Ok(row)
 }
 
-fn transmittance(
-    model: &Model,
-    visibility: f64,
-    (altitude, direction, distance): (f64, [f64; 3], f64),
-) -> Result<Vec<f32>, Error> {
-    let air = model.air(visibility)?;
+/// The ends of a segment that starts above the origin.
+fn ends(altitude: f64, direction: [f64; 3], distance: f64) -> [[f64; 3]; 2] {
     let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
     let from = [0.0, 0.0, altitude];
     let to = core::array::from_fn(|i| from[i] + direction[i] / length * distance);
+    [from, to]
+}
+
+fn transmittance(
+    model: &Model,
+    visibility: f64,
+    [from, to]: [[f64; 3]; 2],
+) -> Result<Vec<f32>, Error> {
+    let air = model.air(visibility)?;
     let mut row = vec![0.0; air.wavelengths().len()];
     air.transmittance(from, to, &mut row)?;
     Ok(row)
+}
+
+/// Per unit of solar irradiance.
+fn in_scatter(
+    model: &Model,
+    conditions: &Conditions,
+    [from, to]: [[f64; 3]; 2],
+) -> Result<Vec<f32>, Error> {
+    // A haze does not ask where the observer is.
+    let [altitude, _] = model.altitude_range();
+    let haze = model.haze(&Conditions {
+        altitude,
+        ..*conditions
+    })?;
+    let mut light = vec![0.0; haze.wavelengths().len()];
+    let mut through = light.clone();
+    haze.in_scatter(from, to, &mut light, &mut through)?;
+    let sun = |l: &f64| model.head().solar_irradiance_at(*l) as f32;
+    let suns = haze.wavelengths().iter().map(sun);
+    Ok(light.iter().zip(suns).map(|(l, sun)| l / sun).collect())
 }

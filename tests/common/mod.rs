@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod answer;
+pub mod haze;
 pub mod http;
 pub mod oracle;
 

@@ -1,6 +1,8 @@
 //! The format specification, section 7, once more: slow, in f64, straight from the bytes of the file, and without a
 //! line of the library.
 
+mod haze;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 pub struct Oracle<'a> {

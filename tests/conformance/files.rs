@@ -103,6 +103,13 @@ pub fn valid() -> Vec<Case> {
             air(),
         )
     });
+    for (name, shows, file) in hazy() {
+        let needs = vec!["haze"];
+        cases.push(Case {
+            needs,
+            ..case(name, shows, file)
+        });
+    }
     cases.push(Case {
         needs: vec!["zstd"],
         raw: raw.clone(),
@@ -295,6 +302,33 @@ fn air() -> Vec<u8> {
         payload: Payload::Transmittance(common::densities()),
     };
     encode(&head, &[densities]).expect("a valid model")
+}
+
+/// The air and what it scatters: without radiance.
+fn hazy() -> [(&'static str, &'static str, Vec<u8>); 3] {
+    let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
+    let file = |swing: f32, visibilities: &[usize]| {
+        let mut chunks = common::haze::chunks(&head, swing);
+        chunks.retain(|c| c.visibility.is_none_or(|v| visibilities.contains(&v)));
+        encode(&head, &chunks).expect("a valid model")
+    };
+    [
+        (
+            "haze",
+            "light that segments scatter, by day and in twilight",
+            file(0.2, &[0, 1, 2]),
+        ),
+        (
+            "haze-negative",
+            "the source is negative in some directions",
+            file(6.0, &[0, 1, 2]),
+        ),
+        (
+            "haze-sparse",
+            "the source of one visibility is missing",
+            file(0.2, &[0, 2]),
+        ),
+    ]
 }
 
 fn compressed(raw: &[u8]) -> Vec<u8> {

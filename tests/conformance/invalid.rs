@@ -1,9 +1,10 @@
 //! Files that readers must refuse, each for one reason.
 
-use welkin::format::{ENCODING_ZSTD, parse, recode};
+use welkin::format::{ENCODING_ZSTD, encode, parse, recode};
 
 use crate::common;
 use crate::files::{minimal, small};
+use crate::invalid_segments;
 
 pub struct Case {
     pub name: &'static str,
@@ -11,6 +12,17 @@ pub struct Case {
     pub class: &'static str,
     pub needs: Vec<&'static str>,
     pub bytes: Vec<u8>,
+}
+
+impl Case {
+    /// What a reader is asked to find out.
+    pub fn quantity(&self) -> &'static str {
+        match self.needs.first() {
+            Some(&"transmittance") => "transmittance",
+            Some(&"haze") => "in_scatter",
+            _ => "relative_radiance",
+        }
+    }
 }
 
 const TWO_F64: [f64; 2] = [f64::NAN, f64::INFINITY];
@@ -36,13 +48,14 @@ pub fn all() -> Vec<Case> {
     }));
     cases.push(twice(&good));
     cases.extend(compressed());
+    cases.extend(invalid_segments::all());
     cases
 }
 
 /// One altitude, one visibility, at which every invalid file is asked.
 fn good() -> Vec<u8> {
     let head = small(&[0.0], &[50e3]);
-    welkin::format::encode(&head, &common::chunks(&head)).expect("a valid model")
+    encode(&head, &common::chunks(&head)).expect("a valid model")
 }
 
 fn damaged(good: &[u8]) -> Vec<Case> {
@@ -344,7 +357,7 @@ fn forgeries(good: &[u8]) -> Vec<Forgery> {
     all
 }
 
-fn forged(good: &[u8], at: usize, change: &[u8]) -> Vec<u8> {
+pub fn forged(good: &[u8], at: usize, change: &[u8]) -> Vec<u8> {
     let mut bytes = good.to_vec();
     bytes[at..at + change.len()].copy_from_slice(change);
     common::seal(&mut bytes, good);

@@ -7,6 +7,7 @@
 mod common;
 mod files;
 mod invalid;
+mod invalid_segments;
 mod queries;
 
 use std::path::{Path, PathBuf};
@@ -37,7 +38,7 @@ fn suite() -> (Vec<(String, Vec<u8>)>, Value) {
             "file": name,
             "shows": case.shows,
             "needs": case.needs,
-            "queries": [queries::refused(case.class)],
+            "queries": [queries::refused(case.quantity(), case.class)],
         }));
         files.push((name, case.bytes));
     }
@@ -113,6 +114,18 @@ fn this_reader_agrees_with_the_suite() {
             let answer = common::answer::answer(&model, &queries::line(&query));
             queries::check(&query, answer, &case.name);
         }
+    }
+}
+
+#[test]
+fn this_reader_refuses_what_the_suite_says() {
+    for case in invalid::all() {
+        let query = queries::refused(case.quantity(), case.class);
+        let answer = match welkin::Model::from_bytes(case.bytes.clone()) {
+            Ok(model) => common::answer::answer(&model, &queries::line(&query)),
+            Err(error) => Err(error.class()),
+        };
+        queries::check(&query, answer, case.name);
     }
 }
 

@@ -13,6 +13,12 @@ pub const RELATIVE: f64 = 1e-4;
 const OF_ZENITH: f64 = 1e-7;
 /// Absolute tolerance of Q and U in units of L.
 const OF_LIGHT: f64 = 2e-4;
+/// Relative tolerance of light that segments up to 100 m scatter.
+const OF_SHORT: f64 = 0.02;
+/// Relative tolerance of light that longer segments scatter.
+const OF_LONG: f64 = 0.05;
+/// Pieces of the oracle's integral, m.
+const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
@@ -20,13 +26,17 @@ const SPREAD: usize = 14;
 pub fn of(case: &Case) -> Vec<Value> {
     let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
     all.extend(special(&case.bytes));
-    if case.needs.contains(&"transmittance") {
+    let segments: Option<fn(&Case, &Query, usize) -> Value> = match case.needs.first() {
+        Some(&"transmittance") => Some(through),
+        Some(&"haze") => Some(into),
+        _ => None,
+    };
+    if let Some(segment) = segments {
         all.retain(|query| query.direction != [0.0; 3]);
-        return all
-            .iter()
-            .enumerate()
-            .map(|(i, query)| through(case, query, i))
-            .collect();
+        let asked = all.iter().enumerate();
+        let mut queries: Vec<Value> = asked.map(|(i, query)| segment(case, query, i)).collect();
+        queries.extend(segment_refusals(case, &all[0]));
+        return queries;
     }
     let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
     queries.extend(refusals(&case.bytes));
@@ -34,7 +44,7 @@ pub fn of(case: &Case) -> Vec<Value> {
 }
 
 /// The query of a file that must be refused.
-pub fn refused(class: &str) -> Value {
+pub fn refused(quantity: &str, class: &str) -> Value {
     let query = Query {
         altitude: 0.0,
         visibility: 50e3,
@@ -43,7 +53,11 @@ pub fn refused(class: &str) -> Value {
         solar_azimuth: 0.0,
         direction: [0.0, 0.0, 1.0],
     };
-    with_error(value("relative_radiance", &query, 500.0), class)
+    let asked = match quantity {
+        "relative_radiance" => value(quantity, &query, 500.0),
+        _ => over(quantity, &query, 1000.0),
+    };
+    with_error(asked, class)
 }
 
 struct Ranges {
@@ -185,11 +199,74 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
 fn through(case: &Case, query: &Query, i: usize) -> Value {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
-    let mut asked = value("transmittance", query, 500.0);
-    asked["distance"] = json!(distance);
     let expected = Oracle::new(&case.raw).transmittance(query, distance);
     let absolute = vec![1e-9; expected.len()];
+    let asked = over("transmittance", query, distance);
     with_values(asked, &expected, &absolute)
+}
+
+/// Light that is scattered towards the observer, over the same distances and, every third time, over one metre.
+fn into(case: &Case, query: &Query, i: usize) -> Value {
+    let farthest = if case.name == "haze-negative" {
+        2.0
+    } else {
+        6.2
+    };
+    let distance = match i % 3 {
+        0 => 1.0,
+        _ => 10f64
+            .powf(farthest * (0.618_034 * i as f64).fract())
+            .round(),
+    };
+    // Under a vertical sun there is no azimuth.
+    let solar_elevation = query.solar_elevation.min(1.5);
+    let query = &Query {
+        solar_elevation,
+        ..*query
+    };
+    let asked = over("in_scatter", query, distance);
+    let query = clamped(query, &ranges(&case.bytes));
+    let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
+    // Only the oracle makes numbers; the library says whether the chunks are there.
+    if let Err(error) = model.haze(&Conditions {
+        visibility: query.visibility,
+        altitude: ranges(&case.bytes).altitude[0],
+        ..Conditions::default()
+    }) {
+        return with_error(asked, error.class());
+    }
+    let expected = Oracle::new(&case.raw).in_scatter(&query, distance, LONGEST_PIECE);
+    let tolerance = if distance <= 100.0 { OF_SHORT } else { OF_LONG };
+    let absolute: Vec<f64> = expected.iter().map(|l| tolerance * l).collect();
+    with_values(asked, &expected, &absolute)
+}
+
+fn over(quantity: &str, query: &Query, distance: f64) -> Value {
+    let mut asked = value(quantity, query, 500.0);
+    asked["distance"] = json!(distance);
+    asked
+}
+
+/// Segments that end nowhere, and conditions outside the model.
+fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
+    let quantity = match case.needs.contains(&"haze") {
+        true => "in_scatter",
+        false => "transmittance",
+    };
+    let ask = |class: &str, change: &dyn Fn(&mut Query)| {
+        let mut query = Query { ..*query };
+        change(&mut query);
+        with_error(over(quantity, &query, 100.0), class)
+    };
+    let ranges = ranges(&case.bytes);
+    let mut queries = vec![ask("range", &|q| q.visibility = ranges.visibility[1] * 1.1)];
+    if quantity == "in_scatter" {
+        queries.push(ask("range", &|q| q.albedo = 1.1));
+        queries.push(ask("range", &|q| {
+            q.solar_elevation = ranges.elevation[0] - 0.01
+        }));
+    }
+    queries
 }
 
 /// What a query means whose conditions lie outside by no more than rounding.

@@ -35,6 +35,7 @@ typedef enum welkin_error {
     WELKIN_ERROR_RANGE,
     WELKIN_ERROR_MISSING,
     WELKIN_ERROR_DIRECTION,
+    WELKIN_ERROR_POINT,
     WELKIN_ERROR_SCRATCH
 } welkin_error;
 
@@ -638,6 +639,7 @@ WELKIN_API const char *welkin_error_name(welkin_error error)
     case WELKIN_ERROR_RANGE: return "range";
     case WELKIN_ERROR_MISSING: return "missing";
     case WELKIN_ERROR_DIRECTION: return "direction";
+    case WELKIN_ERROR_POINT: return "point";
     case WELKIN_ERROR_SCRATCH: return "scratch";
     }
     return "unknown";
@@ -1644,6 +1646,18 @@ static void welkin__integrate(const welkin_air *air, const welkin__line *line, d
     }
 }
 
+/* Normalises the direction of a segment that starts at an altitude above the origin. */
+static welkin_error welkin__segment(double altitude, const double direction[3], double distance, double v[3])
+{
+    const double farthest = 1e9;
+    if (welkin__normalise(direction, v)) return WELKIN_ERROR_DIRECTION;
+    if (!welkin__within(altitude, -farthest, farthest) || !welkin__within(distance, 0, 4 * farthest)) return WELKIN_ERROR_POINT;
+    if (!welkin__within(distance * v[0], -farthest, farthest) || !welkin__within(distance * v[1], -farthest, farthest) ||
+        !welkin__within(altitude + distance * v[2], -farthest, farthest))
+        return WELKIN_ERROR_POINT;
+    return WELKIN_OK;
+}
+
 WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
                                              float *transmittance)
 {
@@ -1651,8 +1665,8 @@ WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altit
     double v[3], columns[WELKIN_MAX_CONSTITUENTS] = {0};
     welkin__line line;
     size_t nw = f->wavelengths, table = f->constituents * nw, w, k;
-    if (!welkin__within(altitude, -f->planet_radius, 1e12) || !welkin__within(distance, 0, 1e15)) return WELKIN_ERROR_RANGE;
-    if (welkin__normalise(direction, v)) return WELKIN_ERROR_DIRECTION;
+    welkin_error error = welkin__segment(altitude, direction, distance, v);
+    if (error) return error;
     line.radius = f->planet_radius;
     line.start = (f->planet_radius + altitude) * v[2];
     line.end = line.start + distance;

@@ -94,6 +94,16 @@ class Scattered(unittest.TestCase):
                         expected = SOURCE_LEVEL * (1.0 - through)
                         np.testing.assert_allclose(light, expected, rtol=0.02)
 
+    def test_from_above(self):
+        """An observer above the air sees all of it, and from aside nothing."""
+        model = welkin.from_bytes(haze_file(2, 1e-4, 1e-4))
+        place = {"altitude": 4e7, "visibility": 5e4}
+        night = {"solar_elevation": -1.5, "albedo": 0.0, **place}
+        light = model.scattered([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]], 4e7, **night)
+        through = model.transmittance([0.0, 0.0, -1.0], 4e7, **place)
+        np.testing.assert_allclose(light[0], SOURCE_LEVEL * (1.0 - through), rtol=0.02)
+        np.testing.assert_array_equal(light[1], 0.0)
+
     def test_sunlight(self):
         """A short segment scatters its depth · phase function · sunlight / 4π."""
         model = welkin.from_bytes(haze_file(2, 1e-4, 1e-9))
@@ -109,8 +119,9 @@ class Scattered(unittest.TestCase):
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "altitude": 0.0, "visibility": 5e4}
         with self.assertRaises(welkin.DirectionError):
             model.scattered([0.0, 0.0, 0.0], 1.0, **scene)
-        with self.assertRaises(welkin.RangeError):
-            model.scattered([0.0, 0.0, 1.0], -1.0, **scene)
+        for distance in (-1.0, 2e9):
+            with self.assertRaises(welkin.PointError):
+                model.scattered([0.0, 0.0, 1.0], distance, **scene)
         with self.assertRaises(welkin.MissingError):
             model.sky(**scene)
 

@@ -1,5 +1,6 @@
 """Reads welkin files: models of the radiance of the clear sky. Needs numpy only."""
 
+from ._zstd import AVAILABLE as ZSTD
 from .errors import (
     ChecksumError,
     DirectionError,
@@ -9,6 +10,7 @@ from .errors import (
     LengthError,
     MagicError,
     MissingError,
+    PointError,
     RangeError,
     VersionError,
     WelkinError,
@@ -27,10 +29,12 @@ __all__ = [
     "MagicError",
     "MissingError",
     "Model",
+    "PointError",
     "RangeError",
     "Sky",
     "VersionError",
     "WelkinError",
+    "ZSTD",
     "from_bytes",
     "open",
 ]

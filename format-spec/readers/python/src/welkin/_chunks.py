@@ -8,6 +8,7 @@ import numpy as np
 from . import _head
 from ._haze import decode_source, decode_source_basis
 from ._head import NONE, Cursor, require, require_within, round_up
+from ._zstd import decompress
 from .errors import ChecksumError, EncodingError, InvalidValueError, MissingError
 
 _NAMES = {
@@ -83,7 +84,7 @@ class Chunks:
         if zlib.crc32(stored) != entry.crc32:
             raise ChecksumError(f"a {_NAMES[entry.kind]} chunk is damaged")
         if entry.encoding == 1:
-            raise EncodingError("chunks compressed with zstd are not supported")
+            return decompress(stored, entry.raw_length)
         if entry.encoding != 0:
             raise EncodingError(f"unknown encoding {entry.encoding}")
         return stored

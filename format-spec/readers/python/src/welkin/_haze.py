@@ -124,16 +124,16 @@ class Haze:
     """The light that air scatters in one scene."""
 
     @np.errstate(all="ignore")
-    def __init__(self, head, chunks, conditions):
+    def __init__(self, head, chunks, conditions, altitude):
         self._head = head
-        self._conditions = conditions
+        self._altitude = altitude
         inverse = -1.0 / head.visibility, [-1.0 / conditions.visibility]
         cubic, linear = node_weights(*inverse)[0], linear_weights(*inverse)[0]
         sources = self._load(chunks, cubic)
         self._profiles = chunks.get(_head.TRANSMITTANCE)
         self._phase = next(iter(sources.values())).phase
-        self._level = sum(cubic[m] * source.level for m, source in sources.items())
-        self._core = sum(cubic[m] * source.core for m, source in sources.items())
+        self._mix = [(cubic[m], source) for m, source in sources.items()]
+        self._level = sum(weight * source.level[0] for weight, source in self._mix)
         near = {m: sources[m] for m in map(int, np.flatnonzero(linear))}
         self._parameter = sum(linear[m] * source.parameter for m, source in near.items())
         self._scattering = sum(linear[m] * source.scattering for m, source in near.items())
@@ -179,16 +179,18 @@ class Haze:
 
         Intervals shrink towards the observer and towards the lowest point, where most light is.
         """
-        radius, h = self._head.planet_radius, self._conditions.altitude
+        radius, h = self._head.planet_radius, self._altitude
         top = self._head.top_altitude
         start = (radius + h) * units[:, 2]
         to_top = (top - h) * (2.0 * radius + top + h)
-        end = np.minimum(distance, np.sqrt(start**2 + to_top) - start)[:, None]
-        lowest = np.clip(-start[:, None], 0.0, end)
+        chord = np.sqrt(np.maximum(0.0, start**2 + to_top))
+        first = np.clip(-start - chord, 0.0, distance)[:, None]
+        last = np.clip(-start + chord, first[:, 0], distance)[:, None]
+        lowest, span = np.clip(-start[:, None], first, last), last - first
         halves = 0.5 ** np.arange(1, 9)
-        marks = [0.0 * end, end * 0.25**2 * halves, end * halves[:5], lowest, end]
-        marks += [lowest - end * halves, lowest + end * halves]
-        marks = np.sort(np.clip(np.concatenate(marks, axis=1), 0.0, end), axis=1)
+        marks = [first, first + span * 0.25**2 * halves, first + span * halves[:5], lowest, last]
+        marks += [lowest - span * halves, lowest + span * halves]
+        marks = np.sort(np.clip(np.concatenate(marks, axis=1), first, last), axis=1)
         middle, half = 0.5 * (marks[:, 1:] + marks[:, :-1]), 0.5 * np.diff(marks, axis=1)
         along = middle[:, :, None] + half[:, :, None] * _GAUSS_NODES
         weights = half[:, :, None] * _GAUSS_WEIGHTS
@@ -196,7 +198,7 @@ class Haze:
 
     def _transmittance_from_observer(self, units, along):
         rise = np.repeat(units[:, 2], along.shape[1])
-        return self._transmittance(self._conditions.altitude, rise, along.ravel())
+        return self._transmittance(self._altitude, rise, along.ravel())
 
     def _transmittance(self, altitude, rise, distance):
         radius = self._head.planet_radius
@@ -238,18 +240,22 @@ class Haze:
         a = _at_nodes(np.cbrt(basis.altitude), np.cbrt(points.altitude)) @ basis.altitude_factor
         sun_weights = _at_nodes(np.arcsinh(12.5 * basis.sun), np.arcsinh(12.5 * points.sin_sun))
         pairs = (a[:, :, None] * (sun_weights @ basis.sun_factor)[:, None, :]).reshape(-1, ra * rs)
-        tensor = (pairs @ self._core.reshape(ra * rs, rm * rc)).reshape(-1, rm, rc)
-        levels = np.exp(sun_weights @ self._level)
         nw = self._head.counts["nw"]
         channels = basis.channel_factor[:nw], basis.channel_factor[nw:]
-        sources = []
-        for moments in (points.tensor_moments @ basis.moment_factor[:TENSOR],
-                        points.harmonics(basis) @ basis.moment_factor[TENSOR:]):
-            light = np.einsum("pb,pbc->pc", moments, tensor)
-            value = levels[0] * (light @ channels[0].T)
-            value += self._bounce * levels[1] * (light @ channels[1].T)
-            sources.append(np.maximum(0.0, value))
-        return sources
+        sides = (
+            points.tensor_moments @ basis.moment_factor[:TENSOR],
+            points.harmonics(basis) @ basis.moment_factor[TENSOR:],
+        )
+        sums = [0.0, 0.0]
+        for weight, source in self._mix:
+            tensor = (pairs @ source.core.reshape(ra * rs, rm * rc)).reshape(-1, rm, rc)
+            ground = self._bounce * np.exp(sun_weights @ (source.level[1] - source.level[0]))
+            for side, moments in enumerate(sides):
+                light = np.einsum("pb,pbc->pc", moments, tensor)
+                light = light @ channels[0].T + ground * (light @ channels[1].T)
+                sums[side] = sums[side] + weight * light
+        level = np.exp(sun_weights @ self._level)
+        return [np.maximum(0.0, level * light) for light in sums]
 
 
 def _at_nodes(nodes, x):
@@ -261,7 +267,7 @@ class _Points:
     """Points on lines of sight, with the local directions of the view and of the sun there."""
 
     def __init__(self, haze, units, along):
-        radius, h = haze._head.planet_radius, haze._conditions.altitude
+        radius, h = haze._head.planet_radius, haze._altitude
         rise = units[:, 2]
         self.altitude = np.maximum(0.0, altitude_on_line(radius, h, rise, along))
         self.angle = Angle(units, haze._sun)

@@ -65,3 +65,9 @@ class DirectionError(WelkinError, ValueError):
     """A direction that is zero or not finite."""
 
     error_class = "direction"
+
+
+class PointError(WelkinError, ValueError):
+    """An end of a segment that is not finite or farther than 1e9 m away."""
+
+    error_class = "point"

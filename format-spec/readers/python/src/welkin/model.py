@@ -15,8 +15,11 @@ from ._geometry import unit_vectors
 from ._haze import Haze
 from ._head import read_head
 from ._spectral import Wavelengths
-from .errors import InvalidValueError, RangeError
+from .errors import InvalidValueError, PointError, RangeError
 from .sky import Conditions, Sky
+
+FARTHEST = 1e9
+"""Largest coordinate of an end of a segment, m."""
 
 
 def open(path, in_memory=False):
@@ -116,14 +119,14 @@ class Model:
         """Transmittance of straight segments from an observer at `altitude`: (…, 3) → (…, W).
 
         distance: m, a number or an array (…), may be infinite
-        altitude, visibility: m, numbers
+        altitude, visibility: m, numbers; any altitude
         """
-        altitude = _clamp(altitude, self.altitude_range, "altitude")
         visibility = _clamp(visibility, self.visibility_range, "visibility")
         shape = np.shape(directions)[:-1]
-        distance = _distances(distance, shape)
         profiles = self._chunks.get(_head.TRANSMITTANCE)
-        rise = unit_vectors(directions)[:, 2]
+        units = unit_vectors(directions)
+        altitude, distance = _segments(altitude, units, distance, shape)
+        rise = units[:, 2]
         radius = self._head.planet_radius
         columns = path_integrals(profiles, radius, altitude, rise, distance)
         result = np.exp(-(columns @ self._extinction_at(visibility)))
@@ -143,13 +146,14 @@ class Model:
     ):
         """Light that the air of straight segments scatters to an observer: (…, 3) → (…, W).
 
-        It is per unit of solar spectral irradiance, sr⁻¹. The conditions are those of `sky`,
-        `distance` is as in `transmittance`. An integral over many points: slow for images.
+        It is per unit of solar spectral irradiance, sr⁻¹. The conditions are those of `sky`, but
+        with any altitude; `distance` is as in `transmittance`. An integral over many points: slow for images.
         """
-        conditions = self._conditions(solar_elevation, visibility, albedo, altitude, solar_azimuth)
-        distance = _distances(distance, np.shape(directions)[:-1])
-        haze = Haze(self._head, self._chunks, conditions)
+        lowest, _ = self.altitude_range
+        conditions = self._conditions(solar_elevation, visibility, albedo, lowest, solar_azimuth)
+        haze = Haze(self._head, self._chunks, conditions, float(altitude))
         units = unit_vectors(directions)
+        _, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
         starts = range(0, max(1, len(units)), haze.block)
         blocks = (slice(i, i + haze.block) for i in starts)
         light = np.concatenate([haze.scattered(units[b], distance[b]) for b in blocks])
@@ -176,12 +180,17 @@ def _ends(axis):
     return float(axis[0]), float(axis[-1])
 
 
-def _distances(distance, shape):
-    """Distances in m for each direction: (N,). Raises RangeError."""
+def _segments(altitude, units, distance, shape):
+    """Altitude of the start, and distances in m for each direction (N,). Raises PointError."""
+    altitude = float(altitude)
     distance = np.broadcast_to(np.asarray(distance, dtype=np.float64), shape).ravel()
     if not np.all(distance >= 0.0):
-        raise RangeError("a distance is below 0 or not a number")
-    return distance
+        raise PointError("a distance is below 0 or not a number")
+    finite = np.where(np.isinf(distance), 0.0, distance)[:, None]
+    ends = [0.0, 0.0, altitude] + finite * units
+    if not (abs(altitude) <= FARTHEST and np.all(np.abs(ends) <= FARTHEST)):
+        raise PointError("an end of a segment is farther than 1e9 m away")
+    return altitude, distance
 
 
 def _finite(values):

@@ -1,0 +1,147 @@
+//! Files whose transmittance or source breaks a rule.
+
+use welkin::format::{Kind, Payload, encode, parse};
+
+use crate::common;
+use crate::files::small;
+use crate::invalid::{Case, forged};
+
+pub fn all() -> Vec<Case> {
+    let head = small(&[0.0], &[40e3, 60e3]);
+    let good = encode(&head, &common::haze::chunks(&head, 0.2)).expect("a valid model");
+    let directory = parse(&good).expect("a valid file").directory;
+    let case = |name, shows, need, bytes| Case {
+        name,
+        shows,
+        class: "value",
+        needs: vec![need],
+        bytes,
+    };
+    let forge = |name, shows, need, kind: Kind, at: usize, change: &[u8]| {
+        // The second of the sources.
+        let entry = directory.iter().rfind(|e| e.kind == kind);
+        let place = entry.expect("a chunk of the kind").offset + at;
+        case(name, shows, need, forged(&good, place, change))
+    };
+    let air = |name, shows, at, change: &[u8]| {
+        forge(
+            name,
+            shows,
+            "transmittance",
+            Kind::Transmittance,
+            at,
+            change,
+        )
+    };
+    let basis =
+        |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::SourceBasis, at, change);
+    let source =
+        |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::Source, at, change);
+    let fewer_suns = {
+        let mut chunks = common::haze::chunks(&head, 0.2);
+        for chunk in &mut chunks {
+            if let Payload::SourceBasis(basis) = &mut chunk.payload {
+                basis.sun.pop();
+                basis.factors[1].truncate(basis.sun.len() * basis.ranks[1]);
+            }
+        }
+        encode(&head, &chunks).expect("chunks that are valid by themselves")
+    };
+    // In a source: the counts, then three phase functions, then their parameters and the scattering.
+    let (phases, parameters) = (32, 32 + 4 * 3);
+    let scattering = parameters + 4 * 3 * head.wavelengths.len();
+    let nodes = 32;
+    vec![
+        air(
+            "air-layers",
+            "a transmittance without layers",
+            0,
+            &0u32.to_le_bytes(),
+        ),
+        air(
+            "air-length",
+            "more layers than the payload has",
+            0,
+            &4u32.to_le_bytes(),
+        ),
+        air(
+            "air-edges",
+            "an edge that does not rise",
+            16,
+            &0f64.to_le_bytes(),
+        ),
+        air(
+            "air-top",
+            "the last edge is not the top",
+            32,
+            &9e4f64.to_le_bytes(),
+        ),
+        air(
+            "air-density",
+            "a negative density",
+            40,
+            &(-1f32).to_le_bytes(),
+        ),
+        basis(
+            "source-degree",
+            "harmonics of degree 25",
+            8,
+            &25u32.to_le_bytes(),
+        ),
+        basis(
+            "source-orders",
+            "orders above the degree",
+            12,
+            &4u32.to_le_bytes(),
+        ),
+        basis("source-rank", "a rank of 65", 16, &65u32.to_le_bytes()),
+        basis(
+            "source-altitudes",
+            "altitudes that do not rise",
+            nodes + 8,
+            &0f64.to_le_bytes(),
+        ),
+        basis(
+            "source-sine",
+            "a sine of the sun's elevation below -1",
+            nodes + 40,
+            &(-1.5f64).to_le_bytes(),
+        ),
+        source(
+            "source-phase",
+            "a species without phase function",
+            phases,
+            &0u32.to_le_bytes(),
+        ),
+        source(
+            "source-species",
+            "species unlike those of the other source",
+            phases,
+            &2u32.to_le_bytes(),
+        ),
+        source(
+            "source-parameter",
+            "a depolarisation above 1",
+            parameters,
+            &1.5f32.to_le_bytes(),
+        ),
+        source(
+            "source-scattering",
+            "negative scattering",
+            scattering,
+            &(-1e-9f32).to_le_bytes(),
+        ),
+        source(
+            "source-scale",
+            "a core of infinite scale",
+            24,
+            &f32::INFINITY.to_le_bytes(),
+        ),
+        case(
+            "source-suns",
+            "a source with more suns than its basis",
+            "haze",
+            fewer_suns,
+        ),
+    ]
+}
