@@ -81,7 +81,10 @@ mod tables;
 #[cfg(feature = "std")]
 pub use air::Air;
 #[cfg(feature = "std")]
-pub use baked::{BakeError, BakedColour, BakedSky, Directions, Sample, SkySampler};
+pub use baked::{
+    BakeError, BakedColour, BakedPolarisedSky, BakedSky, Directions, Sample, SkySampler,
+    StokesSpectra,
+};
 #[cfg(feature = "std")]
 pub use budget::{Budget, Channels, Plan};
 #[cfg(feature = "std")]

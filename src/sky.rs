@@ -216,6 +216,10 @@ impl Sky {
         self.planet
     }
 
+    pub(crate) fn phi_intervals(&self) -> usize {
+        self.phi_intervals
+    }
+
     /// Horizontal and vertical component of the unit vector along a ray.
     pub(crate) fn cylinder(&self, ray: &Ray) -> (f64, f64) {
         let elevation = match ray.side {

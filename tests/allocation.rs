@@ -6,7 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 #[cfg(feature = "default-model")]
-use welkin::{BakedSky, Directions, SunDisc};
+use welkin::{BakedSky, Directions, StokesSpectra, SunDisc};
 use welkin::{Conditions, Frame, Model, Stokes};
 
 struct Counting;
@@ -75,7 +75,10 @@ fn baked_queries_do_not_allocate() {
     let sky = model.sky(&Conditions::default()).unwrap();
     let mut baked = sky.bake(BakedSky::TOLERANCE).unwrap();
     let mut colour = sky.bake_colour(BakedSky::TOLERANCE).unwrap();
+    let polarised = model.polarised_sky(&Conditions::default()).unwrap();
+    let polarised = polarised.bake(BakedSky::TOLERANCE).unwrap();
     let n = baked.wavelengths().len();
+    let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; 19 * n]);
     let mut out = vec![0.0; 19 * n];
     let mut rgb = [[0.0; 3]; 19];
     let mut heroes = [[0.0; 4]; 19];
@@ -89,6 +92,12 @@ fn baked_queries_do_not_allocate() {
     };
     let before = COUNT.get();
     let _ = baked.radiance_batch(&directions, &mut out);
+    let spectra = StokesSpectra {
+        i: &mut i,
+        q: &mut q,
+        u: &mut u,
+    };
+    let _ = polarised.stokes_batch(&directions, Frame::SunAligned, spectra);
     let _ = colour.linear_srgb_batch(&directions, &mut rgb);
     let _ = colour.xyz_batch(&directions, &mut rgb);
     for direction in [

@@ -6,6 +6,7 @@
 
 mod clock;
 mod paper;
+mod polarised;
 mod random;
 mod report;
 mod texture;
@@ -36,6 +37,7 @@ fn main() -> Result<()> {
     let json = std::env::args().any(|argument| argument == "--json");
     let scene = Scene::new()?;
     let mut rows = scene.prepared()?;
+    rows.extend(polarised::rows(&scene)?);
     rows.push(scene.general()?);
     rows.extend(scene.preparation()?);
     match json {

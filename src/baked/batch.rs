@@ -50,13 +50,14 @@ const WIDTH: usize = 8;
 
 /// Where results go.
 pub(super) trait Sink<const N: usize> {
-    /// Takes the first `count` directions of a group, of which the first has this index. Must be `#[inline(always)]`.
+    /// Takes the first `count` directions of a group, of which the first has this index, as looked up and as vectors of any length. Must be `#[inline(always)]`.
     fn put<const W: usize>(
         &mut self,
         index: usize,
         count: usize,
         table: &Table<N>,
         spots: &Spots<W>,
+        vectors: &[Lanes<W>; 3],
     );
 }
 
@@ -99,7 +100,7 @@ impl<const N: usize, S: Sink<N>> Each<'_, N, S> {
             return Err(Error::Direction { got: unsound(d) });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(first, count, self.table, &spots);
+        self.sink.put(first, count, self.table, &spots, &prepared);
         Ok(())
     }
 }
@@ -126,7 +127,7 @@ impl<const N: usize, S: Sink<N>> Kernel for One<'_, N, S> {
             });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(0, 1, self.table, &spots);
+        self.sink.put(0, 1, self.table, &spots, &prepared);
         Ok(())
     }
 }
@@ -150,7 +151,14 @@ mod tests {
 
     impl Sink<16> for &mut Values {
         #[inline(always)]
-        fn put<const W: usize>(&mut self, _: usize, n: usize, table: &Table<16>, spots: &Spots<W>) {
+        fn put<const W: usize>(
+            &mut self,
+            _: usize,
+            n: usize,
+            table: &Table<16>,
+            spots: &Spots<W>,
+            _: &[Lanes<W>; 3],
+        ) {
             self.0.extend((0..n).map(|i| table.value(spots, i, 0).0));
         }
     }

@@ -47,7 +47,7 @@ impl Sky {
     /// # Errors
     /// As [`Sky::bake`].
     pub fn bake_colour(&self, tolerance: f64) -> Result<BakedColour> {
-        let baked = Baked::new(self, &Xyz(self), tolerance)?;
+        let baked = Baked::new(self, &Xyz(self), tolerance, 0)?;
         Ok(BakedColour { baked })
     }
 }
@@ -160,6 +160,7 @@ impl<C: Space> Sink<LANES> for Colours<'_, C> {
         count: usize,
         table: &Table<LANES>,
         spots: &Spots<W>,
+        _: &[Lanes<W>; 3],
     ) {
         let mut logarithms = [Lanes::splat(0.0); W];
         for i in 0..count {

@@ -10,6 +10,8 @@ use crate::sky::Sky;
 pub(crate) struct Frame {
     /// Unit vector towards the sun.
     sun: [f32; 3],
+    /// Cosine of the sun's elevation.
+    level: f32,
     /// Cosine and sine of the sun's azimuth.
     azimuth: [f32; 2],
     /// z of unit vectors that meet the geometric horizon, ≤ 0.
@@ -92,6 +94,7 @@ impl Frame {
         let centre = sky.planet().radius + conditions.altitude;
         let mut frame = Self {
             sun: [0.0; 3],
+            level: conditions.solar_elevation.cos() as f32,
             azimuth: [0.0; 2],
             horizon: -sky.dip().sin() as f32,
             radius: (centre / opaque_length(conditions)) as f32,
@@ -110,6 +113,12 @@ impl Frame {
     /// Cosine and sine of the sun's azimuth.
     pub fn azimuth(&self) -> [f32; 2] {
         self.azimuth
+    }
+
+    /// Cosine and sine of the sun's elevation.
+    #[inline(always)]
+    pub fn sun_elevation(&self) -> [f32; 2] {
+        [self.level, self.sun[2]]
     }
 
     /// z at the two edges of a row of directions, when heights are divided evenly into `up` rows above the horizon,
@@ -165,13 +174,14 @@ impl Frame {
         (length + side.at_least(0.0, one, zero)) / (length + one)
     }
 
-    /// Anything where the direction is vertical: all azimuths meet at the poles.
+    /// 0 where the direction is vertical: the vertical plane is that of the sun there.
     #[inline(always)]
     fn half_azimuth<const N: usize>(&self, x: Lanes<N>, y: Lanes<N>, square: Lanes<N>) -> Lanes<N> {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let tiny = Lanes::splat(f32::MIN_POSITIVE);
         let along = x * self.azimuth[0] + y * self.azimuth[1];
         let share = along / square.max(tiny).sqrt();
+        let share = square.at_least(f32::MIN_POSITIVE, share, one);
         (Lanes::splat(0.5) - share * 0.5).max(zero).min(one).sqrt()
     }
 

@@ -141,6 +141,7 @@ impl Sink<LANES> for Heroes<'_> {
         count: usize,
         table: &Table<LANES>,
         spots: &Spots<W>,
+        _: &[Lanes<W>; 3],
     ) {
         for i in 0..count {
             let wavelengths = &self.wavelengths[index + i];

@@ -1,23 +1,29 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
 //! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables
-//! and `quality` chooses their size; `spectral` and `colour` are the public faces.
+//! and `quality` chooses their size; `degrees` and `turn` add polarisation; `spectral`, `colour` and `polarised` are the
+//! public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
 mod bake;
 mod batch;
 mod colour;
+mod degrees;
 mod frame;
 mod hero;
 mod irradiance;
+mod lattice;
+mod polarised;
 mod quality;
 mod sampler;
 mod spectral;
 mod spline;
 mod table;
+mod turn;
 
 pub use batch::Directions;
 pub use colour::BakedColour;
+pub use polarised::{BakedPolarisedSky, StokesSpectra};
 pub use quality::BakeError;
 pub use sampler::{Sample, SkySampler};
 pub use spectral::BakedSky;
@@ -49,7 +55,8 @@ struct Baked<const N: usize> {
 }
 
 impl<const N: usize> Baked<N> {
-    fn new<C: Channels<N>>(sky: &Sky, channels: &C, tolerance: f64) -> Result<Self> {
+    /// With the grid at `least` or a larger one.
+    fn new<C: Channels<N>>(sky: &Sky, channels: &C, tolerance: f64, least: usize) -> Result<Self> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(Error::OutOfRange {
                 parameter: "tolerance",
@@ -60,7 +67,7 @@ impl<const N: usize> Baked<N> {
             });
         }
         let frame = Frame::new(sky);
-        let (table, error) = quality::bake(sky, channels, &frame, tolerance)?;
+        let (table, error) = quality::bake(sky, channels, &frame, tolerance, least)?;
         Ok(Self {
             conditions: *sky.conditions(),
             frame,

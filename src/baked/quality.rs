@@ -2,6 +2,7 @@
 
 use super::bake::{Bake, Channels};
 use super::frame::Frame;
+use super::lattice::Lattice;
 use super::table::{Grid, Table};
 use crate::error::{Error, Result};
 use crate::lanes::Lanes;
@@ -20,6 +21,21 @@ pub struct BakeError {
     pub p99: f64,
     /// Largest.
     pub max: f64,
+}
+
+impl BakeError {
+    pub(super) fn of(mut errors: Vec<f64>) -> Self {
+        let mut quantile = |q: f64| {
+            let place = (q * (errors.len() - 1) as f64).round() as usize;
+            *errors.select_nth_unstable_by(place, f64::total_cmp).1
+        };
+        Self {
+            median: quantile(0.5),
+            p95: quantile(0.95),
+            p99: quantile(0.99),
+            max: quantile(1.0),
+        }
+    }
 }
 
 /// From small to large, with the 95th percentile of the error that four in five skies keep.
@@ -51,12 +67,19 @@ const fn grid(up: u32, down: u32, azimuth: u32, sun: u32) -> Grid {
 /// Directions that are compared.
 const SAMPLES: u32 = 192;
 
-/// The smallest table that keeps the tolerance on the 95th percentile, and its error.
+/// The place of the next larger grid.
+pub(super) fn beyond(grid: Grid) -> Option<usize> {
+    let next = 1 + GRIDS.iter().position(|&(_, other)| other == grid)?;
+    (next < GRIDS.len()).then_some(next)
+}
+
+/// The smallest table that keeps the tolerance on the 95th percentile, and its error; with the grid at `least` or a larger one.
 pub(super) fn bake<const N: usize, C: Channels<N>>(
     sky: &Sky,
     channels: &C,
     frame: &Frame,
     tolerance: f64,
+    least: usize,
 ) -> Result<(Table<N>, BakeError)> {
     let truth = Truth::new(sky, channels)?;
     let last = GRIDS.len() - 1;
@@ -65,13 +88,12 @@ pub(super) fn bake<const N: usize, C: Channels<N>>(
             .partition_point(|&(typical, _)| typical > wanted)
             .min(last)
     };
-    let mut i = fitting(tolerance);
+    let mut i = fitting(tolerance).max(least);
     loop {
         let (typical, grid) = GRIDS[i];
         let table = dispatch(Bake {
-            sky,
+            lattice: Lattice { sky, grid },
             channels,
-            grid,
         });
         let error = truth.compare(&table, frame);
         if error.p95 <= tolerance {
@@ -101,8 +123,7 @@ struct Truth<const N: usize> {
 impl<const N: usize> Truth<N> {
     fn new<C: Channels<N>>(sky: &Sky, channels: &C) -> Result<Self> {
         let mut radiance = vec![0.0; sky.wavelengths().len()];
-        let sun = sky.conditions().solar_azimuth;
-        let directions: Vec<_> = (0..SAMPLES).map(|i| direction(i, sun)).collect();
+        let directions: Vec<_> = directions(sky).collect();
         let mut values = Vec::new();
         for &direction in &directions {
             sky.relative_radiance(direction, &mut radiance)?;
@@ -126,16 +147,7 @@ impl<const N: usize> Truth<N> {
                 errors.extend((0..count).map(|i| difference(got.0[i], value.0[i])));
             }
         }
-        let mut quantile = |q: f64| {
-            let place = (q * (errors.len() - 1) as f64).round() as usize;
-            *errors.select_nth_unstable_by(place, f64::total_cmp).1
-        };
-        BakeError {
-            median: quantile(0.5),
-            p95: quantile(0.95),
-            p99: quantile(0.99),
-            max: quantile(1.0),
-        }
+        BakeError::of(errors)
     }
 }
 
@@ -144,6 +156,12 @@ fn difference(got: f32, expected: f32) -> f64 {
         return 0.0;
     }
     (f64::from(got) / f64::from(expected) - 1.0).abs()
+}
+
+/// The directions that are compared.
+pub(super) fn directions(sky: &Sky) -> impl Iterator<Item = [f32; 3]> + use<> {
+    let sun = sky.conditions().solar_azimuth;
+    (0..SAMPLES).map(move |i| direction(i, sun))
 }
 
 /// A point of the golden spiral.

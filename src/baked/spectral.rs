@@ -13,7 +13,7 @@ use crate::simd::dispatch;
 use crate::sky::Sky;
 
 /// Wavelengths that are computed together.
-const LANES: usize = 16;
+pub(super) const LANES: usize = 16;
 
 /// A sky as tables of about 40 kB per 16 wavelengths: many times faster than the [`Sky`] it was made from, with a
 /// stated additional error. Radiance is continuous except at the geometric horizon.
@@ -63,9 +63,14 @@ impl Sky {
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance that is not positive, [`Error::Tolerance`] if the largest table misses it.
     pub fn bake(&self, tolerance: f64) -> Result<BakedSky> {
+        self.bake_at_least(tolerance, 0)
+    }
+
+    /// With the grid at `least` or a larger one.
+    pub(super) fn bake_at_least(&self, tolerance: f64, least: usize) -> Result<BakedSky> {
         let wavelengths = self.wavelengths().len();
         Ok(BakedSky {
-            baked: Baked::new(self, &Spectrum { wavelengths }, tolerance)?,
+            baked: Baked::new(self, &Spectrum { wavelengths }, tolerance, least)?,
             wavelengths: self.wavelengths().to_vec(),
             irradiance: self.irradiance().map(Lanes).collect(),
             axis: WavelengthAxis::new(self),
@@ -210,25 +215,29 @@ impl BakedSky {
         }
     }
 
+    /// Spectral radiance of a block for direction `i`.
     #[inline(always)]
-    fn store<const W: usize>(
+    pub(super) fn light<const W: usize>(
         &self,
         table: &Table<LANES>,
         spots: &Spots<W>,
         i: usize,
-        row: &mut [f32],
-    ) {
-        for (block, irradiance) in self.irradiance.iter().enumerate() {
-            let value = table.value(spots, i, block) * *irradiance;
-            let value = value.min(Lanes::splat(f32::MAX)).0;
-            // In quarters, so that the last block needs no copy of a variable length.
-            let quarters = row[block * LANES..].chunks_mut(4);
-            for (out, value) in quarters.zip(value.as_chunks::<4>().0) {
-                match out.first_chunk_mut() {
-                    Some(whole) => *whole = *value,
-                    None => out.iter_mut().zip(value).for_each(|(out, v)| *out = *v),
-                }
-            }
+        block: usize,
+    ) -> Lanes<LANES> {
+        let value = table.value(spots, i, block) * self.irradiance[block];
+        value.min(Lanes::splat(f32::MAX))
+    }
+}
+
+/// Writes a block of wavelengths.
+#[inline(always)]
+pub(super) fn write(row: &mut [f32], block: usize, values: Lanes<LANES>) {
+    // In quarters, so that the last block needs no copy of a variable length.
+    let quarters = row[block * LANES..].chunks_mut(4);
+    for (out, value) in quarters.zip(values.0.as_chunks::<4>().0) {
+        match out.first_chunk_mut() {
+            Some(whole) => *whole = *value,
+            None => out.iter_mut().zip(value).for_each(|(out, v)| *out = *v),
         }
     }
 }
@@ -247,11 +256,14 @@ impl Sink<LANES> for Rows<'_> {
         count: usize,
         table: &Table<LANES>,
         spots: &Spots<W>,
+        _: &[Lanes<W>; 3],
     ) {
         let n = self.sky.wavelengths.len();
         for i in 0..count {
             let row = &mut self.out[(index + i) * n..][..n];
-            self.sky.store(table, spots, i, row);
+            for block in 0..self.sky.irradiance.len() {
+                write(row, block, self.sky.light(table, spots, i, block));
+            }
         }
     }
 }

@@ -98,14 +98,8 @@ impl<const N: usize> Table<N> {
     /// Logarithms of the channels of a block for direction `i`, without the opacity.
     #[inline(always)]
     pub fn logarithm<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N> {
-        let mut sum = self.envelope(&spots.envelope, i, block);
-        let first = block * self.grid.cells() + spots.first[i] as usize;
-        let stride = self.grid.columns();
-        for (k, weight) in spots.rows.iter().enumerate() {
-            let row = weighted(&self.cells[first + k * stride..], &spots.columns, i);
-            sum = sum + row * weight.0[i];
-        }
-        sum
+        let envelope = self.envelope(&spots.envelope, i, block);
+        spots.surface(envelope, &self.grid, &self.cells, i, block)
     }
 
     #[inline(always)]
@@ -122,6 +116,27 @@ impl<const N: usize> Table<N> {
     /// Bytes on the heap.
     pub fn bytes(&self) -> usize {
         size_of_val(self.cells.as_slice()) + size_of_val(self.envelope.as_slice())
+    }
+}
+
+impl<const W: usize> Spots<W> {
+    /// Adds the bicubic spline with these coefficients (`[block][up rows, then down rows][azimuth]`) for direction `i`.
+    #[inline(always)]
+    pub fn surface<const N: usize>(
+        &self,
+        mut sum: Lanes<N>,
+        grid: &Grid,
+        cells: &[Lanes<N>],
+        i: usize,
+        block: usize,
+    ) -> Lanes<N> {
+        let first = block * grid.cells() + self.first[i] as usize;
+        let stride = grid.columns();
+        for (k, weight) in self.rows.iter().enumerate() {
+            let row = weighted(&cells[first + k * stride..], &self.columns, i);
+            sum = sum + row * weight.0[i];
+        }
+        sum
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Aspect {
     azimuth: (f64, f64),
     /// Sine of its azimuth less that of the sun.
     pub sine: f64,
+    /// Cosine of the sun's elevation.
+    level: f64,
     /// The sun's direction along `e1` and `e2` of the vertical frame.
     sun: [f64; 2],
 }
@@ -47,14 +49,32 @@ impl Aspect {
         } else {
             sun_azimuth
         };
-        let (se, ce) = (z / length, horizontal / length);
         let (ss, cs) = sun_azimuth;
-        let (sine, cosine) = (sa * cs - ca * ss, ca * cs + sa * ss);
+        Self::of(
+            (z / length, horizontal / length),
+            (sa, ca),
+            (sa * cs - ca * ss, ca * cs + sa * ss),
+            sun,
+        )
+    }
+
+    /// Of a direction with this cosine and sine of its elevation and the azimuth `phi` from the sun.
+    pub fn along((ce, se): (f64, f64), phi: f64, sun: [f64; 3]) -> Self {
+        Self::of((se, ce), phi.sin_cos(), phi.sin_cos(), sun)
+    }
+
+    fn of(
+        (se, ce): (f64, f64),
+        azimuth: (f64, f64),
+        (sine, cosine): (f64, f64),
+        sun: [f64; 3],
+    ) -> Self {
         let level = sun[0].hypot(sun[1]);
         Self {
             elevation: (se, ce),
-            azimuth: (sa, ca),
+            azimuth,
             sine,
+            level,
             sun: [ce * sun[2] - se * level * cosine, level * sine],
         }
     }
@@ -63,6 +83,12 @@ impl Aspect {
     pub fn single(&self) -> [f64; 2] {
         let [p1, p2] = self.sun;
         [p2 * p2 - p1 * p1, -2.0 * p1 * p2]
+    }
+
+    /// As [`Aspect::single`], with U over the sine of the azimuth from the sun.
+    pub fn single_even(&self) -> [f64; 2] {
+        let [p1, p2] = self.sun;
+        [p2 * p2 - p1 * p1, -2.0 * p1 * self.level]
     }
 
     /// Cosine and sine of twice the angle from the vertical frame to `frame`.

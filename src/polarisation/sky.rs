@@ -8,8 +8,10 @@ use crate::axis::hermite;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
+use crate::geometry::Ray;
 use crate::math::LANES;
 use crate::model::Model;
+use crate::phase::SunAngle;
 use crate::prepare::Place;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 
@@ -141,6 +143,26 @@ impl PolarisedSky {
             }
         })?;
         Ok(sums)
+    }
+
+    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit` block by
+    /// block of wavelengths. Smooth and even in φ, and not limited to the whole light.
+    pub(crate) fn ratios(
+        &self,
+        ray: &Ray,
+        phi: f64,
+        angle: SunAngle,
+        emit: impl FnMut(usize, [[f32; LANES]; 2]),
+    ) {
+        let tables = self.sky.tables();
+        let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
+        let aspect = Aspect::along(self.sky.cylinder(ray), phi, self.sky.sun().0);
+        let mix = Mix {
+            single: aspect.single_even().map(|v| v as f32),
+            from_q: [1.0, 0.0],
+            from_u: [0.0, 1.0],
+        };
+        self.polarisation.ratios(tables, &lookup, &mix, emit);
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Multiply scattered Q and U of one sky, and the inner loop that adds the singly scattered light.
 
 use crate::math::{LANES, bound};
-use crate::tables::{Lookup, Tables};
+use crate::tables::{Lookup, Polarisable, Tables};
 
 /// One block of wavelengths of Q, and of U over sin φ. Aligned so that it stands in one cache line.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +60,35 @@ impl Polarisation {
         mix: &Mix,
         mut emit: impl FnMut(usize, Block),
     ) {
+        self.sums(tables, lookup, mix, |block, light, [q, u]| {
+            let [q, u] = limit(light.sum, q, u);
+            let radiance = light.radiance;
+            emit(block, Block { radiance, q, u });
+        });
+    }
+
+    /// Hands the two sums that `mix` makes to `emit`, over that of the radiance, block by block of wavelengths. They are finite.
+    pub fn ratios(
+        &self,
+        tables: &Tables,
+        lookup: &Lookup,
+        mix: &Mix,
+        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
+    ) {
+        self.sums(tables, lookup, mix, |block, light, sums| {
+            emit(block, sums.map(|sum| ratio(light.sum, sum)));
+        });
+    }
+
+    /// Hands the radiance and the two sums that `mix` makes to `emit`.
+    #[inline(always)]
+    fn sums(
+        &self,
+        tables: &Tables,
+        lookup: &Lookup,
+        mix: &Mix,
+        mut emit: impl FnMut(usize, Polarisable, [[f32; LANES]; 2]),
+    ) {
         let table = if lookup.is_up() { &self.up } else { &self.down };
         for block in 0..tables.layout.blocks() {
             let light = tables.polarisable(lookup, block);
@@ -70,9 +99,8 @@ impl Polarisation {
                     mix.single[s] * light.dipole[i] + scattered
                 })
             };
-            let [q, u] = limit(light.sum, part(0), part(1));
-            let radiance = light.radiance;
-            emit(block, Block { radiance, q, u });
+            let sums = [part(0), part(1)];
+            emit(block, light, sums);
         }
     }
 
@@ -84,20 +112,26 @@ impl Polarisation {
 /// `q` and `u` over `i`, at most the whole light.
 #[inline(always)]
 fn limit(i: [f32; LANES], q: [f32; LANES], u: [f32; LANES]) -> [[f32; LANES]; 2] {
+    let [mut q, mut u] = [ratio(i, q), ratio(i, u)];
+    for (q, u) in q.iter_mut().zip(&mut u) {
+        // A little more than the square, so that rounding does not undo the limit.
+        let square = (*q * *q + *u * *u) * (1.0 + 4.0 * f32::EPSILON);
+        let share = 1.0 / square.max(1.0).sqrt();
+        *q *= share;
+        *u *= share;
+    }
+    [q, u]
+}
+
+/// `part` over `whole`; finite.
+#[inline(always)]
+fn ratio(whole: [f32; LANES], part: [f32; LANES]) -> [f32; LANES] {
     /// Its square is finite.
     const MOST: f32 = 1e18;
-    let mut out = [[0.0; LANES]; 2];
+    let mut out = [0.0; LANES];
     for lane in 0..LANES {
-        let inverse = 1.0 / i[lane].max(f32::MIN_POSITIVE);
-        let (q, u) = (
-            bound(q[lane] * inverse, -MOST, MOST),
-            bound(u[lane] * inverse, -MOST, MOST),
-        );
-        // A little more than the square, so that rounding does not undo the limit.
-        let square = (q * q + u * u) * (1.0 + 4.0 * f32::EPSILON);
-        let share = 1.0 / square.max(1.0).sqrt();
-        out[0][lane] = q * share;
-        out[1][lane] = u * share;
+        let inverse = 1.0 / whole[lane].max(f32::MIN_POSITIVE);
+        out[lane] = bound(part[lane] * inverse, -MOST, MOST);
     }
     out
 }

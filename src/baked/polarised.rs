@@ -1,0 +1,227 @@
+//! A baked sky with its polarisation.
+
+use core::ops::Range;
+
+use super::batch::{Directions, Each, One, Sink, check_length};
+use super::degrees::{self, Degrees, turned};
+use super::spectral::{BakedSky, LANES, write};
+use super::table::{Spots, Table};
+use super::turn::Axes;
+use super::{BakeError, quality};
+use crate::error::{Error, Result};
+use crate::lanes::Lanes;
+use crate::polarisation::{Frame, PolarisedSky};
+use crate::simd::dispatch;
+
+/// A [`BakedSky`] with its polarisation: as fast a way to all Stokes vectors of a direction.
+///
+/// Single queries, batches, wide and narrow vectors give the same bits, and the radiance is that of [`BakedPolarisedSky::sky`].
+/// Q² + U² ≤ I². Nothing allocates. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct BakedPolarisedSky {
+    sky: BakedSky,
+    degrees: Degrees,
+    error: BakeError,
+}
+
+/// Room for Stokes vectors as a structure of arrays of equal length, each `[directions][wavelengths]`, W m⁻² sr⁻¹ nm⁻¹.
+///
+/// The components are those of [`Stokes`](crate::Stokes).
+#[derive(Debug)]
+pub struct StokesSpectra<'a> {
+    /// Radiance.
+    pub i: &'a mut [f32],
+    /// Polarised along `e1` less `e2`.
+    pub q: &'a mut [f32],
+    /// Polarised along `e1 + e2` less `e1 − e2`.
+    pub u: &'a mut [f32],
+}
+
+impl PolarisedSky {
+    /// Bakes the sky into tables whose errors are at most `tolerance` at 95 % of the directions and wavelengths, e.g.
+    /// [`BakedSky::TOLERANCE`]: that of the radiance, relative to it, and that of (Q, U), relative to the radiance, too.
+    ///
+    /// # Errors
+    /// As [`Sky::bake`](crate::Sky::bake).
+    pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
+        let mut least = 0;
+        loop {
+            let sky = self.sky().bake_at_least(tolerance, least)?;
+            let table = &sky.baked.table;
+            let degrees = Degrees::new(self, table.grid);
+            let error = degrees.error(self, table, sky.frame())?;
+            if error.p95 <= tolerance {
+                return Ok(BakedPolarisedSky {
+                    sky,
+                    degrees,
+                    error,
+                });
+            }
+            least = quality::beyond(table.grid).ok_or(Error::Tolerance {
+                expected: tolerance,
+                got: error.p95,
+            })?;
+        }
+    }
+}
+
+impl BakedPolarisedSky {
+    /// The sky without its polarisation.
+    pub fn sky(&self) -> &BakedSky {
+        &self.sky
+    }
+
+    /// As [`Sky::set_solar_azimuth`](crate::Sky::set_solar_azimuth).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the azimuth is not finite.
+    pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        self.sky.set_solar_azimuth(azimuth)
+    }
+
+    /// What baking added to the error of (Q, U) over I, as a distance: directions as in [`BakedSky::bake_error`], which is that
+    /// of I.
+    pub fn polarisation_error(&self) -> BakeError {
+        self.error
+    }
+
+    /// Memory on the heap, bytes: less than three times that of [`BakedPolarisedSky::sky`].
+    pub fn bytes(&self) -> usize {
+        self.sky.bytes() + self.degrees.bytes()
+    }
+
+    /// Stokes vectors at each of [`BakedSky::wavelengths`], as [`PolarisedSky::stokes`].
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a direction or an axis that is zero or not finite;
+    /// [`Error::Length`] unless the outputs have one element per wavelength.
+    #[inline]
+    pub fn stokes(&self, direction: [f32; 3], frame: Frame, out: StokesSpectra) -> Result<()> {
+        let sink = self.sink(frame, out, 1)?;
+        dispatch(One {
+            frame: self.sky.frame(),
+            table: &self.sky.baked.table,
+            direction,
+            sink,
+        })
+    }
+
+    /// [`BakedPolarisedSky::stokes`] for many directions.
+    ///
+    /// # Errors
+    /// As [`BakedPolarisedSky::stokes`]; [`Error::Length`] also for components of different lengths.
+    /// What precedes a bad direction may or may not be written.
+    pub fn stokes_batch(
+        &self,
+        directions: &Directions,
+        frame: Frame,
+        out: StokesSpectra,
+    ) -> Result<()> {
+        directions.check()?;
+        let sink = self.sink(frame, out, directions.len())?;
+        dispatch(Each {
+            frame: self.sky.frame(),
+            table: &self.sky.baked.table,
+            directions: *directions,
+            sink,
+        })
+    }
+
+    #[inline]
+    fn sink<'a>(
+        &'a self,
+        frame: Frame,
+        out: StokesSpectra<'a>,
+        directions: usize,
+    ) -> Result<Rows<'a>> {
+        let expected = directions.saturating_mul(self.sky.wavelengths().len());
+        for got in [out.i.len(), out.q.len(), out.u.len()] {
+            check_length("output", got, expected)?;
+        }
+        let axes = Axes::new(frame)?;
+        let sky = self;
+        Ok(Rows { sky, axes, out })
+    }
+}
+
+/// Stokes vectors one after another.
+struct Rows<'a> {
+    sky: &'a BakedPolarisedSky,
+    axes: Axes,
+    out: StokesSpectra<'a>,
+}
+
+impl Sink<LANES> for Rows<'_> {
+    #[inline(always)]
+    fn put<const W: usize>(
+        &mut self,
+        index: usize,
+        count: usize,
+        table: &Table<LANES>,
+        spots: &Spots<W>,
+        vectors: &[Lanes<W>; 3],
+    ) {
+        let BakedPolarisedSky { sky, degrees, .. } = self.sky;
+        let n = sky.wavelengths().len();
+        let turn = self.axes.turn(sky.frame(), vectors);
+        for i in 0..count {
+            let row = &mut self.out.i[(index + i) * n..][..n];
+            for block in 0..table.blocks() {
+                write(row, block, sky.light(table, spots, i, block));
+            }
+        }
+        for block in 0..degrees.blocks {
+            // All directions up to here before any is turned: otherwise the compiler makes half vectors of the sums, too.
+            let mut values = [Lanes::splat(0.0); W];
+            for (i, values) in values[..count].iter_mut().enumerate() {
+                *values = degrees.at(spots, i, block);
+            }
+            let mut most = Lanes::splat(0.0);
+            for (i, values) in values[..count].iter().enumerate() {
+                let row = (index + i) * n;
+                let span = row + block * degrees::LANES..row + n;
+                let light = &self.out.i[span.clone()];
+                let [q, u] = turned(values, &turn, i);
+                most = (q * q + u * u).max(most);
+                multiply(&mut self.out.q[span.clone()], light, &q);
+                multiply(&mut self.out.u[span], light, &u);
+            }
+            if most.0.iter().any(|&square| square > ALMOST_WHOLE) {
+                self.out.limit(index * n..(index + count) * n);
+            }
+        }
+    }
+}
+
+/// Squared degree that may exceed 1 when rounding has had its share.
+const ALMOST_WHOLE: f32 = 1.0 - 16.0 * f32::EPSILON;
+
+impl StokesSpectra<'_> {
+    /// Where splines overshoot, back to the whole light. That is rare.
+    #[cold]
+    fn limit(&mut self, span: Range<usize>) {
+        let parts = self.q[span.clone()]
+            .iter_mut()
+            .zip(&mut self.u[span.clone()]);
+        for (&i, (q, u)) in self.i[span].iter().zip(parts) {
+            // What is bounded does not overflow when it is squared in double precision.
+            let [bounded_q, bounded_u] = [*q, *u].map(|v| f64::from(v.max(-i).min(i)));
+            let most = f64::from(i) * f64::from(ALMOST_WHOLE);
+            let share = (most / bounded_q.hypot(bounded_u).max(f64::MIN_POSITIVE)).min(1.0);
+            *q = (bounded_q * share) as f32;
+            *u = (bounded_u * share) as f32;
+        }
+    }
+}
+
+/// Writes a part of the light at up to a block of wavelengths.
+#[inline(always)]
+fn multiply(out: &mut [f32], light: &[f32], share: &Lanes<{ degrees::LANES }>) {
+    match (out.first_chunk_mut(), light.first_chunk()) {
+        (Some(out), Some(light)) => *out = (Lanes(*light) * *share).0,
+        _ => {
+            let rest = out.iter_mut().zip(light.iter().zip(&share.0));
+            rest.for_each(|(out, (light, share))| *out = light * share);
+        }
+    }
+}
