@@ -91,7 +91,7 @@ pub use budget::{Budget, Channels, Plan};
 pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
-pub use general::General;
+pub use general::{General, Interpolation};
 #[cfg(feature = "std")]
 pub use haze::Haze;
 #[cfg(feature = "default-model")]

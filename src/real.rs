@@ -11,11 +11,11 @@ pub(crate) trait Real: Sized {
     fn atan(self) -> Self;
     fn atan2(self, x: Self) -> Self;
     fn sinh(self) -> Self;
-    fn asinh(self) -> Self;
+    fn ln(self) -> Self;
 }
 
 macro_rules! real {
-    ($type:ty, $sqrt:path, $cbrt:path, $pow:path, $sin:path, $cos:path, $atan:path, $atan2:path, $sinh:path, $asinh:path) => {
+    ($type:ty, $sqrt:path, $cbrt:path, $pow:path, $sin:path, $cos:path, $atan:path, $atan2:path, $sinh:path, $ln:path) => {
         impl Real for $type {
             #[inline]
             fn sqrt(self) -> Self {
@@ -45,8 +45,8 @@ macro_rules! real {
             fn sinh(self) -> Self {
                 $sinh(self)
             }
-            fn asinh(self) -> Self {
-                $asinh(self)
+            fn ln(self) -> Self {
+                $ln(self)
             }
         }
     };
@@ -62,7 +62,7 @@ real!(
     libm::atan,
     libm::atan2,
     libm::sinh,
-    libm::asinh
+    libm::log
 );
 real!(
     f32,
@@ -74,5 +74,5 @@ real!(
     libm::atanf,
     libm::atan2f,
     libm::sinhf,
-    libm::asinhf
+    libm::logf
 );

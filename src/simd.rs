@@ -1,7 +1,7 @@
 //! The one place that chooses instructions: kernels compiled for wide vectors where the processor has them.
 //!
-//! Kernels neither fuse nor reorder floating-point operations, so the width changes nothing but the time: every path
-//! gives the same bits.
+//! Kernels do not reorder floating-point operations, and fuse them only where they ask for
+//! [`add_product`](Instructions::add_product); where they do not, every path gives the same bits.
 
 use zerocopy::little_endian::U16;
 
@@ -18,8 +18,10 @@ pub(crate) trait Kernel {
 pub(crate) trait Instructions: Copy {
     /// Widens finite half-precision numbers.
     fn widen(self, halves: &[U16; 8]) -> Lanes<8>;
+    /// `sum + a · b`, which a processor may round once instead of twice.
+    fn add_product(self, sum: Lanes<8>, a: Lanes<8>, b: f32) -> Lanes<8>;
     /// Asks for numbers that will be read soon.
-    fn fetch(self, halves: &[U16]);
+    fn fetch<T>(self, numbers: &[T]);
 }
 
 /// For every processor.
@@ -37,7 +39,12 @@ impl Instructions for Portable {
     }
 
     #[inline(always)]
-    fn fetch(self, _: &[U16]) {}
+    fn add_product(self, sum: Lanes<8>, a: Lanes<8>, b: f32) -> Lanes<8> {
+        sum + a * b
+    }
+
+    #[inline(always)]
+    fn fetch<T>(self, _: &[T]) {}
 }
 
 /// Runs a kernel with the widest vectors of this processor.
@@ -53,7 +60,8 @@ pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86 {
     use core::arch::x86_64::{
-        _MM_HINT_T0, _mm_prefetch, _mm_set_epi64x, _mm256_cvtph_ps, _mm256_storeu_ps,
+        _MM_HINT_T0, _mm_prefetch, _mm_set_epi64x, _mm256_cvtph_ps, _mm256_fmadd_ps,
+        _mm256_loadu_ps, _mm256_set1_ps, _mm256_storeu_ps,
     };
 
     use zerocopy::IntoBytes;
@@ -61,7 +69,7 @@ mod x86 {
 
     use super::{Instructions, Kernel, Lanes};
 
-    /// AVX2 and F16C. Exists only where the processor has both.
+    /// AVX2, F16C and FMA. Exists only where the processor has all three.
     #[derive(Clone, Copy)]
     pub struct Wide(());
 
@@ -69,7 +77,8 @@ mod x86 {
         #[inline]
         pub fn detected() -> Option<Self> {
             let detected = std::arch::is_x86_feature_detected!("avx2")
-                && std::arch::is_x86_feature_detected!("f16c");
+                && std::arch::is_x86_feature_detected!("f16c")
+                && std::arch::is_x86_feature_detected!("fma");
             detected.then_some(Self(()))
         }
 
@@ -80,7 +89,7 @@ mod x86 {
         }
     }
 
-    #[target_feature(enable = "avx2,f16c")]
+    #[target_feature(enable = "avx2,f16c,fma")]
     fn run<K: Kernel>(wide: Wide, kernel: K) -> K::Output {
         kernel.run(wide)
     }
@@ -104,13 +113,25 @@ mod x86 {
         }
 
         #[inline(always)]
-        fn fetch(self, halves: &[U16]) {
-            const LINE: usize = 32;
-            let mut first = 0;
-            while first < halves.len() {
+        fn add_product(self, sum: Lanes<8>, a: Lanes<8>, b: f32) -> Lanes<8> {
+            let mut lanes = sum;
+            // SAFETY: `self` is the proof that the processor has FMA, and with it AVX; loads and the store are within
+            // arrays of eight numbers and ask for no alignment.
+            unsafe {
+                let product = [a.0.as_ptr(), sum.0.as_ptr()].map(|p| _mm256_loadu_ps(p));
+                let value = _mm256_fmadd_ps(product[0], _mm256_set1_ps(b), product[1]);
+                _mm256_storeu_ps(lanes.0.as_mut_ptr(), value);
+            }
+            lanes
+        }
+
+        #[inline(always)]
+        fn fetch<T>(self, numbers: &[T]) {
+            const LINE: usize = 64;
+            let first = numbers.as_ptr().cast::<i8>();
+            for place in (0..size_of_val(numbers)).step_by(LINE) {
                 // SAFETY: the address is in the slice, and prefetching is a hint that never faults.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(halves[first..].as_ptr().cast()) };
-                first += LINE;
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(first.add(place)) };
             }
         }
     }

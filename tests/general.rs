@@ -1,9 +1,79 @@
 //! Queries without preparation give what prepared skies give.
 
 mod common;
+#[allow(dead_code)]
+#[path = "../examples/compare/random.rs"]
+mod random;
 
 use proptest::prelude::*;
-use welkin::{Conditions, Error, General, Model};
+use welkin::{Conditions, Error, General, Interpolation, Model};
+
+/// Relative differences from skies at random conditions of the default model: median, 95th and 99th percentile.
+fn differences(interpolation: Interpolation) -> [f64; 3] {
+    let model = Model::default_model().unwrap();
+    let general = General::new(welkin::DEFAULT_MODEL)
+        .unwrap()
+        .with_interpolation(interpolation);
+    let (mut places, mut views) = (random::Sequence::<4>::new(), random::Sequence::<2>::new());
+    let mut differences = Vec::new();
+    for _ in 0..400 {
+        let conditions = random::conditions(&model, places.next());
+        let sky = model.sky(&conditions).unwrap();
+        for _ in 0..4 {
+            let direction = random::sphere(views.next());
+            let [mut got, mut expected] = [[0.0; 12]; 2];
+            general.radiance(&conditions, direction, &mut got).unwrap();
+            sky.radiance(direction, &mut expected).unwrap();
+            let pairs = got.iter().zip(expected).filter(|&(_, e)| e > 0.0);
+            differences.extend(pairs.map(|(&g, e)| f64::from((g - e).abs() / e)));
+        }
+    }
+    differences.sort_by(f64::total_cmp);
+    [0.5, 0.95, 0.99].map(|q| differences[(q * differences.len() as f64) as usize])
+}
+
+#[test]
+fn fewer_chunks_cost_as_much_accuracy_as_is_said() {
+    let [linear, lean, full] = [
+        Interpolation::Linear,
+        Interpolation::Lean,
+        Interpolation::Full,
+    ]
+    .map(differences);
+    println!("linear {linear:.6?}\nlean   {lean:.6?}\nfull   {full:.8?}");
+    let below = |got: [f64; 3], limits: [f64; 3]| got.iter().zip(limits).all(|(&g, l)| g < l);
+    assert!(below(full, [1e-6, 2e-6, 4e-6]));
+    assert!(below(lean, [1e-4, 1e-3, 2e-3]));
+    assert!(below(linear, [2e-3, 1e-2, 2e-2]));
+}
+
+#[test]
+fn at_the_nodes_all_interpolations_agree() {
+    let general = |i| {
+        General::new(welkin::DEFAULT_MODEL)
+            .unwrap()
+            .with_interpolation(i)
+    };
+    for (altitude, visibility) in [(0.0, 20e3), (1150.0, 59.4e3), (15e3, 131.8e3)] {
+        let conditions = Conditions {
+            altitude,
+            visibility,
+            ..Conditions::default()
+        };
+        let [mut linear, mut lean, mut full] = [[0.0; 12]; 3];
+        let direction = [0.3, 0.4, 0.2];
+        for (interpolation, out) in [
+            (Interpolation::Linear, &mut linear),
+            (Interpolation::Lean, &mut lean),
+            (Interpolation::Full, &mut full),
+        ] {
+            let general = general(interpolation);
+            general.radiance(&conditions, direction, out).unwrap();
+        }
+        assert_eq!(lean, full);
+        assert_eq!(linear, full);
+    }
+}
 
 fn bits_of(error: &Error) -> String {
     error.to_string()
@@ -20,7 +90,7 @@ proptest! {
         direction in prop::array::uniform3(-1.0..1.0f32),
         bytes in prop::sample::select(vec![common::model_bytes(), common::wide_bytes(), common::long_bytes()]),
     ) {
-        let general = General::new(&bytes).unwrap();
+        let general = General::new(&bytes).unwrap().with_interpolation(Interpolation::Full);
         general.verify(&bytes).unwrap();
         let model = Model::from_bytes(bytes.clone()).unwrap();
         let solar_elevation = elevation.to_radians();

@@ -19,7 +19,9 @@ use paper::{Cell, Paper};
 use random::{Sequence, p95, sphere};
 use report::Row;
 use texture::Texture;
-use welkin::{BakedColour, BakedSky, Conditions, Directions, General, Model, Result, Sky};
+use welkin::{
+    BakedColour, BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky,
+};
 
 const QUERIES: usize = 8192;
 /// Queries of one round: of prepared skies, of the paper's scheme, of the whole model.
@@ -38,7 +40,7 @@ fn main() -> Result<()> {
     let scene = Scene::new()?;
     let mut rows = scene.prepared()?;
     rows.extend(polarised::rows(&scene)?);
-    rows.push(scene.general()?);
+    rows.extend(scene.general()?);
     rows.extend(scene.preparation()?);
     match json {
         true => println!("{}", report::json(&rows)),
@@ -242,10 +244,8 @@ impl Scene {
     }
 
     /// Everything random: ours anywhere in the model, the paper's scheme in copies of one cell of its grid.
-    fn general(&self) -> Result<Row> {
-        let general = General::new(welkin::DEFAULT_MODEL)?;
+    fn general(&self) -> Result<Vec<Row>> {
         let paper = Paper::fit(&self.model, cell())?;
-        let n = self.sky.wavelengths().len();
         let mut sequence = Sequence::<4>::new();
         let places: Vec<_> = (0..QUERIES).map(|_| sequence.next()).collect();
         let anywhere: Vec<_> = places
@@ -253,38 +253,66 @@ impl Scene {
             .map(|&p| random::conditions(&self.model, p))
             .collect();
         let inside: Vec<_> = places.iter().map(|&p| cell().inside(p)).collect();
-        let (mut got, mut peer) = (Vec::new(), Vec::new());
-        let [mut out, mut truth] = [vec![0.0; n], vec![0.0; n]];
-        for i in (0..QUERIES).step_by(41) {
-            let d = self.directions[i];
-            general.radiance(&anywhere[i], d, &mut out)?;
-            self.model.sky(&anywhere[i])?.radiance(d, &mut truth)?;
-            got.extend(out.iter().copied().zip(truth.iter().copied()));
-            paper.radiance(i, &inside[i], d, &mut out);
-            self.model.sky(&inside[i])?.radiance(d, &mut truth)?;
-            peer.extend(out.iter().copied().zip(truth.iter().copied()));
-        }
-        let mut spectrum = out.clone();
-        let ours = |round| {
-            let mut ask = |i: usize| {
-                general.radiance(black_box(&anywhere[i]), self.directions[i], &mut spectrum)
+        let peer_error = self.error_in(&inside, |i, d, out| {
+            paper.radiance(i, &inside[i], d, out);
+            Ok(())
+        })?;
+        let mut rows = Vec::new();
+        for (name, interpolation) in [
+            ("general_spectral", Interpolation::Lean),
+            ("general_spectral_linear", Interpolation::Linear),
+            ("general_spectral_full", Interpolation::Full),
+        ] {
+            let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+            let error = self.error_in(&anywhere, |i, d, out| {
+                general.radiance(&anywhere[i], d, out)
+            })?;
+            let [mut out, mut peer_out] = [[0.0; 12]; 2];
+            let ours = |round| {
+                let mut ask = |i: usize| {
+                    general.radiance(black_box(&anywhere[i]), self.directions[i], &mut out)
+                };
+                span(round, GENERAL).try_for_each(&mut ask)
             };
-            span(round, GENERAL).try_for_each(&mut ask)
-        };
-        let peer_queries = |round| {
-            for i in span(round, SLOW) {
-                // A step that visits all copies in no order that a cache knows.
-                paper.radiance(i * 89, black_box(&inside[i]), self.directions[i], &mut out);
-                black_box(&out);
-            }
-        };
-        Ok(Row {
-            name: "general_spectral",
-            peer: "paper's scheme, all random",
-            ns: clock::duel([GENERAL, SLOW], unwrapped(ours), peer_queries),
-            p95_error: [Some(p95(got.into_iter())), Some(p95(peer.into_iter()))],
-            bytes: [welkin::DEFAULT_MODEL.len(), paper.bytes()],
-        })
+            let peer = |round| {
+                for i in span(round, SLOW) {
+                    // A step that visits all copies in no order that a cache knows.
+                    paper.radiance(
+                        i * 89,
+                        black_box(&inside[i]),
+                        self.directions[i],
+                        &mut peer_out,
+                    );
+                    black_box(&peer_out);
+                }
+            };
+            rows.push(Row {
+                name,
+                peer: "paper's scheme, all random",
+                ns: clock::duel([GENERAL, SLOW], unwrapped(ours), peer),
+                p95_error: [Some(error), Some(peer_error)],
+                bytes: [welkin::DEFAULT_MODEL.len(), paper.bytes()],
+            });
+        }
+        Ok(rows)
+    }
+
+    /// From skies that are prepared for each query.
+    fn error_in(
+        &self,
+        conditions: &[Conditions],
+        mut ask: impl FnMut(usize, [f32; 3], &mut [f32]) -> Result<()>,
+    ) -> Result<f64> {
+        let mut pairs = Vec::new();
+        let [mut got, mut truth] = [[0.0; 12]; 2];
+        for i in (0..QUERIES).step_by(41) {
+            let direction = self.directions[i];
+            ask(i, direction, &mut got)?;
+            let sky = self.model.sky(&conditions[i])?;
+            sky.radiance(direction, &mut truth)?;
+            pairs.extend(got.into_iter().zip(truth));
+        }
+        Ok(p95(pairs.into_iter()))
     }
 
     fn preparation(&self) -> Result<Vec<Row>> {

@@ -18,26 +18,28 @@ pub(super) const MOST_CHANNELS: usize = 256;
 /// Numbers that are widened together.
 pub(super) const WIDTH: usize = 8;
 /// Vectors of channels that are summed together.
-const GROUP: usize = 4;
+const GROUP: usize = 8;
 
 /// A number per component, padded with zeros.
 pub(super) type Components = [Lanes<WIDTH>; MOST_RANK / WIDTH];
 /// A number per channel.
-pub(super) type Channels = [Lanes<WIDTH>; MOST_CHANNELS / WIDTH];
+pub(super) type Channels = [f32; MOST_CHANNELS];
+/// Four rows of numbers per wavelength, without gaps.
+pub(super) type LevelRows = [Lanes<WIDTH>; 4 * WAVELENGTH_BLOCKS];
 /// A number per wavelength.
 pub(super) type Spectrum = [Lanes<WIDTH>; WAVELENGTH_BLOCKS];
 
-/// Four rows of a factor matrix and their weights.
-struct Rows<'a> {
-    rows: [&'a [[U16; WIDTH]]; 4],
-    weight: [f32; 4],
+/// `N` rows of a factor matrix and their weights.
+struct Rows<'a, const N: usize> {
+    rows: [&'a [[U16; WIDTH]]; N],
+    weight: [f32; N],
 }
 
-impl<'a> Rows<'a> {
+impl<'a, const N: usize> Rows<'a, N> {
     #[inline(always)]
-    fn new(table: &'a [U16], stride: usize, taps: &Taps) -> Self {
-        let mut rows = [[].as_slice(); 4];
-        for k in 0..4 {
+    fn new(table: &'a [U16], stride: usize, taps: &Taps<N>) -> Self {
+        let mut rows = [[].as_slice(); N];
+        for k in 0..N {
             rows[k] = &table[taps.index[k] * stride..][..stride].as_chunks().0[..stride / WIDTH];
         }
         Self {
@@ -49,47 +51,61 @@ impl<'a> Rows<'a> {
     /// Their weighted sum in vector `b`.
     #[inline(always)]
     fn sum<I: Instructions>(&self, instructions: I, b: usize) -> Lanes<WIDTH> {
-        let ([p, q, r, s], w) = (self.rows, self.weight);
-        let first = instructions.widen(&p[b]) * w[0] + instructions.widen(&q[b]) * w[1];
-        first + (instructions.widen(&r[b]) * w[2] + instructions.widen(&s[b]) * w[3])
+        let mut sum = instructions.widen(&self.rows[0][b]) * self.weight[0];
+        for k in 1..N {
+            let row = instructions.widen(&self.rows[k][b]);
+            sum = instructions.add_product(sum, row, self.weight[k]);
+        }
+        sum
     }
 }
 
 /// Asks for what [`add_chunk`] will read.
 #[inline(always)]
-pub(super) fn fetch_chunk<I: Instructions>(
+pub(super) fn fetch_chunk<const N: usize, I: Instructions>(
     instructions: I,
     chunk: &RadianceView,
     heights: &[U16],
-    [alpha, elevation]: [&Taps; 2],
+    [alpha, elevation]: &[Taps<N>; 2],
 ) {
-    // The four rows stand together.
+    // The rows stand together.
     let stride = chunk.stride;
-    instructions.fetch(&heights[alpha.index[0] * stride..][..4 * stride]);
-    instructions.fetch(&chunk.elevation[elevation.index[0] * stride..][..4 * stride]);
+    instructions.fetch(chunk.scale);
+    instructions.fetch(&heights[alpha.index[0] * stride..][..N * stride]);
+    instructions.fetch(&chunk.elevation[elevation.index[0] * stride..][..N * stride]);
+}
+
+/// Asks for what [`add_level`] will read.
+#[inline(always)]
+pub(super) fn fetch_level<I: Instructions>(
+    instructions: I,
+    chunk: &RadianceView,
+    wavelengths: usize,
+    elevation: &Taps,
+) {
+    instructions.fetch(&chunk.level[elevation.index[0] * wavelengths..][..4 * wavelengths]);
 }
 
 /// Adds the components of a chunk at the place of a query, times `weight`.
 #[inline(always)]
-pub(super) fn add_chunk<I: Instructions>(
+pub(super) fn add_chunk<const N: usize, I: Instructions>(
     instructions: I,
     chunk: &RadianceView,
     heights: &[U16],
-    [alpha, elevation]: [&Taps; 2],
+    [alpha, elevation]: &[Taps<N>; 2],
     weight: f32,
     sum: &mut Components,
 ) {
     let heights = Rows::new(heights, chunk.stride, alpha);
     let suns = Rows::new(chunk.elevation, chunk.stride, elevation);
     let scales = chunk.scale[..chunk.stride].as_chunks::<WIDTH>().0;
-    for b in 0..scales.len().min(sum.len()) {
-        let value = heights.sum(instructions, b) * suns.sum(instructions, b);
-        sum[b] = sum[b] + value * (read(&scales[b]) * weight);
+    for (b, (sum, scale)) in sum.iter_mut().zip(scales).enumerate() {
+        let value = heights.sum(instructions, b) * (read(scale) * weight);
+        *sum = *sum + value * suns.sum(instructions, b);
     }
 }
 
-/// Adds the spline of ln S of a chunk, times `weight`. The last vector of the spectrum is not the rest after whole
-/// ones but the last eight wavelengths, see [`align`].
+/// Adds the four rows of ln S of a chunk around a solar elevation, times `weight`: all chunks share what follows.
 #[inline(always)]
 pub(super) fn add_level<I: Instructions>(
     instructions: I,
@@ -97,41 +113,30 @@ pub(super) fn add_level<I: Instructions>(
     wavelengths: usize,
     elevation: &Taps,
     weight: f32,
-    sum: &mut Spectrum,
+    sum: &mut LevelRows,
 ) {
-    let whole = wavelengths / WIDTH;
-    for k in 0..4 {
-        let row = &chunk.level[elevation.index[k] * wavelengths..][..wavelengths];
-        let tap = weight * elevation.weight[k];
-        for b in 0..whole {
-            if let Some(halves) = row[b * WIDTH..].first_chunk() {
-                sum[b] = sum[b] + instructions.widen(halves) * tap;
-            }
-        }
-        if wavelengths.is_multiple_of(WIDTH) {
-            continue;
-        }
-        match row.last_chunk() {
-            Some(halves) => sum[whole] = sum[whole] + instructions.widen(halves) * tap,
-            None => {
-                for i in 0..wavelengths {
-                    sum[0].0[i] += widen(row[i]) * tap;
-                }
-            }
-        }
+    let first = elevation.index[0] * wavelengths;
+    let rows = &chunk.level[first..][..4 * wavelengths];
+    let (whole, rest) = rows.as_chunks::<WIDTH>();
+    let (sums, last) = sum.split_at_mut(whole.len());
+    for (sum, halves) in sums.iter_mut().zip(whole) {
+        *sum = instructions.add_product(*sum, instructions.widen(halves), weight);
+    }
+    for (i, &half) in rest.iter().enumerate() {
+        last[0].0[i] += widen(half) * weight;
     }
 }
 
-/// Moves the last vector of a spectrum to where it belongs.
+/// ln S from the sums of its rows.
 #[inline(always)]
-pub(super) fn align(wavelengths: usize, sum: &mut Spectrum) {
-    let (whole, rest) = (wavelengths / WIDTH, wavelengths % WIDTH);
-    if whole > 0 && rest > 0 {
-        let last = sum[whole];
-        for i in 0..rest {
-            sum[whole].0[i] = last.0[WIDTH - rest + i];
-        }
+pub(super) fn level(rows: &LevelRows, wavelengths: usize, elevation: &Taps) -> Spectrum {
+    let mut level = [Lanes::splat(0.0); WAVELENGTH_BLOCKS];
+    let at = |i: usize| rows[i / WIDTH].0[i % WIDTH];
+    for w in 0..wavelengths {
+        let rows = (0..4).map(|k| elevation.weight[k] * at(k * wavelengths + w));
+        level[w / WIDTH].0[w % WIDTH] = rows.sum();
     }
+    level
 }
 
 /// Multiplies the components with the factors of an azimuth.
@@ -158,25 +163,40 @@ pub(super) fn project<I: Instructions>(
 ) {
     let stride = basis.channel_stride / WIDTH;
     let table = basis.channel.as_chunks::<WIDTH>().0;
-    for first in (0..stride).step_by(GROUP) {
-        let n = GROUP.min(stride - first);
-        let mut sums = [Lanes::splat(0.0); GROUP];
-        for r in 0..basis.stride {
-            let c = components[r / WIDTH].0[r % WIDTH];
-            let row = &table[r * stride + first..][..n];
-            if n == GROUP {
-                // The usual case, unrolled.
-                for k in 0..GROUP {
-                    sums[k] = sums[k] + instructions.widen(&row[k]) * c;
-                }
-            } else {
-                for k in 0..n {
-                    sums[k] = sums[k] + instructions.widen(&row[k]) * c;
-                }
+    let blocks = &mut channels.as_chunks_mut::<WIDTH>().0[..stride];
+    let (groups, rest) = blocks.as_chunks_mut::<GROUP>();
+    for (g, group) in groups.iter_mut().enumerate() {
+        let sums: [_; GROUP] = add_columns(instructions, table, stride, g * GROUP, components);
+        *group = sums.map(|sum| sum.0);
+    }
+    let first = groups.len() * GROUP;
+    for (b, block) in rest.iter_mut().enumerate() {
+        let [sum] = add_columns(instructions, table, stride, first + b, components);
+        *block = sum.0;
+    }
+}
+
+/// `N` columns of the channels; the sums stay in registers.
+#[inline(always)]
+fn add_columns<const N: usize, I: Instructions>(
+    instructions: I,
+    table: &[[U16; WIDTH]],
+    stride: usize,
+    first: usize,
+    components: &Components,
+) -> [Lanes<WIDTH>; N] {
+    let mut sums = [Lanes::splat(0.0); N];
+    for (lanes, rows) in components.iter().zip(table.chunks_exact(stride * WIDTH)) {
+        for (&component, row) in lanes.0.iter().zip(rows.chunks_exact(stride)) {
+            let Some(row) = row[first..].first_chunk::<N>() else {
+                continue;
+            };
+            for k in 0..N {
+                sums[k] = instructions.add_product(sums[k], instructions.widen(&row[k]), component);
             }
         }
-        channels[first..first + n].copy_from_slice(&sums[..n]);
     }
+    sums
 }
 
 #[inline(always)]

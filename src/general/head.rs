@@ -98,6 +98,17 @@ impl<'a> HeadView<'a> {
         Ok(view)
     }
 
+    /// Solar spectral irradiance, W m⁻² nm⁻¹.
+    pub fn solar_irradiance(&self, wavelength: f64) -> f32 {
+        let [start, step] = self.solar_axis;
+        let last = self.solar.len() - 1;
+        let u = ((wavelength - start) / step).clamp(0.0, last as f64);
+        let i = (u as usize).min(last - 1);
+        let t = (u - i as f64) as f32;
+        let [a, b] = [i, i + 1].map(|i| self.solar[i].get());
+        (1.0 - t) * a + t * b
+    }
+
     fn check(&self) -> Result<()> {
         let Shape {
             wavelengths,

@@ -119,7 +119,7 @@ impl Light {
         let albedo = Lanes::splat(place.albedo as f32);
         let one = Lanes::splat(1.0);
         for b in 0..self.blocks {
-            let spherical = self.at(&self.spherical_albedo, 1, &place.visibilities_linear, 0, b);
+            let spherical = self.at(&self.spherical_albedo, 1, &place.visibilities.line, 0, b);
             let ground = albedo / (one - albedo * spherical);
             let mut sum = Lanes::splat(0.0);
             for f in 0..self.fields {
@@ -131,7 +131,7 @@ impl Light {
             let mut extinction = Lanes::splat(0.0);
             for k in 0..self.constituents {
                 let n = self.constituents;
-                let row = self.at(&self.extinction, n, &place.visibilities_linear, k, b);
+                let row = self.at(&self.extinction, n, &place.visibilities.line, k, b);
                 extinction = extinction + row * densities[k];
             }
             let opacity = (extinction * place.ray.length as f32).one_minus_exp_neg();

@@ -1,7 +1,8 @@
 //! Where a query stands on the axes of a model.
 
+use super::around::{Axis, Nodes};
 use super::head::HeadView;
-use crate::axis::{Ends, Stencil, Taps, alpha_coordinate, hermite, linear, spline};
+use crate::axis::{Ends, Taps, alpha_coordinate, chord, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::geometry::{Ray, Side};
@@ -11,11 +12,12 @@ use crate::real::Real;
 
 /// Taps on every axis.
 pub(super) struct Place {
-    pub altitudes: Stencil,
-    pub visibilities: Stencil,
-    pub visibilities_linear: Stencil,
-    pub elevation: Taps,
-    pub alpha: Taps,
+    pub altitudes: Nodes,
+    pub visibilities: Nodes,
+    /// Angle from the horizon, and solar elevation.
+    pub curve: [Taps; 2],
+    /// The same, coarser.
+    pub chord: [Taps<2>; 2],
     pub phi: Taps,
     pub ray: Ray,
     pub angle: SunAngle,
@@ -23,9 +25,10 @@ pub(super) struct Place {
 }
 
 impl Place {
+    #[inline(always)]
     pub fn new(
         head: &HeadView,
-        altitudes: &[f64],
+        [altitudes, visibilities]: &[Axis; 2],
         conditions: &Conditions,
         direction: [f32; 3],
     ) -> Result<Self> {
@@ -47,50 +50,23 @@ impl Place {
         let alpha = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
         let (sine, cosine) = conditions.solar_azimuth.sin_cos();
         let (sun_z, sun_r) = conditions.solar_elevation.sin_cos();
-        let phi = (x * sine - y * cosine).abs().atan2(x * cosine + y * sine);
-        let phi = head.phi_intervals as f64 * phi / core::f64::consts::PI;
-        let inverse = 1.0 / conditions.visibility;
+        let [across, along] = [(x * sine - y * cosine).abs(), x * cosine + y * sine];
+        let phi = (across as f32).atan2(along as f32);
+        let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
+        let sun = axis.coordinate(conditions.solar_elevation);
         Ok(Self {
-            altitudes: hermite(
-                &altitudes[..head.altitudes.len()],
-                conditions.altitude.cbrt(),
-            ),
-            visibilities: at_visibility(head, inverse, hermite),
-            visibilities_linear: at_visibility(head, inverse, linear),
-            elevation: spline(
-                axis.coordinate(conditions.solar_elevation),
-                axis.intervals,
-                Ends::Free,
-            ),
-            alpha: spline(alpha, intervals, Ends::Free),
+            altitudes: altitudes.around(conditions.altitude.cbrt()),
+            visibilities: visibilities.around(1.0 / conditions.visibility),
+            curve: [(alpha, intervals), (sun, axis.intervals)]
+                .map(|(u, n)| spline(u, n, Ends::Free)),
+            chord: [(alpha, intervals), (sun, axis.intervals)].map(|(u, n)| chord(u, n)),
             phi: spline(phi, head.phi_intervals, Ends::Mirrored),
             angle: SunAngle::between(unit, [sun_r * cosine, sun_r * sine, sun_z]),
             ray,
             albedo: conditions.albedo,
         })
     }
-}
-
-/// Weights among the visibilities around one: no more than four count.
-fn at_visibility(
-    head: &HeadView,
-    inverse: f64,
-    weights: impl Fn(&[f64], f64) -> Stencil,
-) -> Stencil {
-    let all = head.visibilities;
-    let above = all
-        .partition_point(|v| 1.0 / v.get() >= inverse)
-        .clamp(1, all.len().max(2) - 1);
-    let first = above.saturating_sub(2);
-    let window = &all[first..(above + 2).min(all.len())];
-    let mut nodes = [0.0; 4];
-    for (node, v) in nodes.iter_mut().zip(window) {
-        *node = 1.0 / v.get();
-    }
-    let mut stencil = weights(&nodes[..window.len()], inverse);
-    stencil.first += first;
-    stencil
 }
 
 /// Conditions within the axes; a relative excess of 1e-9 is rounding and gets clamped.

@@ -1,0 +1,175 @@
+//! One general query after another: which chunks it needs, and what they add up to.
+
+use zerocopy::little_endian::U16;
+
+use super::around::Share;
+use super::contract::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
+use super::place::Place;
+use super::{General, MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::format::{ColumnView, RadianceView};
+use crate::geometry::Side;
+use crate::lanes::Lanes;
+use crate::simd::{Instructions, Kernel};
+
+/// Most chunks around a query, and most altitudes.
+const MOST_AROUND: usize = 16;
+const MOST_ALTITUDES: usize = 4;
+/// Chunks between asking for one and using it.
+const AHEAD: usize = 2;
+
+/// A single query.
+pub(super) struct One<'a, 'b> {
+    pub model: &'b General<'a>,
+    pub conditions: &'b Conditions,
+    pub direction: [f32; 3],
+    pub out: &'b mut [f32],
+}
+
+impl Kernel for One<'_, '_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) -> Result<()> {
+        let query = Query::new(self.model, self.conditions, self.direction)?;
+        query.answer(instructions, self.out)
+    }
+}
+
+/// Where a query stands, and the chunks around it.
+struct Query<'a, 'b> {
+    model: &'b General<'a>,
+    place: Place,
+    columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
+    chunks: [Option<(&'b RadianceView<'a>, Share)>; MOST_AROUND],
+}
+
+impl<'a, 'b> Query<'a, 'b> {
+    #[inline(always)]
+    fn new(model: &'b General<'a>, conditions: &Conditions, direction: [f32; 3]) -> Result<Self> {
+        let mut query = Self {
+            model,
+            place: Place::new(&model.head, &model.axes, conditions, direction)?,
+            columns: [None; MOST_ALTITUDES],
+            chunks: [None; MOST_AROUND],
+        };
+        let mut slots = query.chunks.iter_mut();
+        for (k, (a, altitude)) in query.place.altitudes.taps().enumerate() {
+            let column = model.chunks.column(a);
+            let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
+            query.columns[k] = Some((column, altitude[0] as f32));
+            for (v, visibility) in query.place.visibilities.taps() {
+                let Some(share) = model.interpolation.share(altitude, visibility) else {
+                    continue;
+                };
+                let chunk = model.chunks.radiance(a, v);
+                let chunk = chunk.ok_or_else(|| model.missing("radiance", Some(a), Some(v)))?;
+                if let Some(slot) = slots.next() {
+                    *slot = Some((chunk, share));
+                }
+            }
+        }
+        Ok(query)
+    }
+
+    /// Asks for the numbers of chunk `i`.
+    #[inline(always)]
+    fn fetch<I: Instructions>(&self, instructions: I, i: usize) {
+        let Some((chunk, share)) = self.chunks.get(i).copied().flatten() else {
+            return;
+        };
+        let (rows, n) = (self.heights(chunk), self.model.head.shape.wavelengths);
+        match share.near {
+            true => contract::fetch_chunk(instructions, chunk, rows, &self.place.curve),
+            false => contract::fetch_chunk(instructions, chunk, rows, &self.place.chord),
+        }
+        contract::fetch_level(instructions, chunk, n, &self.place.curve[1]);
+    }
+
+    #[inline(always)]
+    fn answer<I: Instructions>(&self, instructions: I, out: &mut [f32]) -> Result<()> {
+        let Self { model, place, .. } = self;
+        let basis = model.chunks.basis();
+        let basis = basis.ok_or_else(|| model.missing("radiance basis", None, None))?;
+        let wavelengths = model.head.shape.wavelengths;
+        let mut components = [Lanes::splat(0.0); MOST_RANK / WIDTH];
+        let mut level = [Lanes::splat(0.0); 4 * WAVELENGTH_BLOCKS];
+        for i in 0..AHEAD {
+            self.fetch(instructions, i);
+        }
+        for i in 0..MOST_AROUND {
+            self.fetch(instructions, i + AHEAD);
+            let Some((chunk, Share { weight, near })) = self.chunks[i] else {
+                continue;
+            };
+            let rows = self.heights(chunk);
+            let sum = &mut components;
+            match near {
+                true => contract::add_chunk(instructions, chunk, rows, &place.curve, weight, sum),
+                false => contract::add_chunk(instructions, chunk, rows, &place.chord, weight, sum),
+            }
+            let sun = &place.curve[1];
+            contract::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
+        }
+        contract::turn(instructions, basis, &place.phi, &mut components);
+        let mut channels = [0.0; MOST_CHANNELS];
+        contract::project(instructions, basis, &components, &mut channels);
+        let level = contract::level(&level, wavelengths, &place.curve[1]);
+        model
+            .light
+            .mix(place, &channels, &level, &self.densities(), out);
+        Ok(())
+    }
+
+    /// The factor matrix on the ray's side of the horizon.
+    #[inline(always)]
+    fn heights(&self, chunk: &RadianceView<'a>) -> &'a [U16] {
+        match self.place.ray.side {
+            Side::Up => chunk.alpha_up,
+            Side::Down => chunk.alpha_down,
+        }
+    }
+
+    /// ln n̄ of each constituent.
+    #[inline(always)]
+    fn densities(&self) -> [f32; MOST_CONSTITUENTS] {
+        let shape = &self.model.head.shape;
+        let n = shape.constituents;
+        let skipped = match self.place.ray.side {
+            Side::Up => 0,
+            Side::Down => shape.up,
+        };
+        let alpha = &self.place.curve[0];
+        let mut rows = [0.0; 4 * MOST_CONSTITUENTS];
+        for (column, weight) in self.columns.iter().flatten() {
+            let values = &column.values[(skipped + alpha.index[0]) * n..][..4 * n];
+            for (sum, value) in rows.iter_mut().zip(values) {
+                *sum += weight * value.get();
+            }
+        }
+        let mut densities = [0.0; MOST_CONSTITUENTS];
+        for (row, tap) in rows.chunks_exact(n).zip(alpha.weight) {
+            for (sum, value) in densities.iter_mut().zip(row) {
+                *sum += tap * value;
+            }
+        }
+        densities
+    }
+}
+
+impl General<'_> {
+    #[cold]
+    fn missing(
+        &self,
+        kind: &'static str,
+        altitude: Option<usize>,
+        visibility: Option<usize>,
+    ) -> Error {
+        Error::MissingChunk {
+            kind,
+            altitude: altitude.map(|a| self.head.altitudes[a].get()),
+            visibility: visibility.map(|v| self.head.visibilities[v].get()),
+        }
+    }
+}
