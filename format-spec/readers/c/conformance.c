@@ -5,6 +5,33 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#ifdef WELKIN_ZSTD
+#include <zstd.h>
+
+static size_t inflate(void *user, void *out, size_t capacity, const void *frame, size_t length)
+{
+    (void)user;
+    return ZSTD_decompress(out, capacity, frame, length);
+}
+
+/* Replaces a compressed file by the same one without compression. */
+static unsigned char *unpack(welkin_file *file, unsigned char *bytes)
+{
+    size_t length = welkin_unpacked_length(file);
+    unsigned char *unpacked = length ? malloc(length) : NULL;
+    if (!unpacked) return bytes;
+    if (welkin_unpack(file, inflate, NULL, unpacked, length)) fprintf(stderr, "the file does not unpack\n");
+    free(bytes);
+    return unpacked;
+}
+#else
+static unsigned char *unpack(welkin_file *file, unsigned char *bytes)
+{
+    (void)file;
+    return bytes;
+}
+#endif
+
 typedef struct query {
     char quantity[64];
     welkin_conditions conditions;
@@ -70,6 +97,16 @@ static welkin_error answer_transmittance(const welkin_file *file, const query *q
     return error;
 }
 
+static welkin_error answer_in_scatter(const welkin_file *file, const query *q, float *scratch, size_t floats)
+{
+    float light[WELKIN_MAX_WAVELENGTHS];
+    welkin_haze haze;
+    welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
+    if (!error) error = welkin_in_scatter(&haze, q->conditions.altitude, q->direction, q->distance, light);
+    if (!error) print_floats(light, file->wavelengths);
+    return error;
+}
+
 static welkin_error answer_stokes(const welkin_sky *sky, const query *q)
 {
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
@@ -113,6 +150,7 @@ static welkin_error answer(const welkin_file *file, const query *q, unsigned mod
     welkin_sky sky;
     welkin_error error;
     if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);
+    if (strcmp(q->quantity, "in_scatter") == 0) return answer_in_scatter(file, q, scratch, floats);
     error = welkin_prepare(&sky, file, &q->conditions, mode | (stokes ? WELKIN_POLARISED : 0), scratch, floats);
     if (error) return error;
     return stokes ? answer_stokes(&sky, q) : answer_radiance(&sky, q);
@@ -133,7 +171,9 @@ int main(int count, char **arguments)
     }
     opened = welkin_open(&file, bytes, length);
     if (!opened) {
+        bytes = unpack(&file, bytes);
         floats = welkin_scratch_floats(&file, mode | WELKIN_POLARISED);
+        if (floats < welkin_haze_floats(&file)) floats = welkin_haze_floats(&file);
         scratch = malloc(floats * sizeof *scratch);
         if (!scratch) return 2;
     }

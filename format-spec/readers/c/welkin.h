@@ -60,6 +60,7 @@ typedef struct welkin_file {
     size_t wavelength_at, altitude_at, visibility_at, extinction_at, albedo_at, phase_at, xyz_at;
     size_t solar_range_at, solar_at, field_at, metadata_at, directory_at;
     uint32_t rank, polarisation_rank; /* of the bases, 0 if absent */
+    int unpacked;
 } welkin_file;
 
 typedef struct welkin_conditions {
@@ -99,11 +100,35 @@ typedef struct welkin_air {
     double visibility_weight[2];
 } welkin_air;
 
+/* What the air of a scene scatters; private. May be shared by threads. */
+typedef struct welkin_haze {
+    welkin_air air;
+    double sun[3];
+    uint32_t altitudes, suns, degree, orders, rank[4];
+    const unsigned char *altitude, *sine, *factor[4]; /* axes, and the factors of the four modes */
+    uint32_t visibilities, species, phase[16];
+    double weight[4];                /* of the visibilities */
+    const unsigned char *level[4];   /* [field][suns][wavelengths] */
+    float *core[4];                  /* [altitude][sun][moment][channel] */
+    float *extinction, *bounce, *parameter, *scattering;
+} welkin_haze;
+
 /* The name of an error's class. */
 WELKIN_API const char *welkin_error_name(welkin_error error);
 
 /* Checks the head of a file. The bytes must stay as they are while the file or skies of it are in use. */
 WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length);
+
+/* Decodes a zstd frame of `length` bytes into `out`, and returns how many bytes it wrote; anything but `capacity` is a failure.
+ * ZSTD_decompress does what is wanted. */
+typedef size_t welkin_decompress(void *user, void *out, size_t capacity, const void *frame, size_t length);
+
+/* Bytes that welkin_unpack needs, 0 if no chunk is compressed (or if there are too many for a size_t). */
+WELKIN_API size_t welkin_unpacked_length(const welkin_file *file);
+
+/* Writes the same file without compression to `out`, and opens that in place of the compressed one. A chunk that cannot be decoded is an
+ * error where it is used. */
+WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out, size_t capacity);
 
 WELKIN_API double welkin_wavelength(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_altitude(const welkin_file *file, uint32_t index);
@@ -141,6 +166,18 @@ WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *f
 /* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction. */
 WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
                                              float *transmittance);
+
+/* How many floats welkin_haze_prepare needs. */
+WELKIN_API size_t welkin_haze_floats(const welkin_file *file);
+
+/* Reads and checks what scatters light. The altitude of the conditions does not matter. The scratch and the file must outlive the
+ * haze. */
+WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file *file, const welkin_conditions *conditions, float *scratch,
+                                            size_t scratch_floats);
+
+/* Light that the air of a segment scatters towards its start, per unit of solar irradiance, sr^-1, at every wavelength of the file. An
+ * integral over some hundred points: for checks and for tables, not for each pixel. */
+WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light);
 
 #ifdef __cplusplus
 }
@@ -689,6 +726,7 @@ static welkin_error welkin__payload(const welkin_file *f, const welkin__entry *e
     if (!welkin__rank_is_good(f, e) || e->offset > f->length || e->stored > f->length - e->offset) return WELKIN_ERROR_VALUE;
     p = f->bytes + (size_t)e->offset;
     if (~welkin__crc(0xFFFFFFFFu, p, (size_t)e->stored) != e->crc) return WELKIN_ERROR_CHECKSUM;
+    if (e->encoding == 1 && f->unpacked) return WELKIN_ERROR_VALUE; /* did not decode */
     if (e->encoding != 0) return WELKIN_ERROR_ENCODING;
     if (e->raw != e->stored || (expected != 0 && e->raw != expected)) return WELKIN_ERROR_VALUE;
     if (expected != 0 && !welkin__payload_is_finite(e, p)) return WELKIN_ERROR_VALUE;
@@ -696,9 +734,123 @@ static welkin_error welkin__payload(const welkin_file *f, const welkin__entry *e
     return WELKIN_OK;
 }
 
+/* ---- compressed chunks ---- */
+
+static int welkin__is_packed(const welkin__entry *e) { return welkin__is_known(e->kind) && e->encoding == 1; }
+
+/* Bytes of the blocks of a zstd frame (RFC 8878, 3.1.1.2), 0 if they reach beyond the end. */
+static size_t welkin__blocks_length(const unsigned char *p, size_t left)
+{
+    size_t length = 0;
+    uint32_t header, last = 0;
+    while (!last) {
+        uint32_t type, size;
+        if (left - length < 3) return 0;
+        header = welkin__u16(p + length) | (uint32_t)p[length + 2] << 16;
+        last = header & 1;
+        type = header >> 1 & 3;
+        size = type == 1 ? 1 : header >> 3;
+        length += 3;
+        if (type == 3 || size > left - length) return 0;
+        length += size;
+    }
+    return length;
+}
+
+/* Whether the bytes are exactly one zstd frame without dictionary that declares this content size (RFC 8878, 3.1.1). */
+static int welkin__is_frame(const unsigned char *p, size_t length, uint64_t raw)
+{
+    static const unsigned char magic[4] = {0x28, 0xB5, 0x2F, 0xFD}, sizes[4] = {0, 2, 4, 8};
+    size_t start, width, blocks;
+    uint64_t declared = 0;
+    if (length < 6 || memcmp(p, magic, sizeof magic) != 0 || (p[4] & 0x0Bu) != 0) return 0;
+    start = p[4] >> 5 & 1 ? 5 : 6;
+    width = p[4] >> 6 == 0 && start == 5 ? 1 : sizes[p[4] >> 6];
+    if (width == 0 || length - start < width) return 0;
+    if (width == 1) declared = p[start];
+    if (width == 2) declared = welkin__u16(p + start) + 256u;
+    if (width == 4) declared = welkin__u32(p + start);
+    if (width == 8) declared = welkin__u64(p + start);
+    if (declared != raw) return 0;
+    start += width;
+    blocks = welkin__blocks_length(p + start, length - start);
+    return blocks != 0 && length - start - blocks == (p[4] & 4u);
+}
+
+static void welkin__put_u32(unsigned char *p, uint32_t value)
+{
+    int i;
+    for (i = 0; i < 4; i++) p[i] = (unsigned char)(value >> 8 * i & 255u);
+}
+
+static void welkin__put_u64(unsigned char *p, uint64_t value)
+{
+    welkin__put_u32(p, (uint32_t)(value & 0xFFFFFFFFu));
+    welkin__put_u32(p + 4, (uint32_t)(value >> 32));
+}
+
+WELKIN_API size_t welkin_unpacked_length(const welkin_file *f)
+{
+    uint64_t length = f->directory_at + (uint64_t)WELKIN__ENTRY * f->chunk_count;
+    uint32_t i, packed = 0;
+    for (i = 0; i < f->chunk_count; i++) {
+        welkin__entry e = welkin__read_entry(f, i);
+        uint64_t size = welkin__is_packed(&e) && e.raw > e.stored ? e.raw : e.stored;
+        packed += (uint32_t)welkin__is_packed(&e);
+        length = (length + 63) & ~(uint64_t)63;
+        if (size > (SIZE_MAX >> 1) || length > (SIZE_MAX >> 1)) return 0;
+        length += size;
+    }
+    return packed ? (size_t)length : 0;
+}
+
+/* Writes a chunk, decoded if that succeeds, and what its entry says about it; returns its length. */
+static size_t welkin__unpack_chunk(const welkin_file *f, const welkin__entry *e, welkin_decompress *decompress, void *user,
+                                   unsigned char *entry, unsigned char *out)
+{
+    const unsigned char *stored = f->bytes + (size_t)e->offset;
+    size_t length = (size_t)e->stored, raw = (size_t)e->raw;
+    if (welkin__is_packed(e) && ~welkin__crc(0xFFFFFFFFu, stored, length) == e->crc && welkin__is_frame(stored, length, e->raw) &&
+        decompress(user, out, raw, stored, length) == raw) {
+        welkin__put_u64(entry + 16, raw);
+        welkin__put_u32(entry + 32, 0);
+        welkin__put_u32(entry + 36, ~welkin__crc(0xFFFFFFFFu, out, raw));
+        return raw;
+    }
+    memcpy(out, stored, length);
+    return length;
+}
+
+WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out, size_t capacity)
+{
+    unsigned char *bytes = (unsigned char *)out;
+    size_t head = file->directory_at + (size_t)WELKIN__ENTRY * file->chunk_count, length = head;
+    uint32_t i;
+    welkin_error error;
+    if (welkin_unpacked_length(file) == 0) return WELKIN_OK;
+    if (capacity < welkin_unpacked_length(file)) return WELKIN_ERROR_SCRATCH;
+    memset(bytes, 0, capacity);
+    memcpy(bytes, file->bytes, head);
+    for (i = 0; i < file->chunk_count; i++) {
+        welkin__entry e = welkin__read_entry(file, i);
+        unsigned char *entry = bytes + file->directory_at + (size_t)WELKIN__ENTRY * i;
+        if (e.offset > file->length || e.stored > file->length - e.offset) return WELKIN_ERROR_VALUE; /* a mapped file that changed */
+        length = (length + 63) & ~(size_t)63;
+        if (length > capacity || (size_t)(welkin__is_packed(&e) && e.raw > e.stored ? e.raw : e.stored) > capacity - length)
+            return WELKIN_ERROR_VALUE;
+        welkin__put_u64(entry + 8, length);
+        length += welkin__unpack_chunk(file, &e, decompress, user, entry, bytes + length);
+    }
+    welkin__put_u64(bytes + 16, length);
+    welkin__put_u32(bytes + 32, welkin__head_crc(bytes, head));
+    error = welkin_open(file, bytes, length);
+    file->unpacked = 1;
+    return error;
+}
+
 /* ---- interpolation between nodes ---- */
 
-typedef enum welkin__scale { WELKIN__PLAIN, WELKIN__CUBE_ROOT, WELKIN__INVERSE } welkin__scale;
+typedef enum welkin__scale { WELKIN__PLAIN, WELKIN__CUBE_ROOT, WELKIN__INVERSE, WELKIN__SINE } welkin__scale;
 
 typedef struct welkin__stencil {
     uint32_t count, node[4];
@@ -708,6 +860,7 @@ typedef struct welkin__stencil {
 static double welkin__x(welkin__scale scale, double value)
 {
     if (scale == WELKIN__CUBE_ROOT) return cbrt(value);
+    if (scale == WELKIN__SINE) return asinh(12.5 * value);
     return scale == WELKIN__INVERSE ? 1.0 / value : value;
 }
 
@@ -1682,6 +1835,540 @@ WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altit
         transmittance[w] = (float)exp(-depth);
     }
     return WELKIN_OK;
+}
+
+/* ---- light that segments scatter ---- */
+
+#define WELKIN__SUN_RADIUS 0.004654793
+#define WELKIN__PI (2 * WELKIN__HALF_PI)
+#define WELKIN__MAX_MOMENTS 32
+#define WELKIN__MAX_COMPONENTS 64
+#define WELKIN__MAX_HARMONICS 325 /* of degree 24 */
+
+static int welkin__source_ranks_are_good(const unsigned char *p)
+{
+    uint32_t i;
+    for (i = 0; i < 4; i++)
+        if (welkin__u32(p + 4 * i) < 1 || welkin__u32(p + 4 * i) > WELKIN__MAX_COMPONENTS) return 0;
+    return welkin__u32(p + 8) <= WELKIN__MAX_MOMENTS;
+}
+
+static int welkin__steps_are_good(const unsigned char *axis, uint32_t n, double low, double high, double step)
+{
+    uint32_t i;
+    if (!welkin__f64s_are_within(axis, n, low, high)) return 0;
+    for (i = 1; i < n; i++)
+        if (!(welkin__f64(axis + 8 * (size_t)i) - welkin__f64(axis + 8 * (size_t)(i - 1)) >= step)) return 0;
+    return 1;
+}
+
+static uint32_t welkin__harmonic_count(uint32_t degree, uint32_t orders)
+{
+    uint32_t m, count = 0;
+    for (m = 0; m <= orders; m++) count += degree - m + 1;
+    return count;
+}
+
+/* Counts are in their ranges when this is called. */
+static welkin_error welkin__place_source_basis(welkin_haze *haze, const unsigned char *p, uint64_t length)
+{
+    uint32_t i, rows[4], nw = haze->air.file->wavelengths;
+    uint64_t axes = 8 * ((uint64_t)haze->altitudes + haze->suns), factors = 0;
+    rows[0] = haze->altitudes;
+    rows[1] = haze->suns;
+    rows[2] = 4 + welkin__harmonic_count(haze->degree, haze->orders);
+    rows[3] = 2 * nw;
+    haze->altitude = p + 32;
+    haze->sine = haze->altitude + 8 * (size_t)haze->altitudes;
+    for (i = 0; i < 4; i++) {
+        haze->factor[i] = p + 32 + (size_t)(axes + 4 * factors);
+        factors += (uint64_t)rows[i] * haze->rank[i];
+    }
+    if (length != 32 + axes + 4 * factors || (uint64_t)haze->altitudes * nw * haze->rank[2] > 1u << 18) return WELKIN_ERROR_VALUE;
+    if (!welkin__steps_are_good(haze->altitude, haze->altitudes, 0, 1e9, 0.001)) return WELKIN_ERROR_VALUE;
+    if (!welkin__steps_are_good(haze->sine, haze->suns, -1, 1, 1e-9)) return WELKIN_ERROR_VALUE;
+    return welkin__f32s_are_finite(haze->factor[0], (size_t)factors) ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+static welkin_error welkin__read_source_basis(welkin_haze *haze, const welkin__entry *entry)
+{
+    const unsigned char *p;
+    uint32_t i;
+    welkin_error error = welkin__payload(haze->air.file, entry, &p);
+    if (error) return error;
+    if (entry->raw < 32 || !welkin__source_ranks_are_good(p + 16)) return WELKIN_ERROR_VALUE;
+    haze->altitudes = welkin__u32(p);
+    haze->suns = welkin__u32(p + 4);
+    haze->degree = welkin__u32(p + 8);
+    haze->orders = welkin__u32(p + 12);
+    for (i = 0; i < 4; i++) haze->rank[i] = welkin__u32(p + 16 + 4 * i);
+    if (haze->altitudes < 2 || haze->altitudes > 256 || haze->suns < 2 || haze->suns > 256) return WELKIN_ERROR_VALUE;
+    if (haze->degree > 24 || haze->orders > haze->degree) return WELKIN_ERROR_VALUE;
+    return welkin__place_source_basis(haze, p, entry->raw);
+}
+
+/* Where the tables of a source chunk are. */
+typedef struct welkin__source {
+    uint32_t species;
+    const unsigned char *phase, *parameter, *scattering, *level, *core;
+    double scale;
+} welkin__source;
+
+static size_t welkin__core_size(const welkin_haze *haze)
+{
+    return (size_t)haze->rank[0] * haze->rank[1] * haze->rank[2] * haze->rank[3];
+}
+
+static int welkin__species_are_good(const welkin_haze *haze, const welkin__source *source)
+{
+    size_t nw = haze->air.file->wavelengths, p, w;
+    for (p = 0; p < source->species; p++) {
+        uint32_t phase = welkin__u32(source->phase + 4 * p);
+        if (phase != 1 && phase != 2) return 0;
+        for (w = 0; w < nw; w++)
+            if (!welkin__parameter_is_good(phase, (double)welkin__f32(source->parameter + 4 * (p * nw + w)))) return 0;
+    }
+    return welkin__densities_are_good(source->scattering, source->species * (size_t)haze->air.file->constituents * nw);
+}
+
+/* Checks a source and that it fits the basis. */
+static welkin_error welkin__read_source(const welkin_haze *haze, const welkin__entry *entry, welkin__source *source)
+{
+    const welkin_file *f = haze->air.file;
+    const unsigned char *p;
+    size_t nw = f->wavelengths, levels = 2 * nw, core = welkin__core_size(haze);
+    uint32_t suns, i;
+    welkin_error error = welkin__payload(f, entry, &p);
+    if (error) return error;
+    if (entry->raw < 32 || !welkin__source_ranks_are_good(p + 8)) return WELKIN_ERROR_VALUE;
+    source->species = welkin__u32(p);
+    suns = welkin__u32(p + 4);
+    if (source->species < 1 || source->species > 16 || suns != haze->suns) return WELKIN_ERROR_VALUE;
+    for (i = 0; i < 4; i++)
+        if (welkin__u32(p + 8 + 4 * i) != haze->rank[i]) return WELKIN_ERROR_VALUE;
+    levels *= suns;
+    source->scale = (double)welkin__f32(p + 24);
+    source->phase = p + 32;
+    source->parameter = source->phase + 4 * (size_t)source->species;
+    source->scattering = source->parameter + 4 * source->species * nw;
+    source->level = source->scattering + 4 * source->species * f->constituents * nw;
+    source->core = source->level + 4 * levels;
+    if (entry->raw != 32 + 4 * (source->species * (1 + nw + f->constituents * nw) + levels) + 2 * core) return WELKIN_ERROR_VALUE;
+    if (!welkin__f32s_are_finite(p + 24, 1) || !welkin__f32s_are_finite(source->level, levels)) return WELKIN_ERROR_VALUE;
+    if (!welkin__f16s_are_finite(source->core, core) || !welkin__species_are_good(haze, source)) return WELKIN_ERROR_VALUE;
+    return WELKIN_OK;
+}
+
+/* An upper bound that follows from the directory alone. */
+WELKIN_API size_t welkin_haze_floats(const welkin_file *f)
+{
+    size_t longest = 0;
+    uint32_t i;
+    for (i = 0; i < f->chunk_count; i++) {
+        welkin__entry e = welkin__read_entry(f, i);
+        if (e.kind == WELKIN__SOURCE && e.raw > longest) longest = (size_t)e.raw;
+    }
+    return 2 * longest + longest / 4 + (size_t)(f->constituents + 1) * f->wavelengths;
+}
+
+/* Widens the core, and adds the species of visibilities that count linearly. */
+static void welkin__take_source(welkin_haze *haze, const welkin__source *source, uint32_t m, double linear)
+{
+    size_t nw = haze->air.file->wavelengths, core = welkin__core_size(haze), i;
+    haze->level[m] = source->level;
+    for (i = 0; i < core; i++) haze->core[m][i] = welkin__narrow(source->scale * (double)welkin__f16(source->core + 2 * i));
+    for (i = 0; i < haze->species * nw; i++) {
+        float *sum = &haze->parameter[i];
+        *sum = welkin__narrow((double)*sum + linear * (double)welkin__f32(source->parameter + 4 * i));
+    }
+    for (i = 0; i < haze->species * nw * haze->air.file->constituents; i++) {
+        float *sum = &haze->scattering[i];
+        *sum = welkin__narrow((double)*sum + linear * (double)welkin__f32(source->scattering + 4 * i));
+    }
+}
+
+static int welkin__same_species(const welkin_haze *haze, const welkin__source *source)
+{
+    uint32_t i;
+    if (source->species != haze->species) return 0;
+    for (i = 0; i < haze->species; i++)
+        if (welkin__u32(source->phase + 4 * (size_t)i) != haze->phase[i]) return 0;
+    return 1;
+}
+
+static double welkin__weight_of(const welkin__stencil *s, uint32_t node)
+{
+    uint32_t i;
+    double weight = 0;
+    for (i = 0; i < s->count; i++)
+        if (s->node[i] == node) weight += s->weight[i];
+    return weight;
+}
+
+static welkin_error welkin__read_sources(welkin_haze *haze, const welkin__entry *entries, const welkin__stencil *linear, float **scratch)
+{
+    const welkin_file *f = haze->air.file;
+    uint32_t m, i;
+    for (m = 0; m < haze->visibilities; m++) {
+        welkin__source source;
+        welkin_error error = welkin__read_source(haze, &entries[m], &source);
+        if (error) return error;
+        if (m == 0) {
+            haze->species = source.species;
+            for (i = 0; i < source.species; i++) haze->phase[i] = welkin__u32(source.phase + 4 * (size_t)i);
+            haze->parameter = welkin__carve(scratch, (size_t)source.species * f->wavelengths);
+            haze->scattering = welkin__carve(scratch, (size_t)source.species * f->constituents * f->wavelengths);
+        }
+        if (!welkin__same_species(haze, &source)) return WELKIN_ERROR_VALUE;
+        haze->core[m] = welkin__carve(scratch, welkin__core_size(haze));
+        welkin__take_source(haze, &source, m, welkin__weight_of(linear, entries[m].visibility));
+    }
+    return WELKIN_OK;
+}
+
+static void welkin__prepare_haze_tables(welkin_haze *haze, const welkin_conditions *c, const welkin__stencil *linear, float **scratch)
+{
+    const welkin_file *f = haze->air.file;
+    size_t nw = f->wavelengths, air = f->constituents * nw, i;
+    haze->extinction = welkin__carve(scratch, air);
+    haze->bounce = welkin__carve(scratch, nw);
+    for (i = 0; i < air; i++) haze->extinction[i] = welkin__narrow(welkin__head_value(f, f->extinction_at, air, i, linear));
+    for (i = 0; i < nw; i++) {
+        double share = 1 - c->albedo * welkin__head_value(f, f->albedo_at, nw, i, linear);
+        haze->bounce[i] = welkin__narrow(c->albedo / (share > DBL_EPSILON ? share : DBL_EPSILON));
+    }
+    haze->sun[0] = cos(c->solar_elevation) * cos(c->solar_azimuth);
+    haze->sun[1] = cos(c->solar_elevation) * sin(c->solar_azimuth);
+    haze->sun[2] = sin(c->solar_elevation);
+}
+
+static welkin_error welkin__find_sources(welkin_haze *haze, const welkin__stencil *b, welkin__entry *basis, welkin__entry *entries)
+{
+    uint32_t m;
+    if (welkin__find(haze->air.file, WELKIN__TRANSMITTANCE, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
+    if (welkin__find(haze->air.file, WELKIN__SOURCE_BASIS, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
+    for (m = 0; m < b->count; m++) {
+        if (b->weight[m] == 0) continue;
+        if (welkin__find(haze->air.file, WELKIN__SOURCE, WELKIN__NONE, b->node[m], &entries[haze->visibilities])) return WELKIN_ERROR_MISSING;
+        haze->weight[haze->visibilities++] = b->weight[m];
+    }
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file *file, const welkin_conditions *conditions, float *scratch,
+                                            size_t scratch_floats)
+{
+    const unsigned char *axis = file->bytes + file->visibility_at;
+    welkin_conditions c = *conditions;
+    welkin__stencil cubic, linear;
+    welkin__entry basis, entries[4];
+    welkin_error error;
+    memset(haze, 0, sizeof *haze);
+    haze->air.file = file;
+    c.altitude = welkin_altitude(file, 0);
+    if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
+    cubic = welkin__cubic(axis, file->visibilities, c.visibility, WELKIN__INVERSE);
+    linear = welkin__linear(axis, file->visibilities, c.visibility, WELKIN__INVERSE);
+    error = welkin__find_sources(haze, &cubic, &basis, entries);
+    if (error) return error;
+    if (scratch_floats < welkin_haze_floats(file)) return WELKIN_ERROR_SCRATCH;
+    error = welkin_air_prepare(&haze->air, file, c.visibility);
+    if (!error) error = welkin__read_source_basis(haze, &basis);
+    if (error) return error;
+    welkin__prepare_haze_tables(haze, &c, &linear, &scratch);
+    return welkin__read_sources(haze, entries, &linear, &scratch);
+}
+
+/* A point of a segment, and what is where there. */
+typedef struct welkin__spot {
+    double up[3], altitude, sine, cos_theta, sin_theta, cos_phi; /* sine of the sun's elevation; the view direction around the vertical */
+} welkin__spot;
+
+static double welkin__dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, const double v[3], double s)
+{
+    welkin__spot spot;
+    double radius = haze->air.file->planet_radius, distance, both, across = 0;
+    int i;
+    for (i = 0; i < 3; i++) spot.up[i] = s * v[i];
+    spot.up[2] += radius + altitude;
+    distance = sqrt(welkin__dot(spot.up, spot.up));
+    for (i = 0; i < 3; i++) spot.up[i] = distance > 0 ? spot.up[i] / distance : (double)(i == 2);
+    spot.altitude = fmax(0, distance - radius);
+    spot.sine = fmin(fmax(welkin__dot(spot.up, haze->sun), -1), 1);
+    spot.cos_theta = fmin(fmax(welkin__dot(spot.up, v), -1), 1);
+    spot.sin_theta = sqrt(1 - spot.cos_theta * spot.cos_theta);
+    for (i = 0; i < 3; i++) across += (v[i] - spot.cos_theta * spot.up[i]) * (haze->sun[i] - spot.sine * spot.up[i]);
+    both = spot.sin_theta * sqrt(1 - spot.sine * spot.sine);
+    spot.cos_phi = both > 1e-12 ? fmin(fmax(across / both, -1), 1) : 1;
+    return spot;
+}
+
+/* The profiles of the constituents at an altitude from the ground on. */
+static void welkin__profiles(const welkin_air *air, double altitude, double *profile)
+{
+    size_t nk = air->file->constituents, k;
+    double radius = air->file->planet_radius, bottom, top, t;
+    uint32_t i = welkin__node_below(air->edges, air->layers + 1, altitude);
+    const unsigned char *d = air->densities + 8 * i * nk;
+    for (k = 0; k < nk; k++) profile[k] = 0;
+    if (i >= air->layers) return;
+    bottom = welkin__f64(air->edges + 8 * (size_t)i);
+    top = welkin__f64(air->edges + 8 * (size_t)(i + 1));
+    t = (altitude - bottom) * (1 + (altitude + bottom) / (2 * radius)) / ((top - bottom) * (1 + (top + bottom) / (2 * radius)));
+    for (k = 0; k < nk; k++)
+        profile[k] = (1 - t) * (1 - t) * (double)welkin__f32(d + 4 * k) + 2 * t * (1 - t) * (double)welkin__f32(d + 4 * (nk + k)) +
+                     t * t * (double)welkin__f32(d + 4 * (2 * nk + k));
+}
+
+static void welkin__attenuate(const welkin_haze *haze, const double *columns, double *transmittance)
+{
+    size_t nw = haze->air.file->wavelengths, w, k;
+    for (w = 0; w < nw; w++) {
+        double depth = 0;
+        for (k = 0; k < haze->air.file->constituents; k++) depth += columns[k] * (double)haze->extinction[k * nw + w];
+        transmittance[w] = exp(-depth);
+    }
+}
+
+/* D: the share of the disc above the horizon times the transmittance towards the centroid of that share. */
+static void welkin__sunlight(const welkin_haze *haze, const welkin__spot *spot, double *light)
+{
+    const welkin_file *f = haze->air.file;
+    double radius = f->planet_radius, h = spot->altitude, columns[WELKIN_MAX_CONSTITUENTS] = {0};
+    double e = asin(spot->sine), dip = atan(sqrt(h * (2 * radius + h)) / radius);
+    double c = fmin(fmax((e + dip) / WELKIN__SUN_RADIUS, -1), 1), rest = 1 - c * c, area = WELKIN__HALF_PI + c * sqrt(rest) + asin(c);
+    welkin__line line;
+    uint32_t w;
+    if (!(area > 0)) {
+        for (w = 0; w < f->wavelengths; w++) light[w] = 0;
+        return;
+    }
+    line.radius = radius;
+    line.start = (radius + h) * sin(e + WELKIN__SUN_RADIUS * 2 / 3 * rest * sqrt(rest) / area);
+    line.end = 4 * (radius + h + f->top_altitude);
+    line.low = h + (h * h - line.start * line.start) / (2 * radius);
+    welkin__integrate(&haze->air, &line, columns);
+    welkin__attenuate(haze, columns, light);
+    for (w = 0; w < f->wavelengths; w++) light[w] *= area / WELKIN__PI;
+}
+
+/* Rows of a factor mixed by a stencil. */
+static void welkin__mix(const unsigned char *factor, uint32_t rank, const welkin__stencil *s, double *out)
+{
+    uint32_t i, r;
+    for (r = 0; r < rank; r++) {
+        out[r] = 0;
+        for (i = 0; i < s->count; i++) out[r] += s->weight[i] * (double)welkin__f32(factor + 4 * ((size_t)s->node[i] * rank + r));
+    }
+}
+
+static welkin__stencil welkin__at_nodes(const unsigned char *axis, uint32_t n, double value, welkin__scale scale)
+{
+    value = fmin(fmax(value, welkin__f64(axis)), welkin__f64(axis + 8 * (size_t)(n - 1)));
+    return welkin__cubic(axis, n, value, scale);
+}
+
+/* N_lm P_lm(cos theta) cos(m phi) in the order of the file. */
+static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot, double *values)
+{
+    double diagonal = sqrt(0.25 / WELKIN__PI), azimuthal = 1, before_azimuthal = spot->cos_phi, x = spot->cos_theta;
+    uint32_t m, l;
+    for (m = 0; m <= haze->orders; m++) {
+        double value, before = 0, last = 0;
+        if (m > 0) {
+            double next = 2 * spot->cos_phi * azimuthal - before_azimuthal;
+            before_azimuthal = azimuthal;
+            azimuthal = next;
+            diagonal *= sqrt((2.0 * m + 1) / (2.0 * m)) * spot->sin_theta;
+        }
+        value = diagonal;
+        for (l = m; l <= haze->degree; l++) {
+            double next, a = sqrt((4.0 * (l + 1) * (l + 1) - 1) / ((double)(l + 1) * (l + 1) - (double)m * m));
+            *values++ = value * azimuthal * (m > 0 ? sqrt(2) : 1);
+            next = a * (x * value - before * last);
+            before = 1 / a;
+            last = value;
+            value = next;
+        }
+    }
+}
+
+/* How the components of the moments look to molecules and to particles. */
+static void welkin__see(const welkin_haze *haze, const welkin__spot *spot, double (*seen)[WELKIN__MAX_MOMENTS])
+{
+    double tensor[4], harmonics[WELKIN__MAX_HARMONICS], c2 = spot->cos_theta * spot->cos_theta, f2 = spot->cos_phi * spot->cos_phi;
+    uint32_t b, i, rm = haze->rank[2], nh = welkin__harmonic_count(haze->degree, haze->orders);
+    tensor[0] = c2 * f2 + 1 - f2;
+    tensor[1] = c2 * (1 - f2) + f2;
+    tensor[2] = 1 - c2;
+    tensor[3] = -2 * spot->sin_theta * spot->cos_theta * spot->cos_phi;
+    welkin__harmonics(haze, spot, harmonics);
+    for (b = 0; b < rm; b++) {
+        seen[0][b] = seen[1][b] = 0;
+        for (i = 0; i < 4; i++) seen[0][b] += tensor[i] * (double)welkin__f32(haze->factor[2] + 4 * ((size_t)i * rm + b));
+        for (i = 0; i < nh; i++) seen[1][b] += harmonics[i] * (double)welkin__f32(haze->factor[2] + 4 * ((size_t)(4 + i) * rm + b));
+    }
+}
+
+/* The core of a visibility at an altitude and sun, seen by molecules and by particles: [2][channel components]. */
+static void welkin__contract(const welkin_haze *haze, uint32_t visibility, const double *a, const double *s,
+                             double (*seen)[WELKIN__MAX_MOMENTS], double (*out)[WELKIN__MAX_COMPONENTS])
+{
+    float sum[WELKIN__MAX_MOMENTS * WELKIN__MAX_COMPONENTS];
+    const float *core = haze->core[visibility];
+    uint32_t i, j, b, c, rc = haze->rank[3], width = haze->rank[2] * rc;
+    for (c = 0; c < width; c++) sum[c] = 0;
+    for (i = 0; i < haze->rank[0]; i++)
+        for (j = 0; j < haze->rank[1]; j++, core += width) {
+            float weight = welkin__narrow(a[i] * s[j]);
+            for (c = 0; c < width; c++) sum[c] += weight * core[c];
+        }
+    for (i = 0; i < 2; i++)
+        for (c = 0; c < rc; c++)
+            for (out[i][c] = 0, b = 0; b < haze->rank[2]; b++) out[i][c] += seen[i][b] * (double)sum[b * rc + c];
+}
+
+static double welkin__level_at(const welkin_haze *haze, uint32_t visibility, const welkin__stencil *sun, uint32_t field, uint32_t w)
+{
+    double sum = 0;
+    uint32_t i, nw = haze->air.file->wavelengths;
+    for (i = 0; i < sun->count; i++)
+        sum += sun->weight[i] * (double)welkin__f32(haze->level[visibility] + 4 * (((size_t)field * haze->suns + sun->node[i]) * nw + w));
+    return sum;
+}
+
+/* S_R and S_A at every wavelength. */
+static void welkin__sources(const welkin_haze *haze, const welkin__spot *spot, double (*out)[WELKIN_MAX_WAVELENGTHS])
+{
+    welkin__stencil altitude = welkin__at_nodes(haze->altitude, haze->altitudes, spot->altitude, WELKIN__CUBE_ROOT);
+    welkin__stencil sun = welkin__at_nodes(haze->sine, haze->suns, spot->sine, WELKIN__SINE);
+    double a[WELKIN__MAX_COMPONENTS], s[WELKIN__MAX_COMPONENTS], seen[2][WELKIN__MAX_MOMENTS], part[2][WELKIN__MAX_COMPONENTS];
+    double logarithm[WELKIN_MAX_WAVELENGTHS] = {0};
+    uint32_t m, w, i, c, f, rc = haze->rank[3], nw = haze->air.file->wavelengths;
+    welkin__mix(haze->factor[0], haze->rank[0], &altitude, a);
+    welkin__mix(haze->factor[1], haze->rank[1], &sun, s);
+    welkin__see(haze, spot, seen);
+    for (w = 0; w < nw; w++) out[0][w] = out[1][w] = 0;
+    for (m = 0; m < haze->visibilities; m++) {
+        welkin__contract(haze, m, a, s, seen, part);
+        for (w = 0; w < nw; w++) {
+            double air = welkin__level_at(haze, m, &sun, 0, w), ground = welkin__level_at(haze, m, &sun, 1, w);
+            double share[2] = {1, 0};
+            share[1] = (double)haze->bounce[w] * exp(ground - air);
+            logarithm[w] += haze->weight[m] * air;
+            for (i = 0; i < 2; i++)
+                for (f = 0; f < 2; f++)
+                    for (c = 0; c < rc; c++)
+                        out[i][w] += haze->weight[m] * share[f] * part[i][c] *
+                                     (double)welkin__f32(haze->factor[3] + 4 * (((size_t)f * nw + w) * rc + c));
+        }
+    }
+    for (w = 0; w < nw; w++)
+        for (i = 0; i < 2; i++) out[i][w] = exp(logarithm[w]) * (out[i][w] < 0 ? 0 : out[i][w]);
+}
+
+/* Times 4 pi. */
+static double welkin__phase_value(uint32_t phase, double p, const double v[3], const double sun[3])
+{
+    double less = 0, plus = 0, cosine = welkin__dot(v, sun), delta = (1 - p) / (1 + p / 2), size = fabs(p), x;
+    int i;
+    if (phase == 1) return delta * 0.75 * (1 + cosine * cosine) + 1 - delta;
+    for (i = 0; i < 3; i++) {
+        less += (v[i] - sun[i]) * (v[i] - sun[i]) / 2;
+        plus += (v[i] + sun[i]) * (v[i] + sun[i]) / 2;
+    }
+    x = (1 - size) * (1 - size) + 2 * size * (p > 0 ? less : plus);
+    return (1 - size) * (1 + size) / (x * sqrt(x));
+}
+
+/* Light per metre that the air of a point sends along the segment. */
+static void welkin__emission(const welkin_haze *haze, const welkin__spot *spot, const double v[3], double *light)
+{
+    double profile[WELKIN_MAX_CONSTITUENTS], sunlight[WELKIN_MAX_WAVELENGTHS], source[2][WELKIN_MAX_WAVELENGTHS];
+    size_t nw = haze->air.file->wavelengths, nk = haze->air.file->constituents, w, k;
+    uint32_t p;
+    welkin__profiles(&haze->air, spot->altitude, profile);
+    welkin__sunlight(haze, spot, sunlight);
+    welkin__sources(haze, spot, source);
+    for (w = 0; w < nw; w++) light[w] = 0;
+    for (p = 0; p < haze->species; p++)
+        for (w = 0; w < nw; w++) {
+            double once = welkin__phase_value(haze->phase[p], (double)haze->parameter[p * nw + w], v, haze->sun) * sunlight[w];
+            double scattering = 0;
+            for (k = 0; k < nk; k++) scattering += (double)haze->scattering[(p * nk + k) * nw + w] * profile[k];
+            light[w] += scattering * (once / (4 * WELKIN__PI) + source[haze->phase[p] == 1 ? 0 : 1][w]);
+        }
+}
+
+/* Ends of intervals between two distances from the tangent point, ever closer towards the start and towards the lowest point. */
+static uint32_t welkin__intervals(double start, double end, double *ends)
+{
+    double length = end - start, lowest = fmin(fmax(0, start), end), step = 1;
+    uint32_t n = 0, i, j;
+    ends[n++] = start;
+    ends[n++] = end;
+    ends[n++] = lowest;
+    for (i = 1; i <= 10; i++) {
+        step /= 2;
+        ends[n++] = start + length * step;
+        ends[n++] = fmax(start, lowest - length * step);
+        ends[n++] = fmin(end, lowest + length * step);
+    }
+    for (i = 1; i < 8; i++) ends[n++] = start + length * i / 8;
+    for (i = 1; i < n; i++)
+        for (j = i; j > 0 && ends[j - 1] > ends[j]; j--) {
+            double swap = ends[j];
+            ends[j] = ends[j - 1];
+            ends[j - 1] = swap;
+        }
+    return n;
+}
+
+/* The segment from an altitude along a unit vector; Gauss-Legendre rule of three points in each interval. */
+static void welkin__gather(const welkin_haze *haze, double altitude, const double v[3], const welkin__line *segment, double *sum)
+{
+    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const welkin_file *f = haze->air.file;
+    double top = f->top_altitude + f->top_altitude * f->top_altitude / (2 * f->planet_radius), reach = welkin__crossing(segment, top);
+    double ends[64], columns[WELKIN_MAX_CONSTITUENTS] = {0}, light[WELKIN_MAX_WAVELENGTHS], through[WELKIN_MAX_WAVELENGTHS];
+    double start = fmax(segment->start, -reach), end = fmin(segment->end, reach);
+    welkin__line piece = *segment;
+    uint32_t i, j, w, n;
+    piece.end = start;
+    n = end > start ? welkin__intervals(start, end, ends) : 0;
+    for (i = 1; i < n; i++)
+        for (j = 0; j < 3 && ends[i] > ends[i - 1]; j++) {
+            double half = (ends[i] - ends[i - 1]) / 2, s = ends[i - 1] + half * (1 + node[j]);
+            welkin__spot spot = welkin__spot_at(haze, altitude, v, s - segment->start);
+            piece.start = piece.end;
+            piece.end = s;
+            welkin__integrate(&haze->air, &piece, columns);
+            welkin__attenuate(haze, columns, through);
+            welkin__emission(haze, &spot, v, light);
+            for (w = 0; w < f->wavelengths; w++) sum[w] += 2 * half * weight[j] * through[w] * light[w];
+        }
+}
+
+WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light)
+{
+    double v[3], sum[WELKIN_MAX_WAVELENGTHS] = {0}, radius = haze->air.file->planet_radius;
+    welkin__line line;
+    int good = 1;
+    uint32_t w;
+    welkin_error error = welkin__segment(altitude, direction, distance, v);
+    if (error) return error;
+    line.radius = radius;
+    line.start = (radius + altitude) * v[2];
+    line.end = line.start + distance;
+    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
+    welkin__gather(haze, altitude, v, &line, sum);
+    for (w = 0; w < haze->air.file->wavelengths; w++) {
+        light[w] = welkin__narrow(sum[w]);
+        good &= sum[w] >= 0 && sum[w] <= (double)FLT_MAX;
+    }
+    return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
 #endif /* WELKIN_IMPLEMENTATION */
