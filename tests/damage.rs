@@ -43,33 +43,71 @@ fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
     Ok(bits)
 }
 
+/// Transmittance and light of segments, as bits.
+fn segments(bytes: Vec<u8>) -> Result<Vec<u32>> {
+    let model = Model::from_bytes(bytes)?;
+    let haze = model.haze(&Conditions {
+        visibility: 45e3,
+        solar_elevation: 0.02,
+        ..Conditions::default()
+    })?;
+    let n = haze.wavelengths().len();
+    let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+    let mut bits = Vec::new();
+    for end in DIRECTIONS.map(|d| d.map(|v| 5e4 * f64::from(v))) {
+        haze.in_scatter([0.0, 0.0, 10.0], end, &mut light, &mut through)?;
+        assert!(
+            light.iter().all(|l| l.is_finite() && *l >= 0.0),
+            "{light:?}"
+        );
+        assert!(
+            through.iter().all(|t| (0.0..=1.0).contains(t)),
+            "{through:?}"
+        );
+        bits.extend(light.iter().chain(&through).map(|v| v.to_bits()));
+    }
+    Ok(bits)
+}
+
+type Ask = fn(Vec<u8>) -> Result<Vec<u32>>;
+
+/// The smallest files that have everything, and what is asked about them.
+fn files() -> [(Vec<u8>, Ask); 2] {
+    [
+        (common::tiny_bytes(), answers),
+        (common::haze::tiny_bytes(), segments),
+    ]
+}
+
 #[test]
 fn every_truncation_is_refused() {
-    let bytes = common::tiny_bytes();
-    for length in 0..bytes.len() {
-        assert!(parse(&bytes[..length]).is_err(), "{length}");
+    for (bytes, _) in files() {
+        for length in 0..bytes.len() {
+            assert!(parse(&bytes[..length]).is_err(), "{length}");
+        }
     }
 }
 
 #[test]
 fn every_flip_is_refused_or_changes_nothing() {
-    let bytes = common::tiny_bytes();
-    let expected = answers(bytes.clone()).unwrap();
-    let mut refused = 0;
-    for i in 0..bytes.len() {
-        for mask in [1 << (i % 8), 0xff] {
-            let mut damaged = bytes.clone();
-            damaged[i] ^= mask;
-            match answers(damaged) {
-                Ok(got) => assert_eq!(got, expected, "byte {i}"),
-                Err(_) => refused += 1,
+    for (bytes, ask) in files() {
+        let expected = ask(bytes.clone()).unwrap();
+        let mut refused = 0;
+        for i in 0..bytes.len() {
+            for mask in [1 << (i % 8), 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[i] ^= mask;
+                match ask(damaged) {
+                    Ok(got) => assert_eq!(got, expected, "byte {i}"),
+                    Err(_) => refused += 1,
+                }
             }
         }
+        // Only the zeros between the chunks are not covered by a checksum.
+        let contents = parse(&bytes).unwrap();
+        let chunks: usize = contents.directory.iter().map(|e| e.length).sum();
+        assert_eq!(refused, 2 * (contents.head_length + chunks));
     }
-    // Only the zeros between the chunks are not covered by a checksum.
-    let contents = parse(&bytes).unwrap();
-    let chunks: usize = contents.directory.iter().map(|e| e.length).sum();
-    assert_eq!(refused, 2 * (contents.head_length + chunks));
 }
 
 fn hostile() -> impl Strategy<Value = (usize, Vec<u8>)> {
@@ -100,8 +138,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn forged_files_are_refused_or_give_numbers(edits in prop::collection::vec(hostile(), 1..4), aligned in any::<bool>()) {
-        let original = common::tiny_bytes();
+    fn forged_files_are_refused_or_give_numbers(
+        edits in prop::collection::vec(hostile(), 1..4), aligned in any::<bool>(), file in 0..2usize,
+    ) {
+        let (original, ask) = files()[file].clone();
         let mut forged = original.clone();
         for (position, bytes) in edits {
             let mut at = position % (forged.len() - 8);
@@ -111,7 +151,7 @@ proptest! {
             forged[at..at + bytes.len()].copy_from_slice(&bytes);
         }
         common::seal(&mut forged, &original);
-        let _ = answers(forged);
+        let _ = ask(forged);
     }
 }
 

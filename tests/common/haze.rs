@@ -1,7 +1,7 @@
 //! What finite segments need: the air and a synthetic source.
 
 use welkin::format::{
-    Chunk, Head, Payload, PhaseFunction, SOURCE_FIELDS, SourceBasis, SourceCore, harmonics,
+    Chunk, Head, Payload, PhaseFunction, SOURCE_FIELDS, SourceBasis, SourceCore, encode, harmonics,
 };
 
 use super::{densities, wave};
@@ -107,4 +107,12 @@ fn source(head: &Head, v: usize) -> SourceCore {
         level: level.collect(),
         core: core.collect(),
     }
+}
+
+/// One altitude, two visibilities, short axes, and no radiance: for exhaustive damage.
+pub fn tiny_bytes() -> Vec<u8> {
+    let mut head = super::head_with(&[0.0], &[40e3, 60e3], 2);
+    head.solar_step = 460.0;
+    head.solar_irradiance = vec![1.0, 1.5];
+    encode(&head, &chunks(&head, 0.2)).expect("a valid model")
 }
