@@ -109,6 +109,11 @@ fn a_wider_tolerance_keeps_less_and_is_kept() {
         let p99 = report["difference_to_source"]["p99"].as_f64().unwrap();
         let promise: f64 = tolerance.trim_end_matches('%').parse().unwrap();
         assert!(p99 <= promise / 100.0, "{p99} for {tolerance}");
+        // The chunks of the source say 0.1 % and 1 %.
+        let against_data = &report["error_against_data"];
+        assert_eq!(against_data["worst_chunk_median"], 0.001);
+        let bound = against_data["p99"].as_f64().unwrap();
+        assert!((bound - 0.01 - p99).abs() < 1e-8, "{bound}");
         let chunks = report["chunks"].as_u64().unwrap();
         assert!(chunks <= last);
         last = chunks;

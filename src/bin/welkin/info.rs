@@ -8,7 +8,7 @@ use welkin::Model;
 use welkin::format::{Entry, Kind, VERSION_MAJOR};
 
 use crate::Source;
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -20,9 +20,6 @@ pub struct Options {
     /// Write JSON.
     #[arg(long)]
     json: bool,
-    /// Read and verify all chunks too.
-    #[arg(long)]
-    verify: bool,
 }
 
 pub fn run(options: &Options) -> Result<()> {
@@ -33,12 +30,7 @@ pub fn run(options: &Options) -> Result<()> {
             .or_else(|| options.source.model.clone()),
     };
     let model = source.open()?;
-    if options.verify {
-        model
-            .verify()
-            .map_err(|error| Failure::message(format!("{}: {error}", source.name())))?;
-    }
-    let description = describe(&model, options.verify);
+    let description = describe(&model);
     let mut out = std::io::stdout().lock();
     if options.json {
         writeln!(out, "{description:#}")?;
@@ -54,7 +46,7 @@ pub fn run(options: &Options) -> Result<()> {
     chunk_table(&mut out, &model)
 }
 
-fn describe(model: &Model, verified: bool) -> Value {
+fn describe(model: &Model) -> Value {
     let head = model.head();
     let metadata: Value = serde_json::from_str(&head.metadata).unwrap_or(Value::Null);
     let chunks: Vec<Value> = model.directory().iter().map(|e| chunk(model, e)).collect();
@@ -82,7 +74,6 @@ fn describe(model: &Model, verified: bool) -> Value {
         "worst_error_p99": worst(model, Kind::Radiance, |e| e.error_p99),
         "worst_polarisation_error_median": worst(model, Kind::Polarisation, |e| e.error_median),
         "worst_polarisation_error_p99": worst(model, Kind::Polarisation, |e| e.error_p99),
-        "verified": verified,
         "metadata": metadata,
         "chunks": chunks,
     })

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 use welkin::Model;
 use welkin::format::{
-    ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, recode, replace_file, unpack,
+    Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, recode, replace_file, unpack,
 };
 
 use crate::Source;
@@ -109,6 +109,7 @@ pub fn run(options: &Options) -> Result<()> {
         }
     };
     let mut report = report(&scope, quantity, &differences);
+    report["error_against_data"] = promise(&chunks, &differences);
     head.metadata = with_report(&head.metadata, &report);
     let encoding = match options.zstd {
         true => ENCODING_ZSTD,
@@ -193,6 +194,29 @@ fn report(scope: &Scope, quantity: Quantity, differences: &Differences) -> Value
     })
 }
 
+/// What the new file promises: the errors of its worst chunk, which are those of the source since chunks do not change, plus the
+/// difference to the source, which is all that fewer nodes and wavelengths add. Null if the source does not know its errors.
+fn promise(chunks: &[Chunk], differences: &Differences) -> Value {
+    let radiance = chunks
+        .iter()
+        .filter(|chunk| matches!(chunk.payload, Payload::Radiance(_)));
+    let worst = |error: fn(&Chunk) -> f32| {
+        let errors = radiance.clone().map(error);
+        let worst = errors.reduce(|a, b| if a > 0.0 && b > 0.0 { a.max(b) } else { 0.0 });
+        worst.map(|error| (f64::from(error) * 1e9).round() / 1e9)
+    };
+    let sum = |error: fn(&Chunk) -> f32, quantile: f64| {
+        let known = worst(error).filter(|&error| error > 0.0);
+        known.map(|error| error + differences.quantile(quantile))
+    };
+    json!({
+        "median": sum(|chunk| chunk.error_median, 0.5),
+        "p99": sum(|chunk| chunk.error_p99, 0.99),
+        "worst_chunk_median": worst(|chunk| chunk.error_median),
+        "worst_chunk_p99": worst(|chunk| chunk.error_p99),
+    })
+}
+
 /// The provenance of the source with what happened to it since.
 fn with_report(metadata: &str, report: &Value) -> String {
     let mut metadata: Value = serde_json::from_str(metadata).unwrap_or_else(|_| json!({}));
@@ -241,6 +265,14 @@ fn print(report: &Value, json: bool) -> Result<()> {
         percent("p99"),
         percent("max"),
     )?;
+    let promise = |key: &str| report["error_against_data"][key].as_f64();
+    if let (Some(median), Some(p99)) = (promise("median"), promise("p99")) {
+        let (median, p99) = (100.0 * median, 100.0 * p99);
+        writeln!(
+            out,
+            "error against the data of the source, at most: median {median:.3} %, p99 {p99:.3} % (its worst chunk plus the difference)"
+        )?;
+    }
     Ok(())
 }
 
