@@ -1,10 +1,10 @@
-//! What three scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
+//! What scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
 
 #[path = "../tests/common/http.rs"]
 mod http;
 
 use http::{Client, Server};
-use welkin::{Conditions, DEFAULT_MODEL, Model, Result};
+use welkin::{Conditions, DEFAULT_MODEL, Model, Result, Traffic};
 
 fn main() -> Result<()> {
     let server = Server::start(DEFAULT_MODEL.to_vec());
@@ -22,14 +22,25 @@ fn main() -> Result<()> {
             visibility,
             ..Conditions::default()
         })?;
-        let total = model.traffic();
-        println!(
-            "{name}: open {} request, {} bytes; scene {} requests, {} bytes",
-            head.requests,
-            head.bytes,
-            total.requests - head.requests,
-            total.bytes - head.bytes
-        );
+        tell(name, &model, head);
     }
+    let model = Model::stream(Client(server.address))?;
+    let head = model.traffic();
+    model.haze(&Conditions {
+        visibility: 50e3,
+        ..Conditions::default()
+    })?;
+    tell("haze, visibility between nodes", &model, head);
     Ok(())
+}
+
+fn tell(name: &str, model: &Model, head: Traffic) {
+    let total = model.traffic();
+    println!(
+        "{name}: open {} request, {} bytes; scene {} requests, {} bytes",
+        head.requests,
+        head.bytes,
+        total.requests - head.requests,
+        total.bytes - head.bytes
+    );
 }

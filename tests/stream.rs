@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::http::{Client, Server};
+use welkin::format::{Entry, Kind};
 use welkin::{Conditions, Error, Model, ReadAt};
 
 /// What a model says about a scene, as bits.
@@ -76,6 +77,65 @@ fn scenes_cost_their_chunks_and_repeated_scenes_nothing() {
     let after = model.traffic();
     assert!(after.requests - before.requests <= 8);
     assert!(after.bytes < bytes.len() as u64 / 2);
+}
+
+#[test]
+fn another_visibility_or_altitude_costs_its_new_chunks_only() {
+    let model = Model::stream(long_model()).unwrap();
+    let length = |kind: Kind, altitude: usize, visibility: Option<usize>| {
+        let mut entries = model.directory().iter();
+        let place = (kind, Some(altitude), visibility);
+        let entry = entries.find(|e| (e.kind, e.altitude, e.visibility) == place);
+        entry.unwrap().length as u64
+    };
+    let radiance = |altitude, visibility| length(Kind::Radiance, altitude, Some(visibility));
+    let column = |altitude| length(Kind::Column, altitude, None);
+    let cost = |conditions: &Conditions| {
+        let before = model.traffic();
+        answers(&model, conditions);
+        let after = model.traffic();
+        (after.requests - before.requests, after.bytes - before.bytes)
+    };
+    assert_eq!(
+        cost(&at(2000.0, 60e3)),
+        (2, column(20) + radiance(20, 2)),
+        "one altitude, one visibility"
+    );
+    assert_eq!(cost(&at(2000.0, 80e3)), (1, radiance(20, 3)));
+    let outer = radiance(20, 1) + radiance(20, 4);
+    assert_eq!(cost(&at(2000.0, 70e3)), (2, outer), "between them");
+    assert_eq!(cost(&at(2100.0, 60e3)), (2, column(21) + radiance(21, 2)));
+    let outer = column(19) + radiance(19, 2) + column(22) + radiance(22, 2);
+    assert_eq!(cost(&at(2050.0, 60e3)), (4, outer));
+    assert_eq!(cost(&at(2050.0, 60e3)), (0, 0));
+}
+
+#[test]
+fn haze_costs_the_air_and_the_sources_of_its_visibilities() {
+    let altitudes: Vec<f64> = (0..9).map(|i| 100.0 * f64::from(i)).collect();
+    let head = common::head_with(&altitudes, &[20e3, 40e3, 60e3, 80e3, 130e3], 20);
+    let mut chunks = common::chunks(&head);
+    chunks.extend(common::haze::chunks(&head, 0.2));
+    let bytes = welkin::format::encode(&head, &chunks).unwrap();
+    let model = Model::stream(bytes).unwrap();
+    let opening = model.traffic();
+    model.haze(&at(0.0, 60e3)).unwrap();
+    let after = model.traffic();
+    // Air and basis are neighbours, the third source stands behind two others.
+    assert_eq!(after.requests - opening.requests, 2);
+    let needed = |e: &&Entry| match e.kind {
+        Kind::Transmittance | Kind::SourceBasis => true,
+        Kind::Source => e.visibility == Some(2),
+        _ => false,
+    };
+    let lengths = model
+        .directory()
+        .iter()
+        .filter(needed)
+        .map(|e| e.length as u64);
+    let needed: u64 = lengths.sum();
+    let got = after.bytes - opening.bytes;
+    assert!((needed..needed + 64).contains(&got), "{got} for {needed}");
 }
 
 #[test]

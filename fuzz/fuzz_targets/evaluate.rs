@@ -3,27 +3,58 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::OnceLock;
-use welkin::{Conditions, Model};
+use welkin::{Conditions, Haze, Model, PolarisedSky};
 use welkin_fuzz::{look_polarised, scatter};
 
-static MODEL: OnceLock<Model> = OnceLock::new();
+/// What takes long to prepare, for a few scenes.
+struct Prepared {
+    model: Model,
+    scenes: Vec<(Haze, PolarisedSky)>,
+}
 
-type Scene = ([f64; 5], [f32; 3], f64, [[f64; 3]; 2]);
+impl Prepared {
+    fn new() -> Self {
+        let file = include_bytes!("../../models/default.welkin");
+        let model = Model::from_static(file).expect("a valid model");
+        let scenes = [(-0.073, 20e3), (-0.03, 131.8e3), (0.0, 45e3), (0.02, 30e3), (1.57, 80e3)];
+        let scenes = scenes.map(|(solar_elevation, visibility)| {
+            let conditions = Conditions {
+                solar_elevation,
+                visibility,
+                altitude: 1500.0,
+                ..Conditions::default()
+            };
+            let haze = model.haze(&conditions).expect("a model with haze");
+            let sky = model.polarised_sky(&conditions).expect("a polarised model");
+            (haze, sky)
+        });
+        Self {
+            model,
+            scenes: scenes.into(),
+        }
+    }
+}
+
+static PREPARED: OnceLock<Prepared> = OnceLock::new();
+
+type Scene = ([f64; 5], [f32; 3], f64, [[i32; 3]; 2]);
 
 fuzz_target!(|input: Scene| {
     let ([solar_elevation, solar_azimuth, visibility, albedo, altitude], direction, wavelength, points) = input;
-    let model = MODEL.get_or_init(|| {
-        Model::from_static(include_bytes!("../../models/default.welkin")).expect("a valid model")
-    });
+    let prepared = PREPARED.get_or_init(Prepared::new);
     let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
-    let conditions = conditions.clamped(model).unwrap_or_default();
-    let sky = model.sky(&conditions).expect("clamped conditions");
+    let conditions = conditions.clamped(&prepared.model).unwrap_or_default();
+    let sky = prepared.model.sky(&conditions).expect("clamped conditions");
     if let Ok(l) = sky.radiance_at(direction, wavelength) {
         assert!(l.is_finite() && l >= 0.0);
     }
     if let Ok(xyz) = sky.xyz(direction) {
         assert!(xyz.iter().all(|v| v.is_finite()));
     }
-    look_polarised(&model.polarised_sky(&conditions).expect("a polarised model"), direction);
-    scatter(&model.haze(&conditions).expect("a model with haze"), points[0], points[1]);
+    // Metres: far too far for some.
+    let [from, to] = points.map(|point| point.map(f64::from));
+    for (haze, sky) in &prepared.scenes {
+        scatter(haze, from, to);
+        look_polarised(sky, direction);
+    }
 });
