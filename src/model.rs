@@ -1,6 +1,5 @@
 //! A model file, opened: its head in memory, its chunks checked when they are first touched.
 
-use std::collections::HashMap;
 use std::fmt;
 use std::path::Path;
 
@@ -14,8 +13,7 @@ use crate::sky::Sky;
 use crate::source::ReadAt;
 use crate::store::{Bytes, Store, Traffic};
 
-/// Kind, altitude and visibility of a chunk.
-pub(crate) type Key = (Kind, Option<usize>, Option<usize>);
+pub(crate) use crate::format::Key;
 
 /// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
 ///
@@ -23,7 +21,6 @@ pub(crate) type Key = (Kind, Option<usize>, Option<usize>);
 pub struct Model {
     store: Store,
     contents: Contents,
-    index: HashMap<Key, usize>,
 }
 
 /// The bytes of the embedded model: a file like any other.
@@ -97,16 +94,7 @@ impl Model {
     }
 
     fn assemble((store, contents): (Store, Contents)) -> Self {
-        let directory = contents.directory.iter().enumerate();
-        let index = directory
-            .filter(|(_, entry)| !matches!(entry.kind, Kind::Unknown(_)))
-            .map(|(i, entry)| ((entry.kind, entry.altitude, entry.visibility), i))
-            .collect();
-        Self {
-            store,
-            contents,
-            index,
-        }
+        Self { store, contents }
     }
 
     /// Prepares a sky: after this, queries cost no allocation and no system call.
@@ -191,7 +179,9 @@ impl Model {
 
     /// Gets the chunks with these keys with as few requests as possible. Absent ones are no error here.
     pub(crate) fn prefetch(&self, keys: impl IntoIterator<Item = Key>) -> Result<()> {
-        let present = keys.into_iter().filter_map(|key| self.index.get(&key));
+        let present = keys
+            .into_iter()
+            .filter_map(|key| self.contents.index.get(&key));
         self.store.fetch(&self.contents, present.copied().collect())
     }
 
@@ -267,7 +257,7 @@ impl Model {
         altitude: Option<usize>,
         visibility: Option<usize>,
     ) -> Result<usize> {
-        let found = self.index.get(&(kind, altitude, visibility));
+        let found = self.contents.index.get(&(kind, altitude, visibility));
         found.copied().ok_or_else(|| Error::MissingChunk {
             kind: kind.name(),
             altitude: altitude.map(|a| self.head().altitudes[a]),

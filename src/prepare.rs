@@ -7,6 +7,7 @@ use crate::format::{
     Field, Head, Kind, Payload16, PhaseFunction, RadianceBasisView, RadianceView, altitude_node,
     visibility_node, widen,
 };
+use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::model::{Key, Model};
 use crate::phase::PhaseTable;
@@ -228,12 +229,13 @@ impl Baker<'_> {
     /// The shared factor matrices with the light between ground and sky folded in.
     fn patterns(&self, basis: &RadianceBasisView) -> Patterns {
         let rank = basis.rank;
-        let mut channel = vec![Cell::ZERO; self.groups.layout.cells() * rank];
+        let cells = self.groups.layout.cells();
+        let mut channel = vec![Cell::ZERO; cells * rank];
         for r in 0..rank {
             let values = &basis.channel[r * basis.channel_stride..][..self.fold.len()];
             let positions = self.groups.position.iter().zip(&self.fold);
             for (&value, (&(cell, place), fold)) in values.iter().zip(positions) {
-                channel[cell * rank + r].0[place] += fold * widen(value);
+                channel[r * cells + cell].0[place] += fold * widen(value);
             }
         }
         Patterns {
@@ -263,16 +265,46 @@ impl Own<'_> {
             taps.map(|(&i, w)| w * widen(self.elevation[i * self.stride + r]))
                 .sum()
         };
+        let mut factors = vec![0.0; self.stride];
         let scales = self.scale.iter().take(self.rank).enumerate();
-        let factors: Vec<f32> = scales
-            .map(|(r, scale)| weight * scale.get() * at_sun(r))
-            .collect();
+        for (factor, (r, scale)) in factors.iter_mut().zip(scales) {
+            *factor = weight * scale.get() * at_sun(r);
+        }
         for (sums, matrix) in sums.iter_mut().zip(self.alpha) {
-            let rows = matrix.chunks_exact(self.stride);
-            for (sum, row) in sums.chunks_exact_mut(rank).zip(rows) {
-                for (sum, (&value, factor)) in sum.iter_mut().zip(row.iter().zip(&factors)) {
-                    *sum += factor * widen(value);
-                }
+            dispatch(AddRows {
+                factors: &factors,
+                matrix,
+                sums,
+                rank,
+            });
+        }
+    }
+}
+
+/// Adds rows that are as wide as there are factors, times those, to rows of width `rank`.
+struct AddRows<'a> {
+    factors: &'a [f32],
+    matrix: &'a Payload16,
+    sums: &'a mut [f32],
+    rank: usize,
+}
+
+impl Kernel for AddRows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, instructions: I) {
+        let width = self.factors.len().min(self.rank);
+        let (factors, last_factors) = self.factors[..width].as_chunks();
+        let rows = self.matrix.chunks_exact(self.factors.len());
+        for (sums, row) in self.sums.chunks_exact_mut(self.rank).zip(rows) {
+            let (sums, last_sums) = sums[..width].as_chunks_mut();
+            let (row, last) = row[..width].as_chunks();
+            for ((sum, halves), &factor) in sums.iter_mut().zip(row).zip(factors) {
+                *sum = (Lanes(*sum) + Lanes(factor) * instructions.widen(halves)).0;
+            }
+            for ((sum, &half), factor) in last_sums.iter_mut().zip(last).zip(last_factors) {
+                *sum += factor * widen(half);
             }
         }
     }
@@ -283,7 +315,7 @@ struct Patterns {
     rank: usize,
     /// `[phi][rank]`.
     phi: Vec<f32>,
-    /// `[cell][rank]`: the albedo is in it.
+    /// `[rank][cell]`: the albedo is in it.
     channel: Vec<Cell>,
 }
 
@@ -303,6 +335,9 @@ impl Kernel for Expand<'_> {
     }
 }
 
+/// Cells that are summed together: as many as stay in registers.
+const TOGETHER: usize = 3;
+
 impl Patterns {
     #[inline(always)]
     fn expand(&self, alpha: &[f32], side: &mut SideTable) {
@@ -320,16 +355,30 @@ impl Patterns {
         }
     }
 
-    /// Sums all components in the cells of a node; the sums stay in registers.
+    /// Sums all components in the cells of a node.
     #[inline(always)]
     fn fill(&self, factors: &[f32], node: &mut [Cell]) {
-        for (out, channel) in node.iter_mut().zip(self.channel.chunks_exact(self.rank)) {
-            let mut sum = Cell::ZERO;
-            for (&factor, values) in factors.iter().zip(channel) {
-                sum.add(factor, values);
-            }
-            *out = sum;
+        let cells = node.len();
+        let (groups, rest) = node.as_chunks_mut::<TOGETHER>();
+        for (g, group) in groups.iter_mut().enumerate() {
+            *group = self.sum(factors, cells, g * TOGETHER);
         }
+        let first = groups.len() * TOGETHER;
+        for (i, cell) in rest.iter_mut().enumerate() {
+            [*cell] = self.sum(factors, cells, first + i);
+        }
+    }
+
+    /// The sums stay in registers.
+    #[inline(always)]
+    fn sum<const N: usize>(&self, factors: &[f32], cells: usize, first: usize) -> [Cell; N] {
+        let mut sums = [Cell::ZERO; N];
+        for (&factor, row) in factors.iter().zip(self.channel.chunks_exact(cells)) {
+            for (sum, cell) in sums.iter_mut().zip(&row[first..][..N]) {
+                sum.add(factor, cell);
+            }
+        }
+        sums
     }
 }
 

@@ -114,8 +114,10 @@ impl SideTable {
     }
 
     fn is_finite(&self) -> bool {
-        let radiance = self.radiance.iter().flat_map(|cell| &cell.0);
-        radiance.chain(&self.column).all(|v| v.is_finite())
+        // Without leaving the loop early, so that it vectorises.
+        let finite =
+            |all: bool, cell: &Cell| all & cell.0.iter().fold(true, |all, v| all & v.is_finite());
+        self.radiance.iter().fold(true, finite) && self.column.iter().all(|v| v.is_finite())
     }
 
     fn bytes(&self) -> usize {

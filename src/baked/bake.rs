@@ -93,10 +93,15 @@ impl<const N: usize, C: Channels<N>> Bake<'_, C, N> {
             let row = self.lattice.sky.row(ray);
             let scale = 1.0 / self.opacity(ray);
             nodes.iter_mut().for_each(|rows| rows.push(Vec::new()));
-            for &phi in &azimuths {
-                // All azimuths meet at the poles.
-                let phi = if i + 1 == rays.len() { 0.0 } else { phi };
-                let angle = self.lattice.angle(ray, phi);
+            // All azimuths meet at the poles.
+            let same = vec![0.0; azimuths.len()];
+            let azimuths = if i + 1 == rays.len() {
+                &same
+            } else {
+                &azimuths
+            };
+            let angles = self.lattice.angles(ray, azimuths);
+            for (&phi, angle) in azimuths.iter().zip(angles) {
                 self.lattice
                     .sky
                     .relative_in(&row, phi, angle, &mut radiance);

@@ -37,10 +37,20 @@ impl Lattice<'_> {
 
     /// The angle from the sun at a node.
     pub fn angle(&self, ray: &Ray, phi: f64) -> SunAngle {
+        self.angles(ray, &[phi])[0]
+    }
+
+    /// The angles from the sun at the nodes of a row.
+    pub fn angles(&self, ray: &Ray, azimuths: &[f64]) -> Vec<SunAngle> {
         let (r, z) = self.sky.cylinder(ray);
-        let (y, x) = phi.sin_cos();
-        let sun = direction(self.sky.conditions().solar_elevation, 0.0);
-        SunAngle::between([r * x, r * y, z], sun)
+        let [x, _, height] = direction(self.sky.conditions().solar_elevation, 0.0);
+        // Half the squared chord, as in `SunAngle::between`; its part along the azimuth is (2 sin φ/2)².
+        let same_azimuth = (r - x) * (r - x) + (z - height) * (z - height);
+        let versine = |&phi: &f64| {
+            let turn = 2.0 * (0.5 * phi).sin();
+            SunAngle::from_versine(0.5 * (same_azimuth + r * x * turn * turn))
+        };
+        azimuths.iter().map(versine).collect()
     }
 
     /// The inverse of the height in [`super::frame`].

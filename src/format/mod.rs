@@ -34,7 +34,7 @@ pub(crate) use encoding::{check_chunk, decode};
 pub(crate) use head::{altitude_node, visibility_node};
 pub(crate) use layout::{CRC_RANGE, ENTRY_LENGTH, Header, RawEntry};
 #[cfg(feature = "std")]
-pub(crate) use parse::{head_length, parse_head};
+pub(crate) use parse::{Key, head_length, parse_head};
 #[cfg(feature = "std")]
 pub(crate) use source::phase_function;
 

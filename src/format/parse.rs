@@ -1,6 +1,6 @@
 //! Reads and checks the head and the directory of untrusted bytes. Format specification, sections 3, 4, 5 and 8.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use zerocopy::FromBytes;
 use zerocopy::little_endian::{F32, F64, U32};
@@ -12,6 +12,9 @@ use crate::axis::ElevationAxis;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
 
+/// Kind, altitude and visibility of a chunk.
+pub(crate) type Key = (Kind, Option<usize>, Option<usize>);
+
 /// What the first `head_length` bytes of a file say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
@@ -19,6 +22,8 @@ pub struct Contents {
     pub head: Head,
     /// The chunks in the order of the file.
     pub directory: Vec<Entry>,
+    /// Where a chunk of a known kind stands in the directory.
+    pub index: HashMap<Key, usize>,
     /// Length of header, head arrays and directory, bytes.
     pub head_length: usize,
     /// Length of the file, bytes.
@@ -62,10 +67,11 @@ pub(crate) fn parse_head(bytes: &[u8]) -> Result<Contents> {
         return Err(Error::invalid("padding", "expected zeros after metadata"));
     }
     let entries = cursor.take(header.chunk_count.get() as usize * ENTRY_LENGTH)?;
-    let directory = directory(&head, entries, head_length, file_length)?;
+    let (directory, index) = directory(&head, entries, head_length, file_length)?;
     Ok(Contents {
         head,
         directory,
+        index,
         head_length,
         file_length,
     })
@@ -266,9 +272,11 @@ fn fields(codes: &[u32], parameters: &[f64], nw: usize) -> Result<Vec<Field>> {
     codes.iter().enumerate().map(field).collect()
 }
 
-fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Result<Vec<Entry>> {
+type Directory = (Vec<Entry>, HashMap<Key, usize>);
+
+fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Result<Directory> {
     let mut entries = Vec::with_capacity(bytes.len() / ENTRY_LENGTH);
-    let mut seen = HashSet::new();
+    let mut places = HashMap::with_capacity(entries.capacity());
     let mut end = head_length as u64;
     for (index, chunk) in bytes.chunks_exact(ENTRY_LENGTH).enumerate() {
         let broken =
@@ -278,14 +286,14 @@ fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Resu
         let entry = entry(&raw);
         check_entry(head, &raw, &entry).map_err(broken)?;
         let key = (entry.kind, entry.altitude, entry.visibility);
-        if !matches!(entry.kind, Kind::Unknown(_)) && !seen.insert(key) {
+        if !matches!(entry.kind, Kind::Unknown(_)) && places.insert(key, index).is_some() {
             return Err(broken("appears twice".to_owned()));
         }
         entries.push(entry);
     }
     check_ranks(&entries)?;
     if end == file as u64 {
-        return Ok(entries);
+        return Ok((entries, places));
     }
     Err(Error::Length {
         what: "file (bytes after the last chunk)",
