@@ -69,6 +69,12 @@ fn values(
                 .flat_map(|part| light.iter().map(part))
                 .collect());
         }
+        "stokes_at" => {
+            let sky = model.polarised_sky(conditions)?;
+            let light = sky.stokes_at(direction, Frame::Vertical, wavelength)?;
+            let sun = model.head().solar_irradiance_at(wavelength) as f32;
+            return Ok([light.i, light.q, light.u].map(|v| v / sun).to_vec());
+        }
         "xyz" => return Ok(sky.xyz(direction)?.to_vec()),
         other => panic!("unknown quantity {other}"),
     }

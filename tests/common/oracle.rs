@@ -419,6 +419,20 @@ impl<'a> Oracle<'a> {
         (relative, solar)
     }
 
+    /// Relative L, Q and U between wavelengths.
+    pub fn stokes_at(&self, q: &Query, wavelength: f64) -> [f64; 3] {
+        let (light, _) = self.radiance_at(q, wavelength);
+        let nodes = self.axis(self.at.wavelength, self.n.w, |x| x);
+        let values = self.stokes(q);
+        let [q, u] = [1, 2].map(|part| -> f64 {
+            let smooth = hermite(&nodes, wavelength).into_iter();
+            let lit = smooth.filter(|&(i, _)| values[i][0] > 0.0);
+            lit.map(|(i, w)| w * values[i][part] / values[i][0]).sum()
+        });
+        let share = light / q.hypot(u).max(1.0);
+        [light, share * q, share * u]
+    }
+
     pub fn xyz(&self, q: &Query) -> [f64; 3] {
         let values = self.radiance(q);
         [0, 1, 2].map(|c| {

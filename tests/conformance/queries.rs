@@ -187,6 +187,12 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     let firm = |(l, floor): (&f64, &f64)| *l == 0.0 || *l > 1e3 * floor;
     if relative.iter().zip(&floor).all(firm) {
         queries.push(with_values(ask("relative_radiance_at"), &[at], &[lowest]));
+        if case.needs.contains(&"polarisation") {
+            let expected = oracle.stokes_at(query, wavelength);
+            let wide = lowest.max(OF_LIGHT * expected[0]);
+            let absolute = [lowest, wide, wide];
+            queries.push(with_values(ask("stokes_at"), &expected, &absolute));
+        }
         queries.push(with_values(
             ask("radiance_at"),
             &[at * solar],

@@ -112,6 +112,12 @@ static welkin_error answer_stokes(const welkin_sky *sky, const query *q)
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
     welkin_error error = welkin_stokes(sky, q->direction, l, s, u);
     if (error) return error;
+    if (strcmp(q->quantity, "stokes_at") == 0) {
+        double stokes[3];
+        error = welkin_stokes_at(sky->file, l, s, u, q->wavelength, stokes);
+        if (!error) printf("%.12g %.12g %.12g", stokes[0], stokes[1], stokes[2]);
+        return error;
+    }
     print_floats(l, sky->file->wavelengths);
     print_floats(s, sky->file->wavelengths);
     print_floats(u, sky->file->wavelengths);
@@ -146,7 +152,7 @@ static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
 
 static welkin_error answer(const welkin_file *file, const query *q, unsigned mode, float *scratch, size_t floats)
 {
-    int stokes = strcmp(q->quantity, "stokes") == 0;
+    int stokes = strcmp(q->quantity, "stokes") == 0 || strcmp(q->quantity, "stokes_at") == 0;
     welkin_sky sky;
     welkin_error error;
     if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);

@@ -1663,17 +1663,19 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radi
                                          double stokes[3])
 {
     welkin__stencil cubic, linear;
+    double share[2] = {0, 0}, degree;
     uint32_t i;
     welkin_error error = welkin__spectral_stencil(f, wavelength, &cubic, &linear);
     if (!error) error = welkin_radiance_at(f, radiance, wavelength, &stokes[0]);
     if (error) return error;
-    stokes[1] = stokes[2] = 0;
     for (i = 0; i < cubic.count; i++) {
         double node = (double)radiance[cubic.node[i]];
         if (!(node > 0)) continue;
-        stokes[1] += cubic.weight[i] * (double)q[cubic.node[i]] / node * stokes[0];
-        stokes[2] += cubic.weight[i] * (double)u[cubic.node[i]] / node * stokes[0];
+        share[0] += cubic.weight[i] * (double)q[cubic.node[i]] / node;
+        share[1] += cubic.weight[i] * (double)u[cubic.node[i]] / node;
     }
+    degree = fmax(1, sqrt(share[0] * share[0] + share[1] * share[1])); /* the cubic can overshoot */
+    for (i = 0; i < 2; i++) stokes[1 + i] = share[i] / degree * stokes[0];
     return WELKIN_OK;
 }
 
