@@ -5,8 +5,8 @@ mod common;
 use proptest::prelude::*;
 use welkin::Error;
 use welkin::format::{
-    ColumnView, Entry, Kind, Payload, RadianceBasisView, RadianceView, VERSION_MAJOR, encode,
-    parse, write,
+    ColumnView, Entry, Kind, Payload, PhaseFunction, RadianceBasisView, RadianceView,
+    VERSION_MAJOR, encode, parse, write,
 };
 
 fn payload<'a>(bytes: &'a [u8], entry: &Entry) -> &'a [u8] {
@@ -259,4 +259,23 @@ proptest! {
         file.extend(bytes);
         prop_assert!(parse(&file).is_err());
     }
+}
+
+#[test]
+fn sources_of_unlike_species_are_not_written() {
+    let head = common::head(&[0.0], &[20e3, 50e3]);
+    let mut chunks = common::haze::chunks(&head, 0.2);
+    assert!(encode(&head, &chunks).is_ok());
+    let Some(Payload::Source(source)) = chunks.last_mut().map(|chunk| &mut chunk.payload) else {
+        panic!("a source");
+    };
+    source.phase[0] = PhaseFunction::HenyeyGreenstein;
+    let refused = encode(&head, &chunks);
+    assert!(matches!(
+        refused,
+        Err(Error::Invalid {
+            what: "source chunks",
+            ..
+        })
+    ));
 }

@@ -399,7 +399,11 @@ fn sources_that_do_not_fit_their_basis_are_refused() {
         chunk(None, Payload::SourceBasis(basis())),
         chunk(Some(0), Payload::Source(other)),
     ];
-    let model = Model::from_bytes(encode(&head, &chunks).unwrap()).unwrap();
+    let unwritten = encode(&head, &chunks);
+    assert!(matches!(unwritten, Err(Error::Invalid { .. })));
+    // Added later, the source is seen alone.
+    let file = encode(&head, &chunks[..2]).unwrap();
+    let model = Model::from_bytes(extend(&file, &chunks[2..]).unwrap()).unwrap();
     let refused = model.haze(&conditions(10.0));
     assert!(matches!(refused, Err(Error::Invalid { .. })));
 }

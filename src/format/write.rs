@@ -12,7 +12,7 @@ use super::head::{Head, PhaseFunction};
 use super::layout::*;
 use super::polarisation::{PolarisationBasis, PolarisationFactors};
 use super::replace::replace_file;
-use super::source::{SourceBasis, SourceCore};
+use super::source::{SourceBasis, SourceCore, check_together};
 use crate::error::{Error, Result};
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
@@ -103,6 +103,7 @@ pub fn write(path: impl AsRef<Path>, head: &Head, chunks: &[Chunk]) -> Result<()
 /// is not finite or too large for half precision.
 pub fn encode(head: &Head, chunks: &[Chunk]) -> Result<Vec<u8>> {
     head.validate()?;
+    check_together(chunks, head.wavelengths.len())?;
     let mut arrays = Vec::new();
     push_arrays(&mut arrays, head);
     let chunks = chunks.iter().map(|chunk| encode_chunk(head, chunk));

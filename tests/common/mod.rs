@@ -279,6 +279,9 @@ pub fn with_chunk(file: &[u8], index: usize, stored: &[u8]) -> Vec<u8> {
         bytes[directory + 64 * i + 8..][..8].copy_from_slice(&offset.to_le_bytes());
         let length = payload.len() as u64;
         bytes[directory + 64 * i + 16..][..8].copy_from_slice(&length.to_le_bytes());
+        if entry.encoding == welkin::format::ENCODING_RAW {
+            bytes[directory + 64 * i + 24..][..8].copy_from_slice(&length.to_le_bytes());
+        }
         bytes.extend(payload);
     }
     let length = bytes.len() as u64;

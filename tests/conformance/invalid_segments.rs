@@ -1,6 +1,6 @@
 //! Files whose transmittance or source breaks a rule.
 
-use welkin::format::{Kind, Payload, encode, parse};
+use welkin::format::{Entry, Kind, Payload, encode, parse};
 
 use crate::common;
 use crate::files::small;
@@ -39,13 +39,20 @@ pub fn all() -> Vec<Case> {
         |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::Source, at, change);
     let fewer_suns = {
         let mut chunks = common::haze::chunks(&head, 0.2);
+        chunks.retain(|chunk| !matches!(chunk.payload, Payload::Source(_)));
         for chunk in &mut chunks {
             if let Payload::SourceBasis(basis) = &mut chunk.payload {
                 basis.sun.pop();
                 basis.factors[1].truncate(basis.sun.len() * basis.ranks[1]);
             }
         }
-        encode(&head, &chunks).expect("chunks that are valid by themselves")
+        let other = encode(&head, &chunks).expect("a valid model");
+        let contents = parse(&other).expect("a valid file");
+        let basis = |e: &&Entry| e.kind == Kind::SourceBasis;
+        let entry = contents.directory.iter().find(basis).expect("a basis");
+        let index = directory.iter().position(|e| basis(&e));
+        let stored = &other[entry.offset..entry.offset + entry.length];
+        common::with_chunk(&good, index.expect("a basis"), stored)
     };
     // In a source: the counts, then three phase functions, then their parameters and the scattering.
     let (phases, parameters) = (32, 32 + 4 * 3);
