@@ -16,7 +16,7 @@ impl Prepared {
     fn new() -> Self {
         let file = include_bytes!("../../models/default.welkin");
         let model = Model::from_static(file).expect("a valid model");
-        let scenes = [(-0.073, 20e3), (-0.03, 131.8e3), (0.0, 45e3), (0.02, 30e3), (1.57, 80e3)];
+        let scenes = [(-0.03, 30e3), (0.4, 80e3)];
         let scenes = scenes.map(|(solar_elevation, visibility)| {
             let conditions = Conditions {
                 solar_elevation,
