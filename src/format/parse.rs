@@ -295,11 +295,8 @@ fn directory(head: &Head, bytes: &[u8], head_length: usize, file: usize) -> Resu
     if end == file as u64 {
         return Ok((entries, places));
     }
-    Err(Error::Length {
-        what: "file (bytes after the last chunk)",
-        expected: end,
-        got: file as u64,
-    })
+    let detail = format!("the last chunk ends at {end}, the file at {file}");
+    Err(Error::invalid("directory", detail))
 }
 
 /// No radiance chunk has more components than the basis.

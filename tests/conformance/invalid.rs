@@ -47,6 +47,7 @@ pub fn all() -> Vec<Case> {
         bytes: forged(&good, forgery.at, &forgery.bytes),
     }));
     cases.push(twice(&good));
+    cases.push(trailing(&good));
     cases.extend(compressed());
     cases.extend(invalid_segments::all());
     cases
@@ -362,6 +363,21 @@ pub fn forged(good: &[u8], at: usize, change: &[u8]) -> Vec<u8> {
     bytes[at..at + change.len()].copy_from_slice(change);
     common::seal(&mut bytes, good);
     bytes
+}
+
+/// The header knows of the bytes, the directory does not.
+fn trailing(good: &[u8]) -> Case {
+    let mut bytes = [good, &[0; 64]].concat();
+    let length = bytes.len() as u64;
+    bytes[16..24].copy_from_slice(&length.to_le_bytes());
+    common::seal(&mut bytes, good);
+    Case {
+        name: "trailing",
+        shows: "bytes after the last chunk",
+        class: "value",
+        needs: Vec::new(),
+        bytes,
+    }
 }
 
 fn twice(good: &[u8]) -> Case {
