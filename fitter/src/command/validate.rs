@@ -1,11 +1,12 @@
-//! `welkin-fit validate`: the tracer against outside references.
+//! `welkin-fit validate`: the tracer, or the data maker, against outside references.
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use std::path::{Path, PathBuf};
 use welkin_fitter::atmosphere::json::Case;
+use welkin_fitter::orders::Settings;
 use welkin_fitter::reference::case::{Effort, trace};
-use welkin_fitter::reference::{Verdict, sky, slab, transmittance};
+use welkin_fitter::reference::{Verdict, data_maker, sky, slab, transmittance};
 use welkin_fitter::tracer::{Aerosol, Options, Orders, VisibleGround};
 
 /// Arguments of `validate`.
@@ -23,6 +24,9 @@ pub struct Args {
     /// Print every comparison, too.
     #[arg(long)]
     rows: bool,
+    /// Judge the noise-free data maker at production resolution (skies only) instead of the tracer.
+    #[arg(long)]
+    data_maker: bool,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -58,13 +62,15 @@ fn files(args: &Args) -> Result<Vec<PathBuf>> {
     let mut files = entries
         .map(|entry| Ok(entry?.path()))
         .collect::<Result<Vec<_>>>()?;
+    let kinds: &[&str] = match args.data_maker {
+        true => &["sky_"],
+        false => &["sky_", "transmittance", "pp_rayleigh", "pp_hg"],
+    };
     files.retain(|path| {
         let name = name(path);
         name.ends_with(".json")
             && name.contains(&args.only)
-            && ["sky_", "transmittance", "pp_rayleigh", "pp_hg"]
-                .iter()
-                .any(|start| name.starts_with(start))
+            && kinds.iter().any(|start| name.starts_with(start))
     });
     files.sort();
     ensure!(
@@ -87,11 +93,19 @@ fn judge(path: &Path, args: &Args) -> Result<Vec<Verdict>> {
         seed: args.seed,
     };
     match name(path) {
+        _ if args.data_maker => data_maker(path),
         n if n.starts_with("sky_") => skies(path, effort),
         n if n.starts_with("transmittance") => Ok(vec![transmittance::judge(path)?]),
         n if n.starts_with("pp_rayleigh") => slab::rayleigh(path, 1, effort),
         _ => slab::henyey_greenstein(path, 1, effort),
     }
+}
+
+/// What the air alone scatters.
+fn data_maker(path: &Path) -> Result<Vec<Verdict>> {
+    let case = Case::read(path)?;
+    let results = data_maker::gather(&case, Settings::default())?;
+    sky::judge(&case, &results, sky::Columns::Path)
 }
 
 /// All sets of columns that a sky file has.

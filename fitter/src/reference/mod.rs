@@ -1,6 +1,7 @@
-//! Outside references: their files, and how the tracer is judged against them.
+//! Outside references: their files, and how the tracer and the data maker are judged against them.
 
 pub mod case;
+pub mod data_maker;
 pub mod sky;
 pub mod slab;
 pub mod transmittance;

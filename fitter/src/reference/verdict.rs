@@ -86,6 +86,19 @@ impl Verdict {
             .unwrap_or((0.0, 0))
     }
 
+    /// Quantile of |difference| relative to I.
+    pub fn relative(&self, share: f64) -> f64 {
+        let lit = self.comparisons.iter().filter(|c| c.intensity > 0.0);
+        let mut all: Vec<f64> = lit
+            .map(|c| (c.ours - c.reference).abs() / c.intensity)
+            .collect();
+        all.sort_by(f64::total_cmp);
+        let last = all.len().saturating_sub(1) as f64;
+        all.get((share * last).round() as usize)
+            .copied()
+            .unwrap_or(0.0)
+    }
+
     /// Whether all limits are kept. The bias may exceed its limit by what chance alone explains (3 standard errors).
     pub fn passed(&self) -> bool {
         let (bias, error) = self.bias();
@@ -99,8 +112,18 @@ impl Verdict {
     /// Header for the lines that [`Display`](fmt::Display) writes.
     pub fn header() -> String {
         format!(
-            "{:<22} {:<6} {:>4} {:>8} {:>9} {:>8} {:>7} {:>4}  {}",
-            "case", "what", "n", "chi2/n", "bias %", "± %", "worst z", "row", "verdict"
+            "{:<22} {:<6} {:>4} {:>8} {:>9} {:>8} {:>7} {:>4} {:>7} {:>7}  {}",
+            "case",
+            "what",
+            "n",
+            "chi2/n",
+            "bias %",
+            "± %",
+            "worst z",
+            "row",
+            "p95 %",
+            "max %",
+            "verdict"
         )
     }
 
@@ -124,9 +147,10 @@ impl Verdict {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ((bias, error), (z, row)) = (self.bias(), self.worst());
+        let [p95, max] = [0.95, 1.0].map(|share| self.relative(share));
         write!(
             f,
-            "{:<22} {:<6} {:>4} {:>8.3} {:>9.4} {:>8.4} {:>7.2} {:>4}  {}",
+            "{:<22} {:<6} {:>4} {:>8.3} {:>9.4} {:>8.4} {:>7.2} {:>4} {:>7.3} {:>7.3}  {}",
             self.case,
             self.quantity,
             self.comparisons.len(),
@@ -135,6 +159,8 @@ impl fmt::Display for Verdict {
             100.0 * error,
             z,
             row,
+            100.0 * p95,
+            100.0 * max,
             if self.passed() { "ok" } else { "FAIL" }
         )
     }
