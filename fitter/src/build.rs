@@ -301,31 +301,24 @@ pub(crate) fn radiance_file(
     let air = |s: &Solved| Air::new(&s.medium, s.light.spherical_albedo);
     let airs: Vec<Air> = solved.iter().map(air).collect();
     let head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
-    let chunk = |altitude, visibility, payload| format::Chunk {
-        altitude,
-        visibility,
-        error_median: 0.0,
-        error_p99: 0.0,
-        payload,
-    };
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let medium = &solved[0].medium;
     let planet = crate::column::planet(&medium.atmosphere);
     let shared = Payload::RadianceBasis(basis.radiance());
-    let mut out = vec![chunk(None, None, shared)];
+    let mut out = vec![format::Chunk::new(None, None, shared)];
     for (k, place) in places.iter().enumerate() {
         let a = place.altitude;
         if place.visibility == 0 {
             let geometry = chunk_geometry(medium, planet, &plan.grid, a);
             let values = geometry.coefficients(plan.grid.up.0, plan.grid.down.0);
-            out.push(chunk(
+            out.push(format::Chunk::new(
                 Some(a),
                 None,
                 Payload::Column(ColumnTable { values }),
             ));
         }
         let factors = basis.radiance_chunk(&plan.grid, &chunks[k], &fit.own[k]);
-        out.push(chunk(
+        out.push(format::Chunk::new(
             Some(a),
             Some(place.visibility),
             Payload::Radiance(factors),

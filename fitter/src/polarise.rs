@@ -65,18 +65,14 @@ fn compress_all(
 
 /// The basis, then the chunk of every place.
 pub fn file_chunks(plan: &Plan, fit: &decompose::Fit, places: &[Place]) -> Vec<format::Chunk> {
-    let chunk = |altitude, visibility, payload| format::Chunk {
-        altitude,
-        visibility,
-        error_median: 0.0,
-        error_p99: 0.0,
-        payload,
-    };
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let shared = Payload::PolarisationBasis(basis.polarisation());
     let own = fit.own.iter().zip(places).map(|(own, &(a, v))| {
         let factors = basis.polarisation_chunk(&plan.grid, own);
-        chunk(Some(a), Some(v), Payload::Polarisation(factors))
+        format::Chunk::new(Some(a), Some(v), Payload::Polarisation(factors))
     });
-    [chunk(None, None, shared)].into_iter().chain(own).collect()
+    [format::Chunk::new(None, None, shared)]
+        .into_iter()
+        .chain(own)
+        .collect()
 }

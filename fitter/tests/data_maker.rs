@@ -2,17 +2,15 @@
 //!
 //! The solver runs at a resolution that fits a test; `welkin-fit judge` and `welkin-fit assess` do the same at production resolution.
 
-use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
-use welkin::geometry::Side;
 use welkin::{Conditions, Model};
 use welkin_fitter::assess::{Quantiles, errors, table};
 use welkin_fitter::atmosphere::json::Case;
-use welkin_fitter::atmosphere::{Atmosphere, Phase, real};
+use welkin_fitter::atmosphere::real;
 use welkin_fitter::dataset::{Sample, WAVELENGTHS, truth};
 use welkin_fitter::judge::judge;
-use welkin_fitter::orders::source::Sun;
 use welkin_fitter::orders::{Gatherer, LightField, Medium, SUN_RADIUS, Settings, solve};
+use welkin_fitter::reference::{data_maker, sky};
 
 const VISIBILITY: f64 = 59_400.0;
 const COARSE: Settings = Settings {
@@ -130,62 +128,15 @@ fn no_solar_elevation_stands_out() {
 }
 
 /// The data maker before an outside code: I, Q and U of reference case O2 (Rayleigh, ozone and three aerosols, sun at 20°).
+/// `welkin-fit validate --data-maker` runs all cases at production resolution.
 #[test]
 fn outside_references_confirm_the_data_maker() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/sky_O2.json");
     let case = Case::read(path.as_ref()).unwrap();
-    let medium = Medium::new(repeated(&case.atmosphere), 0.0).unwrap();
-    let light = solve(&medium, COARSE, &|_| ());
-    let gatherer = Gatherer::new(&medium, &light, 1.0);
-    let elevation = case.sun_elevation_deg.to_radians();
-    let (mut bias, mut worst) = (0.0, 0.0f64);
-    for row in 0..case.rows.len() {
-        let value = |name: &str| case.value(row, name).unwrap();
-        let (zenith, azimuth) = (
-            value("view_zenith_deg").to_radians(),
-            value("view_azimuth_deg").to_radians(),
-        );
-        let side = if value("los_hits_ground") == 1.0 {
-            Side::Down
-        } else {
-            Side::Up
-        };
-        let view = gatherer.path(value("obs_alt_m"), FRAC_PI_2 - zenith, side);
-        let sun = Sun {
-            elevation: (elevation.cos(), elevation.sin()),
-            azimuth: (azimuth.cos(), azimuth.sin()),
-        };
-        let stokes = gatherer.stokes(&view, zenith.cos(), &sun, case.albedo as f32);
-        let intensity = value("I_path");
-        bias += f64::from(stokes[0][0]) / intensity - 1.0;
-        for (got, name) in stokes.iter().zip(["I_path", "Q_path", "U_path"]) {
-            worst = worst.max((f64::from(got[0]) - value(name)).abs() / intensity);
-        }
+    let results = data_maker::gather(&case, COARSE).unwrap();
+    for verdict in sky::judge(&case, &results, sky::Columns::Path).unwrap() {
+        println!("{verdict}");
+        let (bias, _) = verdict.bias();
+        assert!(bias.abs() < 0.0025 && verdict.relative(1.0) < 0.012);
     }
-    bias /= case.rows.len() as f64;
-    println!(
-        "mean difference of I {:+.3} %, largest of I, Q, U {:.3} % of I",
-        100.0 * bias,
-        100.0 * worst
-    );
-    assert!(bias.abs() < 0.0025 && worst < 0.012, "{bias} {worst}");
-}
-
-/// The one wavelength of `air` as often as the solver wants.
-fn repeated(air: &Atmosphere) -> Atmosphere {
-    let mut air = air.clone();
-    let repeat = |v: &mut Vec<f64>| *v = vec![v[0]; WAVELENGTHS.len()];
-    repeat(&mut air.wavelengths);
-    for constituent in &mut air.constituents {
-        repeat(&mut constituent.extinction);
-        for scatterer in &mut constituent.scatterers {
-            repeat(&mut scatterer.scattering);
-            match &mut scatterer.phase {
-                Phase::Rayleigh { depolarisation } => repeat(depolarisation),
-                Phase::HenyeyGreenstein { g } => repeat(g),
-                Phase::Tabulated(_) => unreachable!("the references have none"),
-            }
-        }
-    }
-    air
 }

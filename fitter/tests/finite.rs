@@ -21,13 +21,7 @@ fn air_of(atmosphere: &Atmosphere) -> Air {
         atmosphere.wavelengths = vec![440.0, 450.0];
     }
     let table = density::fit(std::slice::from_ref(&atmosphere), density::TOLERANCE).unwrap();
-    let chunk = Chunk {
-        altitude: None,
-        visibility: None,
-        error_median: 0.0,
-        error_p99: 0.0,
-        payload: Payload::Transmittance(table),
-    };
+    let chunk = Chunk::new(None, None, Payload::Transmittance(table));
     let file = encode(&head(&atmosphere), &[chunk]).unwrap();
     Model::from_bytes(file)
         .unwrap()

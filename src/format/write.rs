@@ -88,6 +88,19 @@ pub struct Chunk {
     pub payload: Payload,
 }
 
+impl Chunk {
+    /// With errors that are not measured.
+    pub fn new(altitude: Option<usize>, visibility: Option<usize>, payload: Payload) -> Self {
+        Self {
+            altitude,
+            visibility,
+            error_median: 0.0,
+            error_p99: 0.0,
+            payload,
+        }
+    }
+}
+
 /// Encodes a model and writes it to `path`, replacing a file there only when all bytes are on disk.
 ///
 /// # Errors

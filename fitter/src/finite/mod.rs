@@ -17,13 +17,7 @@ pub fn chunks(solved: &[Solved]) -> Result<Vec<Chunk>> {
     let airs: Vec<_> = solved.iter().map(|s| s.medium.atmosphere.clone()).collect();
     let densities = density::fit(&airs, density::TOLERANCE)?;
     let (basis, cores) = source::fit(solved, RANKS);
-    let chunk = |visibility, payload| Chunk {
-        altitude: None,
-        visibility,
-        error_median: 0.0,
-        error_p99: 0.0,
-        payload,
-    };
+    let chunk = |visibility, payload| Chunk::new(None, visibility, payload);
     let shared = [
         Payload::Transmittance(densities),
         Payload::SourceBasis(basis),

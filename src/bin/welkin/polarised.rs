@@ -223,9 +223,15 @@ mod tests {
                 assert!(rgb.iter().all(|v| (0.0..=1.0).contains(v)), "{x} {rgb:?}");
             }
         }
-        for (a, b) in hue(-0.5).into_iter().zip(hue(0.5)) {
-            assert!((a - b).abs() < 1e-6, "{a} {b}");
-        }
+        let colouring = Colouring {
+            quantity: Quantity::Aolp,
+            axes: Axes::Sun,
+            wavelength: None,
+        };
+        let (i, q) = (1.0, -0.64);
+        let half_a_turn = [1e-9, -1e-9].map(|u| Some(Stokes { i, q, u }));
+        let pixels = colouring.pixels(&half_a_turn, 1.0);
+        assert_eq!(pixels, [[0, 204, 204]; 2]);
     }
 
     #[test]
