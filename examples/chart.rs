@@ -1,13 +1,19 @@
-//! Speed against accuracy against bytes for every setting of a baked sky: `cargo run --release --example chart` writes
-//! `docs/settings.csv` and `docs/settings.svg`.
+//! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release --example chart`
+//! writes `docs/settings.csv` and `docs/settings.svg`.
 //!
-//! Errors are 95th percentiles against [`welkin::Sky`] over a few skies; times are the least of many repetitions.
+//! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of general queries over
+//! the whole model; times are the least of many repetitions.
+
+#[allow(dead_code)]
+#[path = "compare/random.rs"]
+mod random;
 
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
-use welkin::{BakedSky, Conditions, Directions, Model, Result, Sky};
+use random::{Sequence, p95, sphere};
+use welkin::{BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky};
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
 const QUERIES: usize = 1024;
@@ -30,6 +36,13 @@ fn main() -> Result<()> {
         points.extend(colour(&skies, tolerance));
     }
     points.push(exact(&skies[0]));
+    for (name, interpolation) in [
+        ("general, 4 chunks", Interpolation::Linear),
+        ("general, 12 chunks", Interpolation::Lean),
+        ("general, 16 chunks", Interpolation::Full),
+    ] {
+        points.push(general(&model, name, interpolation)?);
+    }
     let mut csv = String::from("channels,tolerance,p95_error,bytes,ns\n");
     for p in &points {
         let _ = writeln!(
@@ -104,6 +117,40 @@ fn exact(sky: &Sky) -> Point {
     }
 }
 
+/// Queries anywhere in the model without preparation.
+fn general(model: &Model, name: &'static str, interpolation: Interpolation) -> Result<Point> {
+    let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+    let (mut places, mut views) = (Sequence::<4>::new(), Sequence::<2>::new());
+    let queries: Vec<_> = (0..QUERIES)
+        .map(|_| {
+            (
+                random::conditions(model, places.next()),
+                sphere(views.next()),
+            )
+        })
+        .collect();
+    let mut pairs = Vec::new();
+    for (conditions, direction) in queries.iter().step_by(4) {
+        let [mut got, mut truth] = [[0.0; 12]; 2];
+        general.radiance(conditions, *direction, &mut got)?;
+        model.sky(conditions)?.radiance(*direction, &mut truth)?;
+        pairs.extend(got.into_iter().zip(truth));
+    }
+    let mut out = [0.0; 12];
+    let ask = |_: &Directions| {
+        queries.iter().try_for_each(|(conditions, direction)| {
+            general.radiance(black_box(conditions), *direction, &mut out)
+        })
+    };
+    Ok(Point {
+        channels: name,
+        tolerance: 0.0,
+        p95: p95(pairs.into_iter()),
+        bytes: welkin::DEFAULT_MODEL.len(),
+        ns: fastest(ask),
+    })
+}
+
 /// Least time per direction, ns.
 fn fastest(mut ask: impl FnMut(&Directions) -> Result<()>) -> f64 {
     let golden = |i: usize| (i as f32 * 0.618_034).fract();
@@ -126,17 +173,17 @@ fn fastest(mut ask: impl FnMut(&Directions) -> Result<()>) -> f64 {
     (0..200).map(once).fold(f64::INFINITY, f64::min) * 1e9 / QUERIES as f64
 }
 
-/// Time over error, both logarithmic; the area of a mark is its bytes.
+/// Time over error, both logarithmic; larger marks take more bytes.
 fn svg(points: &[Point]) -> String {
     let mut out = String::from(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 400" font-family="sans-serif" font-size="12">
 <rect width="640" height="400" fill="#fff"/>
-<text x="320" y="390" text-anchor="middle">error that baking adds, p95 (%)</text>
-<text x="16" y="190" text-anchor="middle" transform="rotate(-90 16 190)">time per direction (ns)</text>
+<text x="320" y="390" text-anchor="middle">error against the prepared sky, p95 (%); at the left edge none</text>
+<text x="16" y="190" text-anchor="middle" transform="rotate(-90 16 190)">time per query (ns)</text>
 "##,
     );
-    let x = |error: f64| 70.0 + 500.0 * ((100.0 * error).log10() + 1.5) / 2.0;
-    let y = |ns: f64| 350.0 - 310.0 * (ns.log10() - 1.0) / 0.7;
+    let x = |error: f64| 70.0 + 500.0 * ((100.0 * error).max(0.0316).log10() + 1.5) / 2.0;
+    let y = |ns: f64| 350.0 - 310.0 * (ns.log10() - 1.0) / 2.7;
     for percent in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
         let x = x(percent / 100.0);
         let _ = writeln!(
@@ -144,7 +191,9 @@ fn svg(points: &[Point]) -> String {
             r##"<path d="M{x:.1} 40V350" stroke="#ddd"/><text x="{x:.1}" y="366" text-anchor="middle">{percent}</text>"##
         );
     }
-    for ns in [10.0, 15.0, 20.0, 30.0, 40.0] {
+    for ns in [
+        10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 5000.0,
+    ] {
         let y = y(ns);
         let _ = writeln!(
             out,
@@ -152,13 +201,13 @@ fn svg(points: &[Point]) -> String {
             y + 4.0
         );
     }
-    for p in points.iter().filter(|p| p.p95 > 0.0) {
-        let fill = if p.channels == "RGB" {
-            "#d95f02"
-        } else {
-            "#1b6ca8"
+    for p in points {
+        let fill = match p.channels {
+            "RGB" => "#d95f02",
+            "spectral" => "#1b6ca8",
+            _ => "#4d9221",
         };
-        let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).sqrt() / 30.0);
+        let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 3.0);
         let chosen = if p.tolerance == BakedSky::TOLERANCE {
             " (default)"
         } else {

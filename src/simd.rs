@@ -60,7 +60,7 @@ pub(crate) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86 {
     use core::arch::x86_64::{
-        _MM_HINT_T0, _mm_prefetch, _mm_set_epi64x, _mm256_cvtph_ps, _mm256_fmadd_ps,
+        _MM_HINT_T1, _mm_prefetch, _mm_set_epi64x, _mm256_cvtph_ps, _mm256_fmadd_ps,
         _mm256_loadu_ps, _mm256_set1_ps, _mm256_storeu_ps,
     };
 
@@ -131,7 +131,7 @@ mod x86 {
             let first = numbers.as_ptr().cast::<i8>();
             for place in (0..size_of_val(numbers)).step_by(LINE) {
                 // SAFETY: the address is in the slice, and prefetching is a hint that never faults.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(first.add(place)) };
+                unsafe { _mm_prefetch::<_MM_HINT_T1>(first.add(place)) };
             }
         }
     }

@@ -17,7 +17,7 @@ use crate::simd::{Instructions, Kernel};
 const MOST_AROUND: usize = 16;
 const MOST_ALTITUDES: usize = 4;
 /// Chunks between asking for one and using it.
-const AHEAD: usize = 2;
+const AHEAD: usize = 6;
 
 /// A single query.
 pub(super) struct One<'a, 'b> {
