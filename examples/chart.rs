@@ -17,6 +17,12 @@ use welkin::{BakedSky, Conditions, Directions, General, Interpolation, Model, Re
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
 const QUERIES: usize = 1024;
+/// What the marks of the chart are, and their colours.
+const KINDS: [(&str, &str); 3] = [
+    ("baked, RGB (kB)", "#d95f02"),
+    ("baked, 12 wavelengths (kB)", "#1b6ca8"),
+    ("12 wavelengths", "#4d9221"),
+];
 
 /// One point of the chart.
 struct Point {
@@ -182,7 +188,7 @@ fn svg(points: &[Point]) -> String {
 <text x="16" y="190" text-anchor="middle" transform="rotate(-90 16 190)">time per query (ns)</text>
 "##,
     );
-    let x = |error: f64| 70.0 + 500.0 * ((100.0 * error).max(0.0316).log10() + 1.5) / 2.0;
+    let x = |error: f64| 80.0 + 490.0 * ((100.0 * error).max(0.0316).log10() + 1.5) / 2.0;
     let y = |ns: f64| 350.0 - 310.0 * (ns.log10() - 1.0) / 2.7;
     for percent in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
         let x = x(percent / 100.0);
@@ -201,24 +207,45 @@ fn svg(points: &[Point]) -> String {
             y + 4.0
         );
     }
+    for (i, (name, fill)) in KINDS.iter().enumerate() {
+        let y = 24.0 + 18.0 * i as f64;
+        let _ = writeln!(
+            out,
+            r##"<circle cx="470" cy="{:.1}" r="6" fill="{fill}" fill-opacity="0.6"/><text x="482" y="{y:.1}">{name}</text>"##,
+            y - 4.0
+        );
+    }
     for p in points {
         let fill = match p.channels {
-            "RGB" => "#d95f02",
-            "spectral" => "#1b6ca8",
-            _ => "#4d9221",
+            "RGB" => KINDS[0].1,
+            "spectral" => KINDS[1].1,
+            _ => KINDS[2].1,
         };
-        let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 3.0);
-        let chosen = if p.tolerance == BakedSky::TOLERANCE {
-            " (default)"
-        } else {
-            ""
+        let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 4.0);
+        let general = p.tolerance == 0.0;
+        let label = match (general, p.tolerance == BakedSky::TOLERANCE) {
+            (true, _) => p.channels.to_owned(),
+            (_, true) => format!("{:.0} kB (default)", p.bytes as f64 / 1e3),
+            _ => format!("{:.0}", p.bytes as f64 / 1e3),
+        };
+        // Where the general queries are close together, their names stand beside them.
+        let (anchor, dx, dy) = match general {
+            true => ("start", r + 4.0, 4.0),
+            false => (
+                "middle",
+                0.0,
+                if p.channels == "RGB" {
+                    r + 14.0
+                } else {
+                    -r - 4.0
+                },
+            ),
         };
         let _ = writeln!(
             out,
-            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{r:.1}" fill="{fill}" fill-opacity="0.6"/><text x="{x:.1}" y="{:.1}" text-anchor="middle">{} {:.0} kB{chosen}</text>"##,
-            y - r - 4.0,
-            p.channels,
-            p.bytes as f64 / 1e3
+            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{r:.1}" fill="{fill}" fill-opacity="0.6"/><text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{label}</text>"##,
+            x + dx,
+            y + dy,
         );
     }
     out + "</svg>\n"

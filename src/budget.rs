@@ -15,14 +15,15 @@ pub enum Channels {
     Colour,
 }
 
-/// The conditions that a scene can meet, and what it tolerates. Solar elevation and albedo are free: every chunk holds
-/// all of them.
+/// The conditions that a scene can meet, and what it tolerates. Albedo is free: every chunk holds all of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
     /// Lowest and highest altitude of observers, m.
     pub altitude: [f64; 2],
     /// Lowest and highest visibility, m.
     pub visibility: [f64; 2],
+    /// Lowest and highest elevation of the sun, rad. A narrow range saves nothing, as every chunk holds the whole of it.
+    pub solar_elevation: [f64; 2],
     /// Relative error that baking may add at 95 % of directions and channels.
     pub tolerance: f64,
     /// What skies are asked for.
@@ -66,6 +67,8 @@ impl Model {
         let head = self.head();
         check("altitude", budget.altitude, self.altitude_range())?;
         check("visibility", budget.visibility, self.visibility_range())?;
+        let elevations = self.solar_elevation_range();
+        check_range("solar_elevation", budget.solar_elevation, elevations, "rad")?;
         let tolerance = [budget.tolerance, budget.tolerance];
         check_range("tolerance", tolerance, [f64::MIN_POSITIVE, 1.0], "")?;
         let altitudes = around(&head.altitudes, budget.altitude);

@@ -3,12 +3,13 @@
 mod common;
 
 use proptest::prelude::*;
-use welkin::{Budget, Channels, Conditions, Error, Model};
+use welkin::{Budget, Channels, Conditions, Error, Interpolation, Model};
 
 fn budget(altitude: [f64; 2], visibility: [f64; 2]) -> Budget {
     Budget {
         altitude,
         visibility,
+        solar_elevation: [-0.05, 1.5],
         tolerance: 0.01,
         channels: Channels::Spectral,
     }
@@ -31,7 +32,7 @@ proptest! {
         model.load(&plan).unwrap();
         prop_assert_eq!(model.touched_bytes(), plan.file_bytes);
         let requests = model.traffic().requests;
-        let general = model.general(&plan).unwrap();
+        let general = model.general(&plan).unwrap().with_interpolation(Interpolation::Full);
         for (s, t) in places {
             let ([low, high], [hazy, clear]) = (sorted(a, b), sorted(v, w));
             let conditions = Conditions {
@@ -61,6 +62,10 @@ fn bad_budgets_are_typed_errors() {
         budget([0.0, 1e6], [20e3, 30e3]),
         budget([0.0, f64::NAN], [20e3, 30e3]),
         budget([0.0, 100.0], [1e3, 30e3]),
+        Budget {
+            solar_elevation: [-0.5, 0.5],
+            ..sound
+        },
         Budget {
             tolerance: 0.0,
             ..sound

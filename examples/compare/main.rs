@@ -27,7 +27,7 @@ const QUERIES: usize = 8192;
 /// Queries of one round: of prepared skies, of the paper's scheme, of the whole model.
 const ROUND: usize = 2048;
 const SLOW: usize = 64;
-const GENERAL: usize = 256;
+const GENERAL: usize = 2048;
 
 /// The queries of a round of `n`.
 fn span(round: usize, n: usize) -> Range<usize> {

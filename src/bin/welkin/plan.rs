@@ -18,6 +18,9 @@ pub struct Options {
     /// Lowest and highest visibility, km.
     #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "59.4")]
     visibilities: [f64; 2],
+    /// Lowest and highest elevation of the sun, degrees.
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "0..90")]
+    sun_elevations: [f64; 2],
     /// What baking may add to the error at 95 % of directions and channels.
     #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true, default_value = "0.25%")]
     tolerance: f64,
@@ -34,6 +37,7 @@ pub fn run(options: &Options) -> Result<()> {
     let plan = model.plan(&Budget {
         altitude: options.altitudes,
         visibility: options.visibilities.map(|km| km * 1e3),
+        solar_elevation: options.sun_elevations.map(f64::to_radians),
         tolerance: options.tolerance,
         channels: match options.rgb {
             true => Channels::Colour,
