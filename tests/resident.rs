@@ -1,0 +1,44 @@
+//! Memory that a process holds for one sky. Alone in its file, so that nothing else runs in the process.
+#![cfg(all(target_os = "linux", feature = "mmap"))]
+
+use std::hint::black_box;
+use welkin::{BakedSky, Conditions, Model};
+
+/// Resident memory of this process, kB: anonymous, and the pages of files with this ending.
+fn resident(ending: &str) -> [usize; 2] {
+    let number = |line: &str| -> usize {
+        let number = line.split_whitespace().nth(1).unwrap();
+        number.parse().unwrap()
+    };
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let anonymous = status.lines().find(|line| line.starts_with("RssAnon:"));
+    let maps = std::fs::read_to_string("/proc/self/smaps").unwrap();
+    let mut here = false;
+    let mut pages = 0;
+    for line in maps.lines() {
+        match line.starts_with("Rss:") {
+            true if here => pages += number(line),
+            true => {}
+            false if line.contains('-') && line.contains(" r") => here = line.ends_with(ending),
+            false => {}
+        }
+    }
+    [number(anonymous.unwrap()), pages]
+}
+
+#[test]
+fn a_sky_on_the_ground_takes_less_than_a_megabyte() {
+    let [before, _] = resident("default.welkin");
+    let model = Model::open("models/default.welkin").unwrap();
+    let sky = model.sky(&Conditions::default()).unwrap();
+    let colour = sky.bake_colour(BakedSky::TOLERANCE).unwrap();
+    drop(sky);
+    black_box(colour.xyz([0.0, 0.0, 1.0]).unwrap());
+    let [after, mapped] = resident("default.welkin");
+    let anonymous = after.saturating_sub(before);
+    println!("anonymous {anonymous} kB, of the model {mapped} kB");
+    // The code that runs for the first time comes on top: `--example resident` counts it, too.
+    assert!(anonymous > 0 && mapped > 0);
+    assert!(anonymous + mapped <= 500, "{anonymous} {mapped}");
+    assert!(model.touched_bytes() < 110_000);
+}
