@@ -631,7 +631,7 @@ static int welkin__has_duplicates(const welkin_file *f)
         memset(seen, 0, sizeof seen);
         for (i = 0; i < f->chunk_count; i++) {
             welkin__entry e = welkin__read_entry(f, i);
-            uint32_t key = welkin__is_known(e.kind) ? welkin__key(f, &e) - first : KEYS;
+            uint32_t key = welkin__is_known(e.kind) ? welkin__key(f, &e) - first : (uint32_t)KEYS;
             if (key >= KEYS) continue;
             if (seen[key / 8] >> key % 8 & 1) return 1;
             seen[key / 8] = (unsigned char)(seen[key / 8] | 1u << key % 8);
