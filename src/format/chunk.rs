@@ -36,7 +36,7 @@ impl<'a> RadianceView<'a> {
     /// Divides the bytes of a raw radiance chunk into its tables.
     ///
     /// # Errors
-    /// [`Error::Length`] if the bytes are not as many as shape and rank say.
+    /// [`Error::Invalid`] if the bytes are not as many as shape and rank say.
     pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance chunk", bytes, shape.radiance_bytes(rank))?;
         let stride = ceil16(rank);
@@ -78,7 +78,7 @@ impl<'a> RadianceBasisView<'a> {
     /// Divides the bytes of a raw radiance basis into its tables.
     ///
     /// # Errors
-    /// [`Error::Length`] if the bytes are not as many as shape and rank say.
+    /// [`Error::Invalid`] if the bytes are not as many as shape and rank say.
     pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance basis", bytes, shape.basis_bytes(rank))?;
         let (stride, channel_stride) = (ceil16(rank), ceil16(shape.channels));
@@ -109,7 +109,7 @@ impl<'a> ColumnView<'a> {
     /// Views the bytes of a raw column chunk.
     ///
     /// # Errors
-    /// [`Error::Length`] if the bytes are not as many as the shape says.
+    /// [`Error::Invalid`] if the bytes are not as many as the shape says.
     pub fn new(bytes: &'a [u8], shape: &Shape) -> Result<Self> {
         check_length("column chunk", bytes, shape.column_bytes())?;
         let mut rest = bytes;

@@ -33,7 +33,7 @@ impl<'a> DensityView<'a> {
     /// Views the bytes of a raw chunk of an atmosphere with the given top (m).
     ///
     /// # Errors
-    /// [`Error::Length`] or [`Error::Invalid`] if they break the specification.
+    /// [`Error::Invalid`] if they break the specification.
     pub fn new(bytes: &'a [u8], constituents: usize, top: f64) -> Result<Self> {
         let mut rest = bytes;
         let counts = take::<Counts>(&mut rest, 1)?[0];

@@ -43,7 +43,7 @@ impl<'a> PolarisationView<'a> {
     /// Divides the bytes of a raw polarisation chunk into its tables.
     ///
     /// # Errors
-    /// [`Error::Length`](crate::Error::Length) if the bytes are not as many as shape and rank say.
+    /// [`Error::Invalid`](crate::Error::Invalid) if the bytes are not as many as shape and rank say.
     pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("polarisation chunk", bytes, polarisation_bytes(shape, rank))?;
         let stride = ceil16(rank);
@@ -84,7 +84,7 @@ impl<'a> PolarisationBasisView<'a> {
     /// Divides the bytes of a raw polarisation basis of a model with `wavelengths` wavelengths into its tables.
     ///
     /// # Errors
-    /// [`Error::Length`](crate::Error::Length) if the bytes are not as many as the arguments say.
+    /// [`Error::Invalid`](crate::Error::Invalid) if the bytes are not as many as the arguments say.
     pub fn new(bytes: &'a [u8], shape: &Shape, wavelengths: usize, rank: usize) -> Result<Self> {
         let expected = polarisation_basis_bytes(shape, wavelengths, rank);
         check_length("polarisation basis", bytes, expected)?;

@@ -77,7 +77,7 @@ impl<'a> SourceBasisView<'a> {
     /// Views the bytes of a raw chunk of a model with the given number of wavelengths.
     ///
     /// # Errors
-    /// [`Error::Length`] or [`Error::Invalid`] if they break the specification.
+    /// [`Error::Invalid`] if they break the specification.
     pub fn new(bytes: &'a [u8], wavelengths: usize) -> Result<Self> {
         let mut rest = bytes;
         let counts = take::<BasisCounts>(&mut rest, 1)?[0];
@@ -144,7 +144,7 @@ impl<'a> SourceView<'a> {
     /// Views the bytes of a raw chunk of a model with these numbers of constituents and wavelengths.
     ///
     /// # Errors
-    /// [`Error::Length`] or [`Error::Invalid`] if they break the specification.
+    /// [`Error::Invalid`] if they break the specification.
     pub fn new(bytes: &'a [u8], constituents: usize, wavelengths: usize) -> Result<Self> {
         let mut rest = bytes;
         let counts = take::<SourceCounts>(&mut rest, 1)?[0];
