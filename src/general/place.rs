@@ -24,25 +24,46 @@ pub(super) struct Place {
     pub albedo: f64,
 }
 
+/// What is asked, checked.
+pub(super) struct Question {
+    conditions: Conditions,
+    /// The view direction as it came, and with length 1.
+    view: [f64; 3],
+    unit: [f64; 3],
+}
+
+impl Question {
+    pub fn new(head: &HeadView, conditions: &Conditions, direction: [f32; 3]) -> Result<Self> {
+        let conditions = checked(head, conditions)?;
+        let [x, y, z] = direction;
+        let [x, y, z] = [f64::from(x), f64::from(y), f64::from(z)];
+        let square = x * x + y * y + z * z;
+        if !(square > 0.0 && square.is_finite()) {
+            return Err(Error::Direction { got: direction });
+        }
+        let shrink = 1.0 / square.sqrt();
+        Ok(Self {
+            conditions,
+            view: [x, y, z],
+            unit: [x * shrink, y * shrink, z * shrink],
+        })
+    }
+}
+
 impl Place {
     #[inline(always)]
     pub fn new(
         head: &HeadView,
         [altitudes, visibilities]: &[Axis; 2],
-        conditions: &Conditions,
-        direction: [f32; 3],
-    ) -> Result<Self> {
-        let conditions = checked(head, conditions)?;
-        let [x, y, z] = direction.map(f64::from);
-        let horizontal = x * x + y * y;
-        let square = horizontal + z * z;
-        if !(square > 0.0 && square.is_finite()) {
-            return Err(Error::Direction { got: direction });
-        }
-        let shrink = 1.0 / square.sqrt();
-        let unit = [x * shrink, y * shrink, z * shrink];
+        question: &Question,
+    ) -> Self {
+        let Question {
+            conditions,
+            view: [x, y, z],
+            unit,
+        } = question;
         let dip = head.planet.dip(conditions.altitude);
-        let elevation = z.atan2(horizontal.sqrt());
+        let elevation = z.atan2((x * x + y * y).sqrt());
         let ray = head
             .planet
             .ray_with_dip(conditions.altitude, dip, elevation, unit[2]);
@@ -55,17 +76,19 @@ impl Place {
         let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
         let sun = axis.coordinate(conditions.solar_elevation);
-        Ok(Self {
+        Self {
             altitudes: altitudes.around(conditions.altitude.cbrt()),
             visibilities: visibilities.around(1.0 / conditions.visibility),
-            curve: [(alpha, intervals), (sun, axis.intervals)]
-                .map(|(u, n)| spline(u, n, Ends::Free)),
-            chord: [(alpha, intervals), (sun, axis.intervals)].map(|(u, n)| chord(u, n)),
+            curve: [
+                spline(alpha, intervals, Ends::Free),
+                spline(sun, axis.intervals, Ends::Free),
+            ],
+            chord: [chord(alpha, intervals), chord(sun, axis.intervals)],
             phi: spline(phi, head.phi_intervals, Ends::Mirrored),
-            angle: SunAngle::between(unit, [sun_r * cosine, sun_r * sine, sun_z]),
+            angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),
             ray,
             albedo: conditions.albedo,
-        })
+        }
     }
 }
 

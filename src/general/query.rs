@@ -4,7 +4,7 @@ use zerocopy::little_endian::U16;
 
 use super::around::Share;
 use super::contract::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
-use super::place::Place;
+use super::place::{Place, Question};
 use super::{General, MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -32,7 +32,16 @@ impl Kernel for One<'_, '_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
-        let query = Query::new(self.model, self.conditions, self.direction)?;
+        let model = self.model;
+        let question = Question::new(&model.head, self.conditions, self.direction)?;
+        let place = Place::new(&model.head, &model.axes, &question);
+        let mut query = Query {
+            model,
+            place: &place,
+            columns: [None; MOST_ALTITUDES],
+            chunks: [None; MOST_AROUND],
+        };
+        query.look_around()?;
         query.answer(instructions, self.out)
     }
 }
@@ -40,26 +49,22 @@ impl Kernel for One<'_, '_> {
 /// Where a query stands, and the chunks around it.
 struct Query<'a, 'b> {
     model: &'b General<'a>,
-    place: Place,
+    place: &'b Place,
     columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
     chunks: [Option<(&'b RadianceView<'a>, Share)>; MOST_AROUND],
 }
 
 impl<'a, 'b> Query<'a, 'b> {
+    /// Finds the chunks.
     #[inline(always)]
-    fn new(model: &'b General<'a>, conditions: &Conditions, direction: [f32; 3]) -> Result<Self> {
-        let mut query = Self {
-            model,
-            place: Place::new(&model.head, &model.axes, conditions, direction)?,
-            columns: [None; MOST_ALTITUDES],
-            chunks: [None; MOST_AROUND],
-        };
-        let mut slots = query.chunks.iter_mut();
-        for (k, (a, altitude)) in query.place.altitudes.taps().enumerate() {
+    fn look_around(&mut self) -> Result<()> {
+        let Self { model, place, .. } = *self;
+        let mut slots = self.chunks.iter_mut();
+        for (k, (a, altitude)) in place.altitudes.taps().enumerate() {
             let column = model.chunks.column(a);
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
-            query.columns[k] = Some((column, altitude[0] as f32));
-            for (v, visibility) in query.place.visibilities.taps() {
+            self.columns[k] = Some((column, altitude[0] as f32));
+            for (v, visibility) in place.visibilities.taps() {
                 let Some(share) = model.interpolation.share(altitude, visibility) else {
                     continue;
                 };
@@ -70,7 +75,7 @@ impl<'a, 'b> Query<'a, 'b> {
                 }
             }
         }
-        Ok(query)
+        Ok(())
     }
 
     /// Asks for the numbers of chunk `i`.
