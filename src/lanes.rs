@@ -112,6 +112,26 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
+impl Lanes<8> {
+    /// The same four numbers twice.
+    #[inline(always)]
+    pub fn twice(half: &[f32; 4]) -> Self {
+        Self(core::array::from_fn(|i| half[i % 4]))
+    }
+
+    /// Each of two numbers four times.
+    #[inline(always)]
+    pub fn pair(low: f32, high: f32) -> Self {
+        Self(core::array::from_fn(|i| if i < 4 { low } else { high }))
+    }
+
+    #[inline(always)]
+    pub fn halves(self) -> [[f32; 4]; 2] {
+        let v = self.0;
+        [[v[0], v[1], v[2], v[3]], [v[4], v[5], v[6], v[7]]]
+    }
+}
+
 macro_rules! operator {
     ($trait:ident, $method:ident, $f:expr) => {
         impl<const N: usize> $trait for Lanes<N> {

@@ -16,16 +16,8 @@ const QUADS: usize = 4;
 pub(crate) struct Amounts(pub [[f32; LANES]; QUADS]);
 
 impl Amounts {
-    #[inline(always)]
-    pub fn add(&mut self, other: &Amounts, quads: usize) {
-        for (sum, term) in self.0[..quads].iter_mut().zip(&other.0) {
-            *sum = core::array::from_fn(|i| sum[i] + term[i]);
-        }
-    }
-
     /// Sum of products.
-    #[inline(always)]
-    pub fn dot(&self, other: &Amounts) -> f32 {
+    fn dot(&self, other: &Amounts) -> f32 {
         let terms = self.0.as_flattened().iter().zip(other.0.as_flattened());
         terms.map(|(a, b)| a * b).sum()
     }
@@ -44,6 +36,32 @@ pub(crate) struct Line {
     pub lowest: f64,
 }
 
+/// What a line crosses of one layer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// Distances of its ends from the tangent point, m.
+    pub start: f64,
+    pub end: f64,
+    layer: usize,
+    /// Mean of the share of the layer and of its square.
+    mean: f32,
+    square: f32,
+}
+
+impl Piece {
+    #[inline(always)]
+    fn length(&self) -> f32 {
+        (self.end - self.start) as f32
+    }
+
+    /// Mean of the polynomial with these coefficients.
+    #[inline(always)]
+    pub fn mean(&self, [a, b, c]: [f32; 3]) -> f32 {
+        // Rounding must not make a density negative.
+        (a + b * self.mean + c * self.square).max(0.0)
+    }
+}
+
 /// Density in one layer as a polynomial of the share `t` of the layer: `a + b·t + c·t²`.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
@@ -57,8 +75,9 @@ struct Layer {
 #[derive(Clone, Debug)]
 pub(crate) struct Layers {
     planet: Planet,
-    /// Edges in `w`, m.
+    /// Edges in `w`, m: −∞, that of the ground, …
     edges: Vec<f64>,
+    /// The first lies below the ground.
     layers: Vec<Layer>,
     pub quads: usize,
     pub constituents: usize,
@@ -66,32 +85,35 @@ pub(crate) struct Layers {
 
 impl Layers {
     pub fn new(view: &DensityView, planet: Planet, constituents: usize) -> Self {
-        let edges: Vec<f64> = view
-            .edges
-            .iter()
-            .map(|h| planet.squared_altitude(h.get()))
+        let altitudes = view.edges.iter().map(|h| planet.squared_altitude(h.get()));
+        let edges: Vec<f64> = core::iter::once(f64::NEG_INFINITY)
+            .chain(altitudes)
             .collect();
         let row = |i: usize| &view.density[i * constituents..(i + 1) * constituents];
-        let layers = edges
-            .windows(2)
-            .enumerate()
-            .map(|(i, edge)| {
-                let mut polynomial = [Amounts::default(); 3];
-                for k in 0..constituents {
-                    let [a, b, c] = [row(2 * i)[k], row(2 * i + 1)[k], row(2 * i + 2)[k]]
-                        .map(|v| f64::from(v.get()));
-                    let monomials = [a, 2.0 * (b - a), a - 2.0 * b + c];
-                    for (out, value) in polynomial.iter_mut().zip(monomials) {
-                        out.0[k / LANES][k % LANES] = value as f32;
-                    }
+        let above = edges[1..].windows(2).enumerate().map(|(i, edge)| {
+            let mut polynomial = [Amounts::default(); 3];
+            for k in 0..constituents {
+                let [a, b, c] = [row(2 * i)[k], row(2 * i + 1)[k], row(2 * i + 2)[k]]
+                    .map(|v| f64::from(v.get()));
+                let monomials = [a, 2.0 * (b - a), a - 2.0 * b + c];
+                for (out, value) in polynomial.iter_mut().zip(monomials) {
+                    out.0[k / LANES][k % LANES] = value as f32;
                 }
-                Layer {
-                    bottom: edge[0],
-                    rate: 1.0 / (edge[1] - edge[0]),
-                    polynomial,
-                }
-            })
-            .collect();
+            }
+            Layer {
+                bottom: edge[0],
+                rate: 1.0 / (edge[1] - edge[0]),
+                polynomial,
+            }
+        });
+        let mut layers = vec![Layer {
+            bottom: 0.0,
+            rate: 0.0,
+            polynomial: [Amounts::default(); 3],
+        }];
+        layers.extend(above);
+        // Below the ground the density stays what it is there.
+        layers[0].polynomial[0] = layers[1].polynomial[0];
         Self {
             planet,
             edges,
@@ -111,52 +133,82 @@ impl Layers {
     }
 
     /// Columns on `line` between the distances `from < to` from its tangent point (negative before it), m.
-    #[inline]
+    #[inline(always)]
     pub fn columns(&self, line: Line, from: f64, to: f64) -> Amounts {
         let mut sum = Amounts::default();
-        self.pieces(line, from, to, |_, _, column| sum.add(&column, self.quads));
+        self.walk(line, from, to, |piece| {
+            let [a, b, c] = &self.layers[piece.layer].polynomial;
+            let length = piece.length();
+            for (q, sum) in sum.0[..self.quads].iter_mut().enumerate() {
+                for (i, sum) in sum.iter_mut().enumerate() {
+                    *sum += length * piece.mean([a.0[q][i], b.0[q][i], c.0[q][i]]);
+                }
+            }
+        });
         sum
     }
 
-    /// Hands every piece of the line that lies in one layer to `emit`: its ends, counted outwards, and its columns.
+    /// Densities weighted by `weight` and summed: the polynomial of each layer.
+    pub fn weighted(&self, weight: &Amounts) -> Vec<[f32; 3]> {
+        let polynomial = |layer: &Layer| layer.polynomial.map(|amounts| amounts.dot(weight));
+        self.layers.iter().map(polynomial).collect()
+    }
+
+    /// Column of a piece in terms of the densities that [`Layers::weighted`] gives.
     #[inline(always)]
-    pub fn pieces(&self, line: Line, from: f64, to: f64, mut emit: impl FnMut(f64, f64, Amounts)) {
-        if from < 0.0 {
-            self.outwards(line, (-to).max(0.0), -from, &mut emit);
+    pub fn column_of(&self, weighted: &[[f32; 3]], piece: &Piece) -> f32 {
+        piece.length() * piece.mean(weighted[piece.layer])
+    }
+
+    /// Visits what the line crosses of each layer between the distances `from < to`, in this order.
+    #[inline(always)]
+    pub fn walk(&self, line: Line, from: f64, to: f64, mut visit: impl FnMut(Piece)) {
+        let diameter = 2.0 * self.planet.radius;
+        // Square of the distance at which the line is at the edge.
+        let reach = |edge: f64| (edge - line.lowest) * diameter;
+        let mut s = from;
+        let top = reach(self.edges[self.layers.len()]).max(0.0);
+        if s < 0.0 && s * s > top {
+            s = -top.sqrt();
         }
-        if to > 0.0 {
-            self.outwards(line, from.max(0.0), to, &mut emit);
+        let mut i = self.find(line.lowest + s * s / diameter);
+        while s < to && i < self.layers.len() {
+            let below = reach(self.edges[i]);
+            // Inwards through the lower edge, or over the tangent point and outwards through the upper one.
+            let inwards = s < 0.0 && below > 0.0;
+            let stop = match inwards {
+                true => -below.sqrt(),
+                false => reach(self.edges[i + 1]).max(0.0).sqrt(),
+            };
+            // Beyond an edge only by rounding: nothing is crossed.
+            let stop = stop.max(s).min(to);
+            visit(self.piece(line, i, s, stop));
+            s = stop;
+            // The line that leaves the lowest layer inwards does not exist: it reaches down to −∞.
+            i = if inwards { i - 1 } else { i + 1 };
         }
     }
 
+    /// Part of a piece.
     #[inline(always)]
-    fn outwards(&self, line: Line, from: f64, to: f64, emit: &mut impl FnMut(f64, f64, Amounts)) {
-        let diameter = 2.0 * self.planet.radius;
-        let start = line.lowest + from * from / diameter;
-        let mut s = from;
-        if start < 0.0 {
-            // Below the ground the density stays what it is there.
-            let exit = (-line.lowest * diameter).max(0.0).sqrt().clamp(s, to);
-            emit(s, exit, self.layers[0].over(0.0, 0.0, exit - s, self.quads));
-            s = exit;
-        }
-        let mut i = self.find(start);
-        while s < to && i < self.layers.len() {
-            let top = (self.edges[i + 1] - line.lowest) * diameter;
-            let end = if top >= to * to {
-                to
-            } else {
-                top.max(s * s).sqrt()
-            };
-            let (middle, length) = (0.5 * (s + end), end - s);
-            let (m2, d2) = (middle * middle, length * length);
-            let layer = &self.layers[i];
-            let scale = layer.rate / diameter;
-            let mean = (line.lowest - layer.bottom) * layer.rate + (m2 + d2 / 12.0) * scale;
-            let variance = (m2 / 3.0 + d2 / 180.0) * d2 * scale * scale;
-            emit(s, end, layer.over(mean, variance, length, self.quads));
-            s = end;
-            i += 1;
+    pub fn part(&self, line: Line, of: &Piece, start: f64, end: f64) -> Piece {
+        self.piece(line, of.layer, start, end)
+    }
+
+    #[inline(always)]
+    fn piece(&self, line: Line, i: usize, start: f64, end: f64) -> Piece {
+        let (middle, length) = (0.5 * (start + end), end - start);
+        let (m2, d2) = (middle * middle, length * length);
+        let layer = &self.layers[i];
+        let scale = layer.rate / (2.0 * self.planet.radius);
+        let mean = (line.lowest - layer.bottom) * layer.rate + (m2 + d2 * (1.0 / 12.0)) * scale;
+        let variance = (m2 * (1.0 / 3.0) + d2 * (1.0 / 180.0)) * d2 * scale * scale;
+        Piece {
+            start,
+            end,
+            layer: i,
+            mean: mean as f32,
+            square: (mean * mean + variance) as f32,
         }
     }
 
@@ -164,29 +216,5 @@ impl Layers {
     fn find(&self, w: f64) -> usize {
         let inner = &self.edges[1..self.layers.len()];
         inner.partition_point(|&edge| edge <= w)
-    }
-}
-
-impl Layer {
-    /// Mean density where the share `t` has this mean and mean square.
-    #[inline(always)]
-    fn mean(&self, t: f32, square: f32, quads: usize) -> Amounts {
-        let mut out = Amounts::default();
-        let [a, b, c] = &self.polynomial;
-        for q in 0..quads {
-            let value = |i: usize| a.0[q][i] + b.0[q][i] * t + c.0[q][i] * square;
-            // Rounding must not make a density negative.
-            out.0[q] = core::array::from_fn(|i| value(i).max(0.0));
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn over(&self, mean: f64, variance: f64, length: f64, quads: usize) -> Amounts {
-        let mut out = self.mean(mean as f32, (mean * mean + variance) as f32, quads);
-        for q in 0..quads {
-            out.0[q] = core::array::from_fn(|i| out.0[q][i] * length as f32);
-        }
-        out
     }
 }

@@ -3,13 +3,14 @@
 mod layers;
 mod segment;
 
-pub(crate) use layers::{Amounts, Layers, Line};
+pub(crate) use layers::{Amounts, Layers, Line, Piece};
 pub(crate) use segment::{Segment, dot};
 
 use crate::axis::linear;
 use crate::error::{Error, Result};
 use crate::format::{Head, visibility_node};
 use crate::geometry::Planet;
+use crate::lanes::Lanes;
 use crate::math::{LANES, exp};
 use crate::model::Model;
 
@@ -55,15 +56,20 @@ impl Extinction {
         }
     }
 
+    /// Extinction coefficients of constituent `k` in a block of wavelengths.
+    #[inline(always)]
+    pub fn row(&self, k: usize, block: usize) -> &[f32; LANES] {
+        &self.table[k * self.blocks + block]
+    }
+
     /// Optical depths of a block of wavelengths.
     #[inline(always)]
     pub fn depth(&self, columns: &Amounts, block: usize) -> [f32; LANES] {
-        let mut depth = [0.0; LANES];
+        let mut depth = Lanes::splat(0.0);
         for (k, row) in self.table.chunks_exact(self.blocks).enumerate() {
-            let column = columns.get(k);
-            depth = core::array::from_fn(|i| depth[i] + row[block][i] * column);
+            depth = depth + Lanes(row[block]) * columns.get(k);
         }
-        depth
+        depth.0
     }
 }
 
@@ -99,15 +105,15 @@ impl Air {
         &self.wavelengths
     }
 
-    /// Mean extinction coefficient of each constituent over the wavelengths, m⁻¹.
-    pub(crate) fn grey(&self) -> Amounts {
+    /// Extinction at a typical wavelength, m⁻¹: the mean over all, as a polynomial of each layer.
+    pub(crate) fn grey(&self) -> Vec<[f32; 3]> {
         let mut out = Amounts::default();
         let rows = self.extinction.table.chunks_exact(self.extinction.blocks);
         for (k, row) in rows.enumerate() {
             let sum: f32 = row.as_flattened().iter().sum();
             out.0[k / LANES][k % LANES] = sum / self.wavelengths.len() as f32;
         }
-        out
+        self.layers.weighted(&out)
     }
 
     /// The planet.
@@ -188,7 +194,11 @@ impl Air {
 }
 
 fn attenuate(out: &mut [f32]) {
-    for value in out {
+    let (blocks, rest) = out.as_chunks_mut::<LANES>();
+    for block in blocks {
+        *block = (-Lanes(*block)).exp().0;
+    }
+    for value in rest {
         *value = exp(-*value);
     }
 }

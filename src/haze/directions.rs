@@ -4,15 +4,17 @@ use core::f64::consts::PI;
 
 use super::harmonics::orders;
 use crate::format::{MAX_MOMENTS, SourceBasisView, TENSOR};
-use crate::math::LANES;
+use crate::lanes::Lanes;
 
+/// Components in a vector.
+pub(crate) const WIDE: usize = 8;
 /// Most components of the moments, in vectors.
-pub(crate) const MOST_COMPONENTS: usize = MAX_MOMENTS / LANES;
+const MOST_VECTORS: usize = MAX_MOMENTS / WIDE;
 /// Zenith angles of the table: 1.5° apart.
 const ANGLES: usize = 120;
 
 /// One number per component.
-pub(crate) type Components = [[f32; LANES]; MOST_COMPONENTS];
+pub(crate) type Components = [Lanes<WIDE>; MOST_VECTORS];
 
 /// A direction and the sun in the local frame of a point.
 #[derive(Clone, Copy, Debug)]
@@ -42,19 +44,19 @@ pub(crate) struct Directions {
     /// Vectors of components.
     pub vectors: usize,
     /// `[xx, yy, zz, xz][vector]`.
-    tensor: Vec<[f32; LANES]>,
+    tensor: Vec<Lanes<WIDE>>,
     /// `[zenith angle][order][vector]`.
-    particles: Vec<[f32; LANES]>,
+    particles: Vec<Lanes<WIDE>>,
 }
 
 impl Directions {
     pub fn new(basis: &SourceBasisView) -> Self {
         let rank = basis.ranks[2];
-        let vectors = rank.div_ceil(LANES);
+        let vectors = rank.div_ceil(WIDE);
         let factor = |moment: usize, r: usize| f64::from(basis.factors[2][moment * rank + r].get());
-        let pad = |values: &dyn Fn(usize) -> f64| -> Vec<[f32; LANES]> {
+        let pad = |values: &dyn Fn(usize) -> f64| -> Vec<Lanes<WIDE>> {
             let lane = |r: usize| if r < rank { values(r) as f32 } else { 0.0 };
-            let vector = |v: usize| core::array::from_fn(|i| lane(v * LANES + i));
+            let vector = |v: usize| Lanes(core::array::from_fn(|i| lane(v * WIDE + i)));
             (0..vectors).map(vector).collect()
         };
         let mut particles = Vec::new();
@@ -82,7 +84,7 @@ impl Directions {
     }
 
     /// What molecules and what particles send from each component towards an observer.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, local: &Local) -> [Components; 2] {
         [self.molecules(local), self.particles(local)]
     }
@@ -98,9 +100,11 @@ impl Directions {
             1.0 - view2,
             -2.0 * sine * view * azimuth,
         ];
-        let mut out = Components::default();
+        let mut out = [Lanes::splat(0.0); MOST_VECTORS];
         for (row, factor) in self.tensor.chunks_exact(self.vectors).zip(form) {
-            add(&mut out, row, factor);
+            for (out, row) in out.iter_mut().zip(row) {
+                *out = *out + *row * factor;
+            }
         }
         out
     }
@@ -116,22 +120,16 @@ impl Directions {
         let azimuth = local.cos_azimuth as f32;
         // cos mφ by recursion from cos(−φ) and 1.
         let (mut before, mut cosine) = (azimuth, 1.0);
-        let mut out = Components::default();
+        let mut out = [Lanes::splat(0.0); MOST_VECTORS];
         let orders = near
             .chunks_exact(self.vectors)
             .zip(far.chunks_exact(self.vectors));
         for (near, far) in orders {
-            add(&mut out, near, cosine * (1.0 - t));
-            add(&mut out, far, cosine * t);
+            for ((out, near), far) in out.iter_mut().zip(near).zip(far) {
+                *out = *out + (*near + (*far - *near) * t) * cosine;
+            }
             (before, cosine) = (cosine, 2.0 * azimuth * cosine - before);
         }
         out
-    }
-}
-
-#[inline(always)]
-pub(crate) fn add(sum: &mut Components, row: &[[f32; LANES]], factor: f32) {
-    for (sum, row) in sum.iter_mut().zip(row) {
-        *sum = core::array::from_fn(|i| sum[i] + factor * row[i]);
     }
 }

@@ -2,26 +2,26 @@
 
 mod directions;
 mod harmonics;
+mod integral;
+mod marks;
 mod panels;
 mod source;
 mod species;
+mod stations;
 mod sunlight;
 
-use crate::air::{Air, Amounts, Segment, dot};
+use crate::air::{Air, Segment};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{Head, Kind, visibility_node};
-use crate::math::{LANES, bound, one_minus_exp_neg};
+use crate::lanes::Lanes;
+use crate::math::{LANES, bound};
 use crate::model::Model;
-use crate::phase::SunAngle;
-use directions::{Components, Local};
-use panels::{Heaven, MOST_PANELS, Panels, Stations, point};
-use source::{SourceTable, Spot, blocks, ground_factor};
+use crate::simd::dispatch;
+use integral::{Block, Integral};
+use source::{SourceTable, blocks, ground_factor};
 use species::Species;
-use sunlight::{Beam, Sunlight};
-
-/// Most constituents that a file can have.
-const MOST_CONSTITUENTS: usize = 16;
+use sunlight::Beam;
 
 /// Transmittance and in-scattered light of finite segments: aerial perspective.
 ///
@@ -42,8 +42,8 @@ pub struct Haze {
     species: Species,
     source: SourceTable,
     beam: Beam,
-    /// Mean extinction coefficient of each constituent, m⁻¹: a typical wavelength.
-    grey: Amounts,
+    /// Extinction at a typical wavelength, m⁻¹: a polynomial of each layer.
+    grey: Vec<[f32; 3]>,
     irradiance: Vec<[f32; LANES]>,
     /// `[block][X, Y, Z]`.
     xyz: Vec<[[f32; LANES]; 3]>,
@@ -87,12 +87,6 @@ impl Model {
             conditions,
         })
     }
-}
-
-/// What a segment does to light, for one block of wavelengths.
-struct Block {
-    scattered: [f32; LANES],
-    depth: [f32; LANES],
 }
 
 impl Haze {
@@ -253,83 +247,13 @@ impl Haze {
         });
     }
 
-    /// Hands what the segment does, per unit of solar irradiance, to `emit` block by block.
-    #[inline]
-    fn integrate(&self, segment: &Segment, mut emit: impl FnMut(usize, Block)) {
-        let layers = &self.air.layers;
-        let sky = Heaven {
-            sun: self.sun,
-            low: self.conditions.solar_elevation < LOW_SUN,
-        };
-        let panels = Panels::place(layers, segment, &self.grey, &sky);
-        let panels = panels.as_slice();
-        let mut sunlight = [Sunlight::default(); MOST_PANELS];
-        for (panel, sunlight) in panels.iter().zip(&mut sunlight) {
-            *sunlight = self.sunlight(segment, panel.at);
-        }
-        let stations = Stations::along(panels.len());
-        let mut views = [const { None }; 3];
-        for (view, panel) in views.iter_mut().zip(stations.panels()) {
-            *view = Some(self.view(segment, panels[panel].at));
-        }
-        let angle = SunAngle::between(segment.direction, self.sun);
-        let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
-        let sunlit = &mut sunlit[..layers.constituents];
-        for block in 0..self.irradiance.len() {
-            self.species.sunlit(block, angle, sunlit);
-            let mut diffuse = [[[0.0; LANES]; 2]; 3];
-            for (out, view) in diffuse.iter_mut().zip(views.iter().flatten()) {
-                *out = self.source.scattered(&view.spot, &view.seen, block);
-            }
-            let mut path = Walk::start();
-            for (i, (panel, sunlight)) in panels.iter().zip(&sunlight).enumerate() {
-                let diffuse = stations.between(&diffuse, i);
-                let direct = self.direct(sunlight, block);
-                let source = self
-                    .species
-                    .source(&panel.columns, block, sunlit, &direct, &diffuse);
-                path.step(&source, &self.air.extinction.depth(&panel.columns, block));
-            }
-            emit(
-                block,
-                Block {
-                    scattered: path.scattered,
-                    depth: path.depth,
-                },
-            );
-        }
-    }
-
-    /// Sunlight that arrives, for a block.
-    #[inline(always)]
-    fn direct(&self, sunlight: &Sunlight, block: usize) -> [f32; LANES] {
-        if sunlight.share == 0.0 {
-            return [0.0; LANES];
-        }
-        let mut light = self.air.extinction.depth(&sunlight.columns, block);
-        for value in &mut light {
-            *value = sunlight.share * fade(*value);
-        }
-        light
-    }
-
-    #[inline(always)]
-    fn sunlight(&self, segment: &Segment, s: f64) -> Sunlight {
-        let (altitude, _) = point(&self.air.layers, segment.line, s);
-        let sun = segment.sine_of(self.sun, s, self.air.planet().radius + altitude);
-        self.beam.at(&self.air.layers, altitude, sun)
-    }
-
-    /// What the source looks like from a point of the segment.
-    #[inline(always)]
-    fn view(&self, segment: &Segment, s: f64) -> View {
-        let (altitude, zenith) = point(&self.air.layers, segment.line, s);
-        let sun = segment.sine_of(self.sun, s, self.air.planet().radius + altitude);
-        let between = dot(segment.direction, self.sun);
-        View {
-            spot: self.source.spot(altitude as f32, sun as f32),
-            seen: self.source.directions.at(&Local::new(zenith, sun, between)),
-        }
+    /// Hands what the segment does to `emit` block by block.
+    fn integrate(&self, segment: &Segment, emit: impl FnMut(usize, Block)) {
+        dispatch(Integral {
+            haze: self,
+            segment,
+            emit,
+        });
     }
 
     fn check_outputs(&self, points: usize, a: &[f32], b: &[f32]) -> Result<()> {
@@ -347,57 +271,9 @@ impl Haze {
     }
 }
 
-/// Where the sun stands lower than this (rad), panels crowd where it shines.
-const LOW_SUN: f64 = 0.14;
-
-/// A place in the source and how its components look from there.
-struct View {
-    spot: Spot,
-    seen: [Components; 2],
-}
-
-/// Light and optical depth from the start of a segment to where one has got.
-struct Walk {
-    scattered: [f32; LANES],
-    through: [f32; LANES],
-    depth: [f32; LANES],
-}
-
-impl Walk {
-    fn start() -> Self {
-        Self {
-            scattered: [0.0; LANES],
-            through: [1.0; LANES],
-            depth: [0.0; LANES],
-        }
-    }
-
-    /// Goes on through a panel with this source over its whole length and this optical depth.
-    #[inline(always)]
-    fn step(&mut self, source: &[f32; LANES], depth: &[f32; LANES]) {
-        for i in 0..LANES {
-            let absorbed = one_minus_exp_neg(depth[i]);
-            // Mean transmittance of the panel; the limit is reached before the quotient loses its digits.
-            let thin = 1.0 - 0.5 * depth[i];
-            let mean = if depth[i] > 1e-3 {
-                absorbed / depth[i]
-            } else {
-                thin
-            };
-            self.scattered[i] += source[i] * self.through[i] * mean;
-            self.through[i] *= 1.0 - absorbed;
-            self.depth[i] += depth[i];
-        }
-    }
-}
-
 #[inline(always)]
-fn fade(depth: f32) -> f32 {
-    crate::math::exp(-depth)
-}
-
 fn attenuated(depth: &[f32; LANES]) -> [f32; LANES] {
-    core::array::from_fn(|i| fade(depth[i]))
+    (-Lanes(*depth)).exp().0
 }
 
 fn sun_direction(elevation: f64, azimuth: f64) -> [f64; 3] {

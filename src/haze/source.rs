@@ -7,7 +7,8 @@ use crate::error::{Error, Result};
 use crate::format::{
     Head, SOURCE_FIELDS, SourceBasisView, SourceView, altitude_node, visibility_node, widen,
 };
-use crate::math::{LANES, exp};
+use crate::lanes::Lanes;
+use crate::math::LANES;
 use crate::model::Model;
 
 /// Sun nodes of the table.
@@ -26,9 +27,10 @@ pub(crate) struct SourceTable {
     /// Sines of the sun's elevation.
     sun: Vec<f32>,
     blocks: usize,
-    rank: usize,
-    /// `[altitude][sun][block of wavelengths][component]`, over the level.
-    values: Vec<[f32; LANES]>,
+    /// Pairs of components.
+    pairs: usize,
+    /// `[altitude][sun][block of wavelengths][pair of components]`, over the level: four wavelengths of the one, then of the other.
+    values: Vec<Lanes<8>>,
     /// Logarithm of the level, `[sun][block]`.
     level: Vec<[f32; LANES]>,
 }
@@ -69,12 +71,15 @@ impl SourceTable {
             altitude: altitude.iter().map(|&h| h as f32).collect(),
             sun: sun.iter().map(|&s| s as f32).collect(),
             blocks: nw.div_ceil(LANES),
-            rank: basis.ranks[2],
+            pairs: basis.ranks[2].div_ceil(2),
             values: pack(&values, nw, basis.ranks[2]),
             level: level.chunks(nw).flat_map(blocks).collect(),
         };
-        let finite = |rows: &[[f32; LANES]]| rows.as_flattened().iter().all(|v| v.is_finite());
-        if finite(&table.values) && finite(&table.level) {
+        let values = table
+            .values
+            .iter()
+            .all(|v| v.0.iter().all(|v| v.is_finite()));
+        if values && table.level.as_flattened().iter().all(|v| v.is_finite()) {
             return Ok(table);
         }
         let detail = "its values overflow at these conditions: the file is not a sensible sky";
@@ -93,7 +98,7 @@ impl SourceTable {
     pub fn spot(&self, altitude: f32, sun: f32) -> Spot {
         let (a, t) = locate(&self.altitude, altitude);
         let (s, u) = locate(&self.sun, sun);
-        let row = |a: usize, s: usize| (a * self.sun.len() + s) * self.blocks * self.rank;
+        let row = |a: usize, s: usize| (a * self.sun.len() + s) * self.blocks * self.pairs;
         Spot {
             row: [row(a, s), row(a, s + 1), row(a + 1, s), row(a + 1, s + 1)],
             weight: [(1.0 - t) * (1.0 - u), (1.0 - t) * u, t * (1.0 - u), t * u],
@@ -112,25 +117,32 @@ impl SourceTable {
     ) -> [[f32; LANES]; 2] {
         let rows = spot
             .row
-            .map(|row| &self.values[row + block * self.rank..][..self.rank]);
-        let mut sums = [[0.0; LANES]; 2];
-        let [molecules, particles] = [seen[0].as_flattened(), seen[1].as_flattened()];
-        for r in 0..self.rank {
-            let mut value = [0.0; LANES];
+            .map(|row| &self.values[row + block * self.pairs..][..self.pairs]);
+        let mut sums = [Lanes::splat(0.0); 2];
+        for r in 0..self.pairs {
+            let mut value = Lanes::splat(0.0);
             for (row, weight) in rows.iter().zip(spot.weight) {
-                value = core::array::from_fn(|i| value[i] + weight * row[r][i]);
+                value = value + row[r] * weight;
             }
-            sums[0] = core::array::from_fn(|i| sums[0][i] + molecules[r] * value[i]);
-            sums[1] = core::array::from_fn(|i| sums[1][i] + particles[r] * value[i]);
+            sums[0] = sums[0] + value * pair(&seen[0], r);
+            sums[1] = sums[1] + value * pair(&seen[1], r);
         }
-        let [near, far] = spot.level.map(|level| &self.level[level + block]);
-        let mut level = [0.0; LANES];
-        for i in 0..LANES {
-            level[i] = exp(near[i] + spot.share * (far[i] - near[i]));
-        }
+        let [near, far] = spot.level.map(|level| Lanes(self.level[level + block]));
+        let level = (near + (far - near) * spot.share).exp();
         // A compressed source may dip below zero where there is next to no light.
-        sums.map(|sum| core::array::from_fn(|i| sum[i].max(0.0) * level[i]))
+        sums.map(|sum| {
+            let [even, odd] = sum.halves().map(Lanes);
+            ((even + odd).max(Lanes::splat(0.0)) * level).0
+        })
     }
+}
+
+/// Components 2r and 2r + 1, each for four wavelengths.
+#[inline(always)]
+fn pair(seen: &Components, r: usize) -> Lanes<8> {
+    let vector = &seen[r / 4].0;
+    let i = 2 * (r % 4);
+    Lanes::pair(vector[i], vector[i + 1])
 }
 
 /// Interval and position in it; clamped to the ends.
@@ -277,14 +289,21 @@ impl Weights {
     }
 }
 
-/// `[row][wavelength][component]` as `[row][block][component][lane]`.
-fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<[f32; LANES]> {
-    let mut out = Vec::with_capacity(values.len() / nw * nw.div_ceil(LANES));
+/// `[row][wavelength][component]` as `[row][block][pair of components][component of the pair][wavelength of the block]`.
+fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<Lanes<8>> {
+    let mut out = Vec::with_capacity(values.len().div_ceil(2 * nw * rank) * nw);
     for row in values.chunks_exact(nw * rank) {
         for block in 0..nw.div_ceil(LANES) {
-            for r in 0..rank {
-                let lane = |i: usize| row.get((block * LANES + i) * rank + r);
-                out.push(core::array::from_fn(|i| lane(i).map_or(0.0, |&v| v as f32)));
+            for pair in 0..rank.div_ceil(2) {
+                let lane = |i: usize| {
+                    let (w, r) = (block * LANES + i % LANES, 2 * pair + i / LANES);
+                    if w < nw && r < rank {
+                        row[w * rank + r] as f32
+                    } else {
+                        0.0
+                    }
+                };
+                out.push(Lanes(core::array::from_fn(lane)));
             }
         }
     }

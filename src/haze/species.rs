@@ -1,6 +1,5 @@
 //! Scattering coefficients and phase functions of what is in the air.
 
-use crate::air::Amounts;
 use crate::format::{Field, Head, PhaseFunction, SourceView, phase_function};
 use crate::math::LANES;
 use crate::phase::{PhaseTable, SunAngle};
@@ -99,27 +98,10 @@ impl Species {
         }
     }
 
-    /// What the columns of a panel scatter towards the observer: `sunlit` of each constituent times `direct` light, and
-    /// the `diffuse` source of molecules and of particles.
+    /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths.
     #[inline(always)]
-    pub fn source(
-        &self,
-        columns: &Amounts,
-        block: usize,
-        sunlit: &[[f32; LANES]],
-        direct: &[f32; LANES],
-        diffuse: &[[f32; LANES]; 2],
-    ) -> [f32; LANES] {
-        let mut sum = [0.0; LANES];
-        for (k, sunlit) in sunlit.iter().enumerate() {
-            let column = columns.get(k);
-            let row = k * self.blocks + block;
-            let (molecules, particles) = (&self.totals[0][row], &self.totals[1][row]);
-            for i in 0..LANES {
-                let scattered = molecules[i] * diffuse[0][i] + particles[i] * diffuse[1][i];
-                sum[i] += column * (sunlit[i] * direct[i] + scattered);
-            }
-        }
-        sum
+    pub fn totals(&self, k: usize, block: usize) -> [&[f32; LANES]; 2] {
+        let row = k * self.blocks + block;
+        [&self.totals[0][row], &self.totals[1][row]]
     }
 }

@@ -1,19 +1,20 @@
-//! Sunlight at a point: the share of the disc above the planet's edge, and the air that it crosses.
+//! Sunlight at a point: how high the disc stands above the planet's edge, and the air that it crosses.
 
-use core::f64::consts::PI;
+use core::f32::consts::PI;
 
 use crate::air::{Amounts, Layers, Line};
+use crate::geometry::Planet;
 use crate::math::{LANES, exp};
 
 /// Angular radius of the sun, rad: 0.2667°.
-pub(crate) const SUN_RADIUS: f64 = 0.004_654_793;
+const SUN_RADIUS: f64 = 0.004_654_793;
 
 /// Sunlight at a point.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sunlight {
-    /// Share of the disc that is above the horizon.
-    pub share: f32,
-    /// Columns towards the centroid of that share, m.
+    /// How many radii the sun's centre stands above the geometric horizon.
+    pub rise: f32,
+    /// Columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
     pub columns: Amounts,
 }
 
@@ -22,8 +23,11 @@ pub(crate) struct Sunlight {
 pub(crate) struct Beam {
     /// Lowest and highest angle above the geometric horizon in the table, rad.
     range: [f64; 2],
-    /// Logarithms, `[altitude][angle]`.
-    columns: Vec<Amounts>,
+    top: f64,
+    /// Vectors per node.
+    quads: usize,
+    /// Logarithms, `[altitude][angle][vector]`.
+    columns: Vec<[f32; LANES]>,
 }
 
 /// How far the sun's local elevation may be from that of the scene, rad.
@@ -31,9 +35,7 @@ const REACH: f64 = 0.06;
 /// Angles above the horizon, ever closer towards the lowest.
 const ANGLES: usize = 64;
 /// Altitudes, ever closer towards the ground.
-const ALTITUDES: usize = 81;
-/// Highest altitude in the table, m.
-const TOP: f64 = 20_000.0;
+const ALTITUDES: usize = 121;
 /// Added to columns before the logarithm, m: less is nothing.
 const NOTHING: f32 = 1e-3;
 
@@ -41,19 +43,22 @@ impl Beam {
     pub fn new(layers: &Layers, elevation: f64) -> Self {
         let planet = layers.planet();
         let low = (elevation - REACH).max(0.0);
-        let high = (elevation + REACH + planet.dip(TOP)).max(low + REACH);
-        let node = |i: usize, j: usize| {
-            let h = TOP * share(i, ALTITUDES).powi(2);
-            let angle = low + (high - low) * share(j, ANGLES).powi(2);
-            let mut node = towards(layers, h, (angle - planet.dip(h)).sin());
-            let columns = node.0.as_flattened_mut();
-            columns.iter_mut().for_each(|c| *c = (*c + NOTHING).ln());
-            node
-        };
-        let nodes = (0..ALTITUDES).flat_map(|i| (0..ANGLES).map(move |j| (i, j)));
+        let high = (elevation + REACH + planet.dip(planet.top)).max(low + REACH);
+        let mut columns = Vec::with_capacity(ALTITUDES * ANGLES * layers.quads);
+        for i in 0..ALTITUDES {
+            let h = planet.top * share(i, ALTITUDES).powi(2);
+            for j in 0..ANGLES {
+                let angle = low + (high - low) * share(j, ANGLES).powi(2);
+                let node = towards(layers, h, (angle - planet.dip(h)).sin());
+                let logarithm = |c: f32| (c + NOTHING).ln();
+                columns.extend(node.0[..layers.quads].iter().map(|row| row.map(logarithm)));
+            }
+        }
         Self {
             range: [low, high],
-            columns: nodes.map(|(i, j)| node(i, j)).collect(),
+            top: planet.top,
+            quads: layers.quads,
+            columns,
         }
     }
 
@@ -62,37 +67,32 @@ impl Beam {
     }
 
     /// Sunlight at altitude `h` (m) of a sun whose centre stands `sine` above the horizontal plane.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, layers: &Layers, h: f64, sine: f64) -> Sunlight {
-        let dip = layers.planet().dip(h.max(0.0));
-        let angle = sine.asin() + dip;
-        let x = angle / SUN_RADIUS;
-        if x <= -1.0 {
-            return Sunlight::default();
-        }
-        let (share, rise) = if x < 1.0 { visible_disc(x) } else { (1.0, 0.0) };
-        let angle = (angle + rise * SUN_RADIUS).max(0.0);
-        let tabulated = h <= TOP && (self.range[0]..=self.range[1]).contains(&angle);
-        Sunlight {
-            share: share as f32,
-            columns: match tabulated {
-                true => self.columns(layers.quads, h, angle),
-                false => towards(layers, h, (angle - dip).sin()),
-            },
-        }
+        let planet = layers.planet();
+        let dip = dip(&planet, h.max(0.0));
+        let rise = ((sine.asin() + dip) / SUN_RADIUS) as f32;
+        let angle = f64::from(visible_rise(rise)) * SUN_RADIUS;
+        let tabulated = h <= self.top && (self.range[0]..=self.range[1]).contains(&angle);
+        let columns = match tabulated {
+            true => self.columns(h, angle),
+            false => towards(layers, h, (angle - dip).sin()),
+        };
+        Sunlight { rise, columns }
     }
 
     #[inline(always)]
-    fn columns(&self, quads: usize, h: f64, angle: f64) -> Amounts {
+    fn columns(&self, h: f64, angle: f64) -> Amounts {
         let [low, high] = self.range;
-        let u = (h.max(0.0) / TOP).sqrt() as f32 * (ALTITUDES - 1) as f32;
+        let u = (h.max(0.0) / self.top).sqrt() as f32 * (ALTITUDES - 1) as f32;
         let v = ((angle - low) / (high - low)).sqrt() as f32 * (ANGLES - 1) as f32;
         let (i, j) = (
             (u as usize).min(ALTITUDES - 2),
             (v as usize).min(ANGLES - 2),
         );
         let (t, s) = (u - i as f32, v - j as f32);
-        let node = |i: usize, j: usize| &self.columns[i * ANGLES + j];
+        let node =
+            |i: usize, j: usize| &self.columns[(i * ANGLES + j) * self.quads..][..self.quads];
         let corners = [
             node(i, j),
             node(i, j + 1),
@@ -101,15 +101,30 @@ impl Beam {
         ];
         let weights = [(1.0 - t) * (1.0 - s), (1.0 - t) * s, t * (1.0 - s), t * s];
         let mut columns = Amounts::default();
-        for q in 0..quads {
-            let mut sum = [0.0; LANES];
+        for (q, column) in columns.0[..self.quads].iter_mut().enumerate() {
             for (corner, weight) in corners.iter().zip(weights) {
-                sum = core::array::from_fn(|i| sum[i] + weight * corner.0[q][i]);
+                for (column, corner) in column.iter_mut().zip(&corner[q]) {
+                    *column += weight * corner;
+                }
             }
-            columns.0[q] = core::array::from_fn(|i| exp(sum[i]));
+            for column in column.iter_mut() {
+                *column = exp(*column);
+            }
         }
         columns
     }
+}
+
+/// Angle of the geometric horizon below the horizontal, rad, to 1e-8 up to 200 km.
+#[inline(always)]
+fn dip(planet: &Planet, h: f64) -> f64 {
+    let square = h * (2.0 * planet.radius + h) / (planet.radius * planet.radius);
+    if square > 0.06 {
+        return planet.dip(h);
+    }
+    // The series of the arc tangent.
+    let series = 1.0 - square * (1.0 / 3.0 - square * (0.2 - square * (1.0 / 7.0 - square / 9.0)));
+    square.sqrt() * series
 }
 
 fn share(i: usize, count: usize) -> f64 {
@@ -129,24 +144,75 @@ fn towards(layers: &Layers, h: f64, sine: f64) -> Amounts {
     layers.columns(line, from, to.max(from))
 }
 
-/// Share of a disc above a straight edge, and by how many radii the centroid of that share stands above the disc's centre, for a
-/// centre `x` radii above the edge, −1 < x < 1.
-fn visible_disc(x: f64) -> (f64, f64) {
-    let chord = 1.0 - x * x;
-    let root = chord.sqrt();
-    let share = 0.5 + (x * root + x.asin()) / PI;
-    (share, 2.0 / 3.0 * chord * root / (PI * share.max(1e-12)))
+/// How many radii the centroid of what is seen of the disc stands above a straight edge.
+#[inline(always)]
+fn visible_rise(rise: f32) -> f32 {
+    if rise >= 1.0 {
+        return rise;
+    }
+    let chord = (1.0 - rise * rise).max(0.0);
+    let share = visible_share(rise);
+    if rise <= -0.999 {
+        return 0.0;
+    }
+    rise + 2.0 / 3.0 * chord * chord.sqrt() / (PI * share)
+}
+
+/// Share of a disc above a straight edge, for a centre `rise` radii above the edge.
+fn visible_share(rise: f32) -> f32 {
+    let rise = rise.clamp(-1.0, 1.0);
+    0.5 + (rise * (1.0 - rise * rise).sqrt() + rise.asin()) / PI
+}
+
+/// Integral of the visible share up to `rise`.
+fn accumulated_share(rise: f32) -> f32 {
+    let x = rise.clamp(-1.0, 1.0);
+    let root = (1.0 - x * x).sqrt();
+    let inside = 0.5 * x + (root - root * root * root / 3.0 + x * x.asin()) / PI;
+    inside + (rise - 1.0).max(0.0)
+}
+
+/// Mean share of the disc that is visible between two places.
+#[inline(always)]
+pub(crate) fn mean_share(a: f32, b: f32) -> f32 {
+    if a.min(b) >= 1.0 {
+        return 1.0;
+    }
+    if a.max(b) <= -1.0 {
+        return 0.0;
+    }
+    let step = b - a;
+    match step.abs() < 1e-2 {
+        true => visible_share(0.5 * (a + b)),
+        false => ((accumulated_share(b) - accumulated_share(a)) / step).clamp(0.0, 1.0),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::visible_disc;
+    use super::*;
 
     #[test]
     fn half_the_disc_has_its_centroid_at_four_thirds_over_pi() {
-        let (share, rise) = visible_disc(0.0);
-        assert!((share - 0.5).abs() < 1e-12);
-        assert!((rise - 4.0 / (3.0 * core::f64::consts::PI)).abs() < 1e-12);
-        assert!(visible_disc(0.999_999).0 > 0.999 && visible_disc(-0.999_999).0 < 1e-3);
+        assert!((visible_share(0.0) - 0.5).abs() < 1e-6);
+        assert!((visible_rise(0.0) - 4.0 / (3.0 * PI)).abs() < 1e-6);
+        assert!(visible_share(0.999_999) > 0.999 && visible_share(-0.999_999) < 1e-3);
+        assert!((visible_rise(-0.9985)).abs() < 2e-3);
+    }
+
+    #[test]
+    fn mean_shares_are_means() {
+        for (a, b) in [
+            (-3.0, 0.5),
+            (2.0, -0.2),
+            (-0.3, 0.4),
+            (-5.0, 9.0),
+            (0.1, 0.105),
+        ] {
+            let n = 10_000;
+            let at = |i: i32| visible_share(a + (b - a) * (i as f32 + 0.5) / n as f32);
+            let mean = (0..n).map(at).sum::<f32>() / n as f32;
+            assert!((mean_share(a, b) - mean).abs() < 1e-3, "{a} {b}");
+        }
     }
 }
