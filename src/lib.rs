@@ -83,7 +83,6 @@ pub use air::Air;
 #[cfg(feature = "std")]
 pub use baked::{
     BakeError, BakedColour, BakedPolarisedSky, BakedSky, Directions, Sample, SkySampler,
-    StokesSpectra,
 };
 #[cfg(feature = "std")]
 pub use budget::{Budget, Channels, Plan};
@@ -99,7 +98,7 @@ pub use model::DEFAULT_MODEL;
 #[cfg(feature = "std")]
 pub use model::Model;
 #[cfg(feature = "std")]
-pub use polarisation::{Frame, PolarisedSky, Stokes};
+pub use polarisation::{Frame, PolarisedSky, Stokes, StokesSpectra};
 #[cfg(feature = "std")]
 pub use sky::Sky;
 #[cfg(feature = "std")]

@@ -139,12 +139,21 @@ fn finite_segments_do_not_allocate() {
         let mut haze = model.haze(&conditions).unwrap();
         let n = haze.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
+        let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; 2 * n]);
         let camera = [0.0, 0.0, 1500.0];
         let points = [[30_000.0, 900.0, 2500.0], [10.0, 0.0, 1490.0]];
         let before = COUNT.get();
         let _ = haze.set_solar_azimuth(0.3);
         let _ = haze.aerial_perspective(camera, &points, &mut light, &mut through);
         let _ = haze.linear_srgb(camera, points[0]);
+        let spectra = StokesSpectra {
+            i: &mut i,
+            q: &mut q,
+            u: &mut u,
+        };
+        let frame = Frame::Axis([0.0, 0.1, 1.0]);
+        let _ = haze.aerial_perspective_stokes(camera, &points, frame, spectra, &mut through);
+        let _ = haze.linear_srgb_stokes(camera, points[0], Frame::SunAligned);
         let _ = haze.to_end(camera, [1.0, 0.0, 0.1], &mut light[..n], &mut through[..n]);
         let air = haze.air();
         let _ = air.transmittance(camera, points[1], &mut through[..n]);

@@ -515,6 +515,36 @@ fn plans_say_what_scenes_need() {
     }
 }
 
+/// Two polarisers across each other share the light of a landscape; one of them lifts the haze.
+#[test]
+fn a_polariser_stands_before_a_landscape() {
+    let bench = Bench::new();
+    let picture = |polariser: &[&str]| -> Vec<f32> {
+        let scene = "render --terrain flat --altitude 800 --sun-elevation 25 --view-azimuth 90 --visibility 100 --size 12 --out scene.exr";
+        let arguments: Vec<&str> = scene.split(' ').chain(polariser.iter().copied()).collect();
+        let output = bench.run(&arguments, "");
+        assert!(output.status.success(), "{output:?}");
+        let path = bench.folder.path().join("scene.exr");
+        let image = exr::prelude::read_first_flat_layer_from_file(path).unwrap();
+        let channels = &image.layer_data.channel_data.list;
+        channels
+            .iter()
+            .flat_map(|c| c.sample_data.values_as_f32().collect::<Vec<_>>())
+            .collect()
+    };
+    let open = picture(&[]);
+    let lifted = picture(&["--polariser", "65"]);
+    let kept = picture(&["--polariser", "-25"]);
+    for ((open, lifted), kept) in open.iter().zip(&lifted).zip(&kept) {
+        assert!(
+            (lifted + kept - open).abs() < 1e-3 * open,
+            "{open} {lifted} {kept}"
+        );
+    }
+    let sum = |values: &[f32]| values.iter().sum::<f32>();
+    assert!(sum(&lifted) < 0.9 * sum(&kept));
+}
+
 #[test]
 fn landscapes_and_froxel_volumes_are_written() {
     let bench = Bench::new();
@@ -564,6 +594,8 @@ fn landscapes_and_froxel_volumes_are_written() {
         &["froxels", "--out", "volume.png"],
         &["render", "--terrain", "nowhere.png"],
         &["render", "--terrain", "hills", "--spectral"],
+        &["render", "--terrain", "hills", "--polariser", "NaN"],
+        &["render", "--polariser", "65"],
         &["render", "--terrain", "hills", "--field-of-view", "0"],
         &["render", "--terrain", "hills", "--terrain-height", "-3"],
     ] {

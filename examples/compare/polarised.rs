@@ -62,7 +62,48 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     Ok(vec![
         row("polarised_spectral_batch", batch),
         row("polarised_spectral_single", single),
+        segments(scene)?,
     ])
+}
+
+/// Light of segments of 30 m to 100 km in all directions that do not meet the ground.
+fn segments(scene: &Scene) -> Result<Row> {
+    const ROUND: usize = 256;
+    let haze = scene.model.haze(&scene.conditions)?;
+    let n = haze.wavelengths().len();
+    let camera = [0.0, 0.0, scene.conditions.altitude];
+    let point = |(i, d): (usize, &[f32; 3])| -> [f64; 3] {
+        let length = 30.0 * 3300f64.powf((i as f64 * 0.618_034).fract());
+        let [x, y, z] = d.map(f64::from);
+        [length * x, length * y, camera[2] + length * z.abs()]
+    };
+    let points: Vec<_> = scene.directions.iter().enumerate().map(point).collect();
+    let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; n * ROUND]);
+    let [mut through, mut light] = [(); 2].map(|()| vec![0.0; n * ROUND]);
+    let mut peer_through = light.clone();
+    let ns = clock::duel(
+        [ROUND; 2],
+        unwrapped(|round| {
+            let points = black_box(&points[span(round, ROUND)]);
+            let out = StokesSpectra {
+                i: &mut i,
+                q: &mut q,
+                u: &mut u,
+            };
+            haze.aerial_perspective_stokes(camera, points, FRAME, out, &mut through)
+        }),
+        unwrapped(|round| {
+            let points = black_box(&points[span(round, ROUND)]);
+            haze.aerial_perspective(camera, points, &mut light, &mut peer_through)
+        }),
+    );
+    Ok(Row {
+        name: "polarised_segment",
+        peer: "the same without polarisation",
+        ns,
+        p95_error: [None, None],
+        bytes: [haze.bytes(); 2],
+    })
 }
 
 /// 95th percentile of the distance between (Q, U) of the tables and of the prepared sky, over the radiance.

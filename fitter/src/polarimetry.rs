@@ -107,16 +107,26 @@ fn turned([i, q, u]: [f64; 3], angle: f64) -> [f64; 3] {
     [i, c * q + s * u, c * u - s * q]
 }
 
-fn compare([i, q, u]: [f64; 3], [truth_i, truth_q, truth_u]: [f64; 3], place: Error) -> Error {
+fn compare(got: [f64; 3], truth: [f64; 3], place: Error) -> Error {
+    let (degree, angle) = difference(got, truth);
+    Error {
+        degree,
+        angle,
+        ..place
+    }
+}
+
+/// |got − truth| of the degree of linear polarisation and, where that of the truth exceeds 0.05, of the angle (degrees).
+pub fn difference(
+    [i, q, u]: [f64; 3],
+    [truth_i, truth_q, truth_u]: [f64; 3],
+) -> (f64, Option<f64>) {
     let degree = truth_q.hypot(truth_u) / truth_i;
     let got = if i > 0.0 { q.hypot(u) / i } else { 0.0 };
     // Half the angle between the vectors (Q, U).
     let turn = (q * truth_u - u * truth_q).atan2(q * truth_q + u * truth_u);
-    Error {
-        degree: (got - degree).abs(),
-        angle: (degree > POLARISED).then(|| (0.5 * turn).abs().to_degrees()),
-        ..place
-    }
+    let angle = (degree > POLARISED).then(|| (0.5 * turn).abs().to_degrees());
+    ((got - degree).abs(), angle)
 }
 
 fn place(model: &Model, visibility: f64, sample: &Sample) -> Error {

@@ -83,6 +83,15 @@ impl Segment {
         (along / radius).clamp(-1.0, 1.0)
     }
 
+    /// Unit vector away from the planet's centre at the start.
+    pub fn zenith(&self) -> [f64; 3] {
+        let radius = dot(self.start, self.start).sqrt();
+        match radius > 0.0 {
+            true => self.start.map(|v| v / radius),
+            false => [0.0, 0.0, 1.0],
+        }
+    }
+
     pub fn to(&self) -> f64 {
         self.from + self.length
     }

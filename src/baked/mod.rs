@@ -23,7 +23,7 @@ mod turn;
 
 pub use batch::Directions;
 pub use colour::BakedColour;
-pub use polarised::{BakedPolarisedSky, StokesSpectra};
+pub use polarised::BakedPolarisedSky;
 pub use quality::BakeError;
 pub use sampler::{Sample, SkySampler};
 pub use spectral::BakedSky;

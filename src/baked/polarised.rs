@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::batch::{Directions, Each, One, Sink, check_length};
+use super::batch::{Directions, Each, One, Sink};
 use super::degrees::{self, Degrees, turned};
 use super::spectral::{BakedSky, LANES, write};
 use super::table::{Spots, Table};
@@ -10,7 +10,7 @@ use super::turn::Axes;
 use super::{BakeError, quality};
 use crate::error::{Error, Result};
 use crate::lanes::Lanes;
-use crate::polarisation::{Frame, PolarisedSky};
+use crate::polarisation::{Frame, PolarisedSky, StokesSpectra};
 use crate::simd::dispatch;
 
 /// A [`BakedSky`] with its polarisation: as fast a way to all Stokes vectors of a direction.
@@ -22,19 +22,6 @@ pub struct BakedPolarisedSky {
     sky: BakedSky,
     degrees: Degrees,
     error: BakeError,
-}
-
-/// Room for Stokes vectors as a structure of arrays of equal length, each `[directions][wavelengths]`, W m⁻² sr⁻¹ nm⁻¹.
-///
-/// The components are those of [`Stokes`](crate::Stokes).
-#[derive(Debug)]
-pub struct StokesSpectra<'a> {
-    /// Radiance.
-    pub i: &'a mut [f32],
-    /// Polarised along `e1` less `e2`.
-    pub q: &'a mut [f32],
-    /// Polarised along `e1 + e2` less `e1 − e2`.
-    pub u: &'a mut [f32],
 }
 
 impl PolarisedSky {
@@ -134,10 +121,7 @@ impl BakedPolarisedSky {
         out: StokesSpectra<'a>,
         directions: usize,
     ) -> Result<Rows<'a>> {
-        let expected = directions.saturating_mul(self.sky.wavelengths().len());
-        for got in [out.i.len(), out.q.len(), out.u.len()] {
-            check_length("output", got, expected)?;
-        }
+        out.check(directions.saturating_mul(self.sky.wavelengths().len()))?;
         let axes = Axes::new(frame)?;
         let sky = self;
         Ok(Rows { sky, axes, out })

@@ -9,7 +9,7 @@ use crate::lanes::Lanes;
 /// Components in a vector.
 pub(crate) const WIDE: usize = 8;
 /// Most components of the moments, in vectors.
-const MOST_VECTORS: usize = MAX_MOMENTS / WIDE;
+pub(crate) const MOST_VECTORS: usize = MAX_MOMENTS / WIDE;
 /// Zenith angles of the table: 1.5° apart.
 const ANGLES: usize = 120;
 
@@ -21,7 +21,7 @@ pub(crate) type Components = [Lanes<WIDE>; MOST_VECTORS];
 pub(crate) struct Local {
     /// Cosine of the zenith angle of the view direction.
     pub view: f64,
-    /// Cosine of the azimuth between view direction and sun.
+    /// Cosine of the azimuth of the view direction less that of the sun.
     pub cos_azimuth: f64,
 }
 
@@ -89,17 +89,43 @@ impl Directions {
         [self.molecules(local), self.particles(local)]
     }
 
+    /// Q and U of what molecules send from each component, in the vertical frame; `sine` is that of the azimuth.
+    #[inline(always)]
+    pub fn polarised(&self, local: &Local, sine: f64) -> [Components; 2] {
+        // Where the azimuth fades, at vertical views, the two need not agree.
+        let square = local.cos_azimuth * local.cos_azimuth + sine * sine;
+        let length = square.sqrt().max(f64::MIN_POSITIVE);
+        let [view, cosine, sine] =
+            [local.view, local.cos_azimuth / length, sine / length].map(|v| v as f32);
+        let slope = (1.0 - view * view).max(0.0).sqrt();
+        let mixed = 2.0 * view * sine * cosine;
+        [
+            self.tensor([
+                view * view * cosine * cosine - sine * sine,
+                view * view * sine * sine - cosine * cosine,
+                slope * slope,
+                -2.0 * slope * view * cosine,
+            ]),
+            self.tensor([-mixed, mixed, 0.0, 2.0 * slope * sine]),
+        ]
+    }
+
     #[inline(always)]
     fn molecules(&self, local: &Local) -> Components {
         let (view, azimuth) = (local.view as f32, local.cos_azimuth as f32);
         let (view2, azimuth2) = (view * view, azimuth * azimuth);
         let sine = (1.0 - view2).max(0.0).sqrt();
-        let form = [
+        self.tensor([
             view2 * azimuth2 + (1.0 - azimuth2),
             view2 * (1.0 - azimuth2) + azimuth2,
             1.0 - view2,
             -2.0 * sine * view * azimuth,
-        ];
+        ])
+    }
+
+    /// The sum of the tensor's components times `form`.
+    #[inline(always)]
+    fn tensor(&self, form: [f32; TENSOR]) -> Components {
         let mut out = [Lanes::splat(0.0); MOST_VECTORS];
         for (row, factor) in self.tensor.chunks_exact(self.vectors).zip(form) {
             for (out, row) in out.iter_mut().zip(row) {

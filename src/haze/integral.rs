@@ -5,7 +5,7 @@
 //! taken to be constant. Whatever happens, a panel sends no less than nothing.
 
 use super::Haze;
-use super::directions::{Components, Local};
+use super::directions::{Components, Local, MOST_VECTORS};
 use super::marks::Heaven;
 use super::panels::{MOST_PANELS, Panels};
 use super::source::Spot;
@@ -15,6 +15,7 @@ use crate::air::{Amounts, Segment, dot};
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::phase::SunAngle;
+use crate::polarisation::Plane;
 use crate::simd::{Instructions, Kernel};
 
 /// Most constituents that a file can have.
@@ -29,17 +30,26 @@ type Pair = Lanes<8>;
 pub(crate) struct Block {
     /// In-scattered light per unit of solar irradiance, sr⁻¹.
     pub scattered: [f32; LANES],
+    /// Q and U of that light in the vertical frame of the segment; zero unless they are asked for.
+    pub linear: [[f32; LANES]; 2],
     pub depth: [f32; LANES],
 }
 
-/// Hands what the segment does to `emit` block by block.
-pub(crate) struct Integral<'a, F> {
+/// Light alone: the source of molecules and that of particles.
+pub(crate) const UNPOLARISED: usize = 2;
+/// And Q and U of what molecules scatter.
+pub(crate) const POLARISED: usize = 4;
+
+/// Hands what the segment does to `emit` block by block; `M` is [`UNPOLARISED`] or [`POLARISED`].
+pub(crate) struct Integral<'a, const M: usize, F> {
     pub haze: &'a Haze,
     pub segment: &'a Segment,
+    /// Counts where Q and U are asked for.
+    pub plane: Plane,
     pub emit: F,
 }
 
-impl<F: FnMut(usize, Block)> Kernel for Integral<'_, F> {
+impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     type Output = ();
 
     #[inline(always)]
@@ -64,14 +74,25 @@ impl<F: FnMut(usize, Block)> Kernel for Integral<'_, F> {
         let mut views = [const { None }; MOST_STATIONS];
         let stations = &panels.stations;
         for (view, at) in views.iter_mut().zip(&stations.at[..stations.shares.len()]) {
-            *view = Some(View::new(haze, segment, &Place::new(haze, segment, *at)));
+            *view = Some(View::new(
+                haze,
+                segment,
+                &self.plane,
+                &Place::new(haze, segment, *at),
+            ));
         }
         let angle = SunAngle::between(segment.direction, haze.sun);
         let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
         let sunlit = &mut sunlit[..layers.constituents];
+        let mut dipoles = [[0.0; LANES]; MOST_CONSTITUENTS];
+        let dipoles = &mut dipoles[..layers.constituents];
+        let single = self.plane.single().map(|part| part as f32);
         for block in 0..haze.irradiance.len() {
             haze.species.sunlit(block, angle, sunlit);
-            let mut diffuse = [[Pair::splat(0.0); 2]; MOST_STATIONS];
+            if M == POLARISED {
+                haze.species.dipoles(block, dipoles);
+            }
+            let mut diffuse = [[Pair::splat(0.0); M]; MOST_STATIONS];
             for (out, view) in diffuse.iter_mut().zip(views.iter().flatten()) {
                 let source = haze.source.scattered(&view.spot, &view.seen, block);
                 *out = source.map(|half| Pair::twice(&half));
@@ -79,21 +100,30 @@ impl<F: FnMut(usize, Block)> Kernel for Integral<'_, F> {
             let mut walk = Walk::start();
             let pairs = (0..panels.count).step_by(2);
             for ((i, share), weights) in pairs.zip(&shares).zip(&stations.weights) {
-                let mut light = [Pair::splat(0.0); 2];
+                let mut light = [Pair::splat(0.0); M];
                 for (at, weight) in diffuse.iter().zip(weights) {
-                    light[0] = light[0] + at[0] * *weight;
-                    light[1] = light[1] + at[1] * *weight;
+                    for (light, at) in light.iter_mut().zip(at) {
+                        *light = *light + *at * *weight;
+                    }
                 }
-                let light = light.map(|light| light.max(Pair::splat(0.0)));
+                for light in &mut light[..2] {
+                    *light = light.max(Pair::splat(0.0));
+                }
                 let two = Two {
                     columns: [&panels.columns[i], &panels.columns[i + 1]],
                     sunlight: [&sunlight[i], &sunlight[i + 1], &sunlight[i + 2]],
                     share: *share,
                 };
-                walk.step(two.scatter(haze, block, sunlit, &light));
+                walk.step::<M>(two.scatter(haze, block, (sunlit, dipoles), single, &light));
             }
-            let (scattered, depth) = (walk.scattered.0, walk.depth.0);
-            (self.emit)(block, Block { scattered, depth });
+            (self.emit)(
+                block,
+                Block {
+                    scattered: walk.scattered.0,
+                    linear: walk.linear.map(|part| part.0),
+                    depth: walk.depth.0,
+                },
+            );
         }
     }
 }
@@ -111,25 +141,30 @@ struct Two<'a> {
 struct Scattered {
     /// Light that each sends to its start.
     light: Pair,
+    /// Its Q and U.
+    linear: [Pair; 2],
     depth: Pair,
     /// 1 − transmittance.
     absorbed: Pair,
 }
 
 impl Two<'_> {
-    /// `sunlit` of each constituent, `diffuse` source of molecules and of particles.
+    /// `sunlit` and dipoles of each constituent, what Q and U of `single` scattering are per dipole, and the `diffuse` source of
+    /// molecules, of particles and of Q and U.
     #[inline(always)]
-    fn scatter(
+    fn scatter<const M: usize>(
         &self,
         haze: &Haze,
         block: usize,
-        sunlit: &[[f32; LANES]],
-        diffuse: &[Pair; 2],
+        (sunlit, dipoles): (&[[f32; LANES]], &[[f32; LANES]]),
+        single: [f32; 2],
+        diffuse: &[Pair; M],
     ) -> Scattered {
         let zero = Pair::splat(0.0);
         let (mut depth, mut start, mut end) = (zero, zero, zero);
         let (mut direct, mut molecules, mut particles) = (zero, zero, zero);
-        for (k, sunlit) in sunlit.iter().enumerate() {
+        let mut dipole = zero;
+        for (k, (sunlit, polarised)) in sunlit.iter().zip(dipoles).enumerate() {
             let [a, b, c] = self.sunlight.map(|light| light.columns.get(k));
             let column = Pair::pair(self.columns[0].get(k), self.columns[1].get(k));
             let extinction = Pair::twice(haze.air.extinction.row(k, block));
@@ -140,15 +175,26 @@ impl Two<'_> {
             direct = direct + column * Pair::twice(sunlit);
             molecules = molecules + column * m;
             particles = particles + column * p;
+            if M == POLARISED {
+                dipole = dipole + column * Pair::twice(polarised);
+            }
         }
         // The way to the sun and back to the start of the panel, from its start and from its end.
         let end = end + depth;
         let sun = between(start, end) * self.share;
         let absorbed = depth.one_minus_exp_neg();
+        let mean = mean_transmittance(depth, absorbed);
+        let mut linear = [zero; 2];
+        if M == POLARISED {
+            for (part, linear) in linear.iter_mut().enumerate() {
+                *linear = dipole * sun * single[part] + molecules * diffuse[2 + part] * mean;
+            }
+        }
         let diffuse = molecules * diffuse[0] + particles * diffuse[1];
-        let light = direct * sun + diffuse * mean_transmittance(depth, absorbed);
+        let light = direct * sun + diffuse * mean;
         Scattered {
             light,
+            linear,
             depth,
             absorbed,
         }
@@ -158,6 +204,7 @@ impl Two<'_> {
 /// Light and optical depth from the start of a segment to where one has got.
 struct Walk {
     scattered: Lanes<LANES>,
+    linear: [Lanes<LANES>; 2],
     through: Lanes<LANES>,
     depth: Lanes<LANES>,
 }
@@ -168,6 +215,7 @@ impl Walk {
         let [zero, one] = [0.0, 1.0].map(Lanes::splat);
         Self {
             scattered: zero,
+            linear: [zero; 2],
             through: one,
             depth: zero,
         }
@@ -175,10 +223,16 @@ impl Walk {
 
     /// Goes on through two panels.
     #[inline(always)]
-    fn step(&mut self, two: Scattered) {
+    fn step<const M: usize>(&mut self, two: Scattered) {
         let pass = (Pair::splat(1.0) - two.absorbed).halves();
         let (light, depth) = (two.light.halves(), two.depth.halves());
+        let linear = two.linear.map(Pair::halves);
         for i in 0..2 {
+            if M == POLARISED {
+                for (sum, part) in self.linear.iter_mut().zip(&linear) {
+                    *sum = *sum + Lanes(part[i]) * self.through;
+                }
+            }
             self.scattered = self.scattered + Lanes(light[i]) * self.through;
             self.through = self.through * Lanes(pass[i]);
             self.depth = self.depth + Lanes(depth[i]);
@@ -229,19 +283,27 @@ impl Place {
 }
 
 /// A place in the source and how its components look from there.
-struct View {
+struct View<const M: usize> {
     spot: Spot,
-    seen: [Components; 2],
+    seen: [Components; M],
 }
 
-impl View {
+impl<const M: usize> View<M> {
     #[inline(always)]
-    fn new(haze: &Haze, segment: &Segment, place: &Place) -> Self {
+    fn new(haze: &Haze, segment: &Segment, plane: &Plane, place: &Place) -> Self {
         let between = dot(segment.direction, haze.sun);
         let local = Local::new(place.zenith, place.sun, between);
+        let directions = &haze.source.directions;
+        let mut seen = [[Lanes::splat(0.0); MOST_VECTORS]; M];
+        seen[..2].copy_from_slice(&directions.at(&local));
+        if M == POLARISED {
+            let level = (1.0 - place.sun * place.sun).max(1e-18).sqrt();
+            let sine = (plane.sun[1] / level).clamp(-1.0, 1.0);
+            seen[2..].copy_from_slice(&directions.polarised(&local, sine));
+        }
         Self {
             spot: haze.source.spot(place.altitude as f32, place.sun as f32),
-            seen: haze.source.directions.at(&local),
+            seen,
         }
     }
 }

@@ -5,6 +5,7 @@ mod harmonics;
 mod integral;
 mod marks;
 mod panels;
+mod polarised;
 mod source;
 mod species;
 mod stations;
@@ -17,8 +18,9 @@ use crate::format::{Head, Kind, visibility_node};
 use crate::lanes::Lanes;
 use crate::math::{LANES, bound};
 use crate::model::Model;
+use crate::polarisation::Plane;
 use crate::simd::dispatch;
-use integral::{Block, Integral};
+use integral::{Block, Integral, UNPOLARISED};
 use source::{SourceTable, blocks, ground_factor};
 use species::Species;
 use sunlight::Beam;
@@ -226,11 +228,15 @@ impl Haze {
     /// As [`Haze::xyz`].
     pub fn linear_srgb(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
         let (light, through) = self.xyz(from, to)?;
+        let light = crate::colour::xyz_to_linear_srgb(light);
+        Ok((light, self.srgb_factors(through)))
+    }
+
+    /// Factors of red, green and blue from those of X, Y and Z.
+    fn srgb_factors(&self, through: [f32; 3]) -> [f32; 3] {
         let seen = core::array::from_fn(|c| through[c] * self.white[c]);
         let [seen, white] = [seen, self.white].map(crate::colour::xyz_to_linear_srgb);
-        let factor = |c: usize| bound(seen[c] / white[c], 0.0, 1.0);
-        let light = crate::colour::xyz_to_linear_srgb(light);
-        Ok((light, core::array::from_fn(factor)))
+        core::array::from_fn(|c| bound(seen[c] / white[c], 0.0, 1.0))
     }
 
     fn spectral(&self, segment: &Segment, in_scatter: &mut [f32], transmittance: &mut [f32]) {
@@ -249,9 +255,10 @@ impl Haze {
 
     /// Hands what the segment does to `emit` block by block.
     fn integrate(&self, segment: &Segment, emit: impl FnMut(usize, Block)) {
-        dispatch(Integral {
+        dispatch(Integral::<UNPOLARISED, _> {
             haze: self,
             segment,
+            plane: Plane::default(),
             emit,
         });
     }

@@ -107,33 +107,39 @@ impl SourceTable {
         }
     }
 
-    /// What molecules and what particles scatter towards the observer, per unit of scattering coefficient, m⁻¹ sr⁻¹.
+    /// What molecules and what particles scatter towards the observer, per unit of scattering coefficient, m⁻¹ sr⁻¹; then Q and U
+    /// of the former.
     #[inline(always)]
-    pub fn scattered(
+    pub fn scattered<const M: usize>(
         &self,
         spot: &Spot,
-        seen: &[Components; 2],
+        seen: &[Components; M],
         block: usize,
-    ) -> [[f32; LANES]; 2] {
+    ) -> [[f32; LANES]; M] {
         let rows = spot
             .row
             .map(|row| &self.values[row + block * self.pairs..][..self.pairs]);
-        let mut sums = [Lanes::splat(0.0); 2];
+        let mut sums = [Lanes::splat(0.0); M];
         for r in 0..self.pairs {
             let mut value = Lanes::splat(0.0);
             for (row, weight) in rows.iter().zip(spot.weight) {
                 value = value + row[r] * weight;
             }
-            sums[0] = sums[0] + value * pair(&seen[0], r);
-            sums[1] = sums[1] + value * pair(&seen[1], r);
+            for (sum, seen) in sums.iter_mut().zip(seen) {
+                *sum = *sum + value * pair(seen, r);
+            }
         }
         let [near, far] = spot.level.map(|level| Lanes(self.level[level + block]));
         let level = (near + (far - near) * spot.share).exp();
-        // A compressed source may dip below zero where there is next to no light.
-        sums.map(|sum| {
+        let mut sums = sums.map(|sum| {
             let [even, odd] = sum.halves().map(Lanes);
-            ((even + odd).max(Lanes::splat(0.0)) * level).0
-        })
+            even + odd
+        });
+        // A compressed source may dip below zero where there is next to no light.
+        for sum in &mut sums[..2] {
+            *sum = sum.max(Lanes::splat(0.0));
+        }
+        sums.map(|sum| (sum * level).0)
     }
 }
 

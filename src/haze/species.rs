@@ -98,6 +98,22 @@ impl Species {
         }
     }
 
+    /// What sunlight across a dipole makes of each constituent: as `sunlit`, polarised by the square of the sine.
+    #[inline(always)]
+    pub fn dipoles(&self, block: usize, out: &mut [[f32; LANES]]) {
+        out.fill([0.0; LANES]);
+        for scatterer in &self.scatterers {
+            let Some(strength) = scatterer.phase.polarising(block) else {
+                continue;
+            };
+            let rows = scatterer.scattering.chunks_exact(self.blocks);
+            for (sum, row) in out.iter_mut().zip(rows) {
+                let k = &row[block];
+                *sum = core::array::from_fn(|i| sum[i] + PER_SPHERE * strength[i] * k[i]);
+            }
+        }
+    }
+
     /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths.
     #[inline(always)]
     pub fn totals(&self, k: usize, block: usize) -> [&[f32; LANES]; 2] {

@@ -7,5 +7,7 @@ mod stokes;
 mod table;
 
 pub use aspect::Frame;
+pub(crate) use aspect::Plane;
 pub use sky::PolarisedSky;
-pub use stokes::Stokes;
+pub use stokes::{Stokes, StokesSpectra};
+pub(crate) use table::limit;

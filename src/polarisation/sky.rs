@@ -156,7 +156,11 @@ impl PolarisedSky {
     ) {
         let tables = self.sky.tables();
         let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
-        let aspect = Aspect::along(self.sky.cylinder(ray), phi, self.sky.sun().0);
+        let aspect = Aspect::along(
+            self.sky.cylinder(ray),
+            phi,
+            self.sky.conditions().solar_elevation,
+        );
         let mix = Mix {
             single: aspect.single_even().map(|v| v as f32),
             from_q: [1.0, 0.0],
@@ -174,10 +178,10 @@ impl PolarisedSky {
     ) -> Result<()> {
         let lookup = self.sky.lookup(direction)?;
         let aspect = self.sky.aspect(direction);
-        let (c, s) = aspect.turn(frame)?;
+        let (c, s) = aspect.plane.turn(frame)?;
         let turn = |[q, u]: [f64; 2]| [c * q + s * u, c * u - s * q].map(|v| v as f32);
         let mix = Mix {
-            single: turn(aspect.single()),
+            single: turn(aspect.plane.single()),
             from_q: turn([1.0, 0.0]),
             from_u: turn([0.0, aspect.sine]),
         };

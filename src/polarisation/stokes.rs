@@ -1,5 +1,8 @@
 //! Stokes vectors of linearly polarised light.
 
+use crate::error::Result;
+use crate::sky::check_length;
+
 /// Intensity and linear polarisation of light, against an axis `e1` across the view direction `w` and `e2 = w × e1`.
 ///
 /// `w` points away from the observer, towards where the light comes from. Light of the sky has no circular
@@ -15,6 +18,28 @@ pub struct Stokes {
     pub q: f32,
     /// What a polariser along the diagonal `e1 + e2` passes less what one along `e1 − e2` passes.
     pub u: f32,
+}
+
+/// Room for Stokes vectors as a structure of arrays of equal length, each `[directions or points][wavelengths]`, W m⁻² sr⁻¹ nm⁻¹.
+///
+/// The components are those of [`Stokes`].
+#[derive(Debug)]
+pub struct StokesSpectra<'a> {
+    /// Radiance.
+    pub i: &'a mut [f32],
+    /// Polarised along `e1` less `e2`.
+    pub q: &'a mut [f32],
+    /// Polarised along `e1 + e2` less `e1 − e2`.
+    pub u: &'a mut [f32],
+}
+
+impl StokesSpectra<'_> {
+    pub(crate) fn check(&self, expected: usize) -> Result<()> {
+        let parts = [self.i.len(), self.q.len(), self.u.len()];
+        parts
+            .into_iter()
+            .try_for_each(|got| check_length(got, expected))
+    }
 }
 
 impl Stokes {

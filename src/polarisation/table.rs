@@ -111,7 +111,7 @@ impl Polarisation {
 
 /// `q` and `u` over `i`, at most the whole light.
 #[inline(always)]
-fn limit(i: [f32; LANES], q: [f32; LANES], u: [f32; LANES]) -> [[f32; LANES]; 2] {
+pub(crate) fn limit(i: [f32; LANES], q: [f32; LANES], u: [f32; LANES]) -> [[f32; LANES]; 2] {
     let [mut q, mut u] = [ratio(i, q), ratio(i, u)];
     for (q, u) in q.iter_mut().zip(&mut u) {
         // A little more than the square, so that rounding does not undo the limit.

@@ -92,6 +92,8 @@ fn study(args: &Args, model: &Model, solved: &[Solved]) -> Result<String> {
     let rows = study::rows(&cases, &truth, &light);
     save(&args.out, "errors.csv", study::csv(&rows).as_bytes())?;
     let mut report = study::table(&rows);
+    let polarised = study::polarised_rows(&methods, &cases, &truth)?;
+    let _ = writeln!(report, "\n{}", study::polarised_table(&polarised));
     let _ = writeln!(
         report,
         "\nLargest jump of the ratio to the exact light between pixels 0.02° apart, 560 nm:\n\n| scan | Eq. 2 | Eq. 2, blurred | source | blend |\n| --- | --- | --- | --- | --- |"

@@ -73,6 +73,11 @@ impl Camera {
         })
     }
 
+    /// Unit vector towards the top of the picture.
+    pub fn up(&self) -> [f32; 3] {
+        self.above.map(|v| v as f32)
+    }
+
     /// Cosine of the angle between a unit vector and the axis.
     pub fn depth(&self, direction: [f64; 3]) -> f64 {
         (0..3).map(|k| self.ahead[k] * direction[k]).sum()

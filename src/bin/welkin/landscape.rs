@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use welkin::{Conditions, Haze, Model, Sky, xyz_to_linear_srgb};
+use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, Stokes, xyz_to_linear_srgb};
 
 use crate::camera::{Camera, Lens};
 use crate::failure::{Failure, Result};
@@ -23,6 +23,15 @@ pub struct Options {
     /// Height of the hills or of white in the height field, m; 3000 m, or 1 for an EXR, if absent.
     #[arg(long, value_name = "M")]
     terrain_height: Option<f64>,
+    /// Look at the landscape through an ideal polariser that passes light along this angle from the top of the picture to the right,
+    /// degrees.
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "DEG",
+        requires = "terrain"
+    )]
+    polariser: Option<f64>,
 }
 
 /// Width over height of a picture in perspective.
@@ -41,9 +50,26 @@ pub struct Landscape {
     xyz: Vec<[f64; 3]>,
     /// Irradiance of a level plane by the sky, linear sRGB.
     skylight: [f32; 3],
+    polariser: Option<Polariser>,
 }
 
+/// A polarising filter before the camera.
+struct Polariser {
+    sky: PolarisedSky,
+    /// rad, from the up vector of the camera to the right.
+    angle: f32,
+    frame: Frame,
+}
+
+/// What an ideal polariser leaves of light that is not polarised: that of the ground is taken to be so.
+pub const HALF: f32 = 0.5;
+
 impl Options {
+    /// Whether the landscape is seen through a polariser.
+    pub fn is_filtered(&self) -> bool {
+        self.polariser.is_some()
+    }
+
     /// Prepares the landscape around an observer, if one is wanted.
     pub fn prepare(
         &self,
@@ -67,9 +93,31 @@ impl Options {
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
             terrain,
+            polariser: self.filter(model, conditions, &camera)?,
             camera,
             place,
             sky,
+        }))
+    }
+
+    fn filter(
+        &self,
+        model: &Model,
+        conditions: &Conditions,
+        camera: &Camera,
+    ) -> Result<Option<Polariser>> {
+        let Some(angle) = self.polariser else {
+            return Ok(None);
+        };
+        if !angle.is_finite() {
+            return Err(Failure::message(
+                "the angle of the polariser must be finite",
+            ));
+        }
+        Ok(Some(Polariser {
+            sky: model.polarised_sky(conditions)?,
+            angle: angle.to_radians() as f32,
+            frame: Frame::Axis(camera.up()),
         }))
     }
 
@@ -117,12 +165,29 @@ impl Landscape {
     fn pixel(&self, direction: [f64; 3]) -> Result<[f32; 3]> {
         let radius = self.haze.air().planet().radius;
         let Some(distance) = self.terrain.hit(radius, self.place, direction) else {
-            return Ok(self.sky.linear_srgb(direction.map(|v| v as f32))?);
+            return self.background(direction.map(|v| v as f32));
         };
         let point = std::array::from_fn(|k| self.place[k] + distance.min(FARTHEST) * direction[k]);
-        let (light, through) = self.haze.linear_srgb(self.place, point)?;
         let surface = self.surface(radius, point)?;
-        Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]))
+        let Some(polariser) = &self.polariser else {
+            let (light, through) = self.haze.linear_srgb(self.place, point)?;
+            return Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]));
+        };
+        let haze = self
+            .haze
+            .linear_srgb_stokes(self.place, point, polariser.frame)?;
+        let (light, through) = (polariser.pass(&haze.0), haze.1);
+        Ok(std::array::from_fn(|c| {
+            HALF * surface[c] * through[c] + light[c]
+        }))
+    }
+
+    fn background(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+        let Some(polariser) = &self.polariser else {
+            return Ok(self.sky.linear_srgb(direction)?);
+        };
+        let light = polariser.sky.xyz(direction, polariser.frame)?;
+        Ok(xyz_to_linear_srgb(polariser.pass(&light)))
     }
 
     /// Radiance that the surface sends out.
@@ -158,6 +223,14 @@ impl Landscape {
             sum = std::array::from_fn(|c| sum[c] + weight[c] * f64::from(t) * cosine);
         }
         Ok(xyz_to_linear_srgb(sum.map(|v| v as f32)))
+    }
+}
+
+impl Polariser {
+    fn pass(&self, light: &[Stokes; 3]) -> [f32; 3] {
+        light
+            .each_ref()
+            .map(|part| part.through_polariser(self.angle))
     }
 }
 

@@ -205,6 +205,10 @@ pub fn run(options: &Options) -> Result<()> {
     let rendering = Instant::now();
     let white = match options.exposure {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),
+        // As a photographer opens the lens by one stop.
+        None if options.landscape.is_filtered() => {
+            f64::from(landscape::HALF) * automatic_white(&sky)?
+        }
         None => automatic_white(&sky)?,
     };
     let azimuth = options.view_azimuth.to_radians();

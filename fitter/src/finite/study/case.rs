@@ -1,8 +1,8 @@
 //! Segments under suns, and what exact integrals say about them.
 
+use crate::orders::Gatherer;
 use crate::orders::path::trace;
-use crate::orders::source::Sun;
-use crate::orders::{Gatherer, Spectrum};
+use crate::orders::source::{Stokes, Sun};
 use crate::units::Solved;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -50,8 +50,8 @@ impl Case {
         [ce * ca, ce * sa, se]
     }
 
-    /// Exact in-scattered light per unit of solar irradiance, sr⁻¹.
-    pub fn truth(&self, solved: &Solved) -> Spectrum {
+    /// Exact in-scattered light per unit of solar irradiance, sr⁻¹; I, Q and U in the vertical frame.
+    pub fn truth(&self, solved: &Solved) -> Stokes {
         let gatherer = Gatherer::new(&solved.medium, &solved.light, FINENESS);
         let mu = self.direction[0].sin();
         let path = trace(
@@ -66,7 +66,7 @@ impl Case {
             elevation: (self.sun.cos(), self.sun.sin()),
             azimuth: (self.direction[1].cos(), self.direction[1].sin()),
         };
-        gatherer.stokes(&path, mu, &sun, self.albedo as f32)[0]
+        gatherer.stokes(&path, mu, &sun, self.albedo as f32)
     }
 }
 

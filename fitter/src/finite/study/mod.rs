@@ -2,12 +2,14 @@
 
 mod case;
 mod method;
+mod polarisation;
 mod report;
 mod scan;
 mod towers;
 
 pub use case::{Case, cases};
 pub use method::{METHODS, Method, Methods};
+pub use polarisation::{PolarisedRow, polarised_rows, polarised_table};
 pub use report::{Row, csv, rows, table};
 pub use scan::{Scan, all, jumps, scans};
 pub use towers::{View, Views, towers};

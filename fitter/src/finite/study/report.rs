@@ -4,6 +4,7 @@ use super::case::Case;
 use super::method::{METHODS, Method};
 use crate::assess::Quantiles;
 use crate::orders::Spectrum;
+use crate::orders::source::Stokes;
 use std::fmt::Write;
 
 /// Errors of one method for one kind of segment.
@@ -23,7 +24,8 @@ pub struct Row {
 
 type Belongs = fn(&Case) -> bool;
 
-const CLASSES: [(&str, Belongs); 4] = [
+/// Kinds of segments.
+pub(super) const CLASSES: [(&str, Belongs); 4] = [
     ("day, near the horizon", |c| {
         c.sun >= 0.0 && c.near_horizon()
     }),
@@ -35,7 +37,7 @@ const CLASSES: [(&str, Belongs); 4] = [
 ];
 
 /// Rows of all methods. `light` holds the results of every method per case, in the order of [`METHODS`].
-pub fn rows(cases: &[Case], truth: &[Spectrum], light: &[[Option<Spectrum>; 4]]) -> Vec<Row> {
+pub fn rows(cases: &[Case], truth: &[Stokes], light: &[[Option<Spectrum>; 4]]) -> Vec<Row> {
     let mut out = vec![];
     for (class, belongs) in CLASSES {
         for (m, method) in METHODS.into_iter().enumerate() {
@@ -46,7 +48,7 @@ pub fn rows(cases: &[Case], truth: &[Spectrum], light: &[[Option<Spectrum>; 4]])
                     continue;
                 };
                 segments += 1;
-                for (got, exact) in light.iter().zip(truth) {
+                for (got, exact) in light.iter().zip(&truth[0]) {
                     negative += usize::from(*got < 0.0);
                     errors.push(f64::from((got.max(0.0) / exact - 1.0).abs()));
                 }

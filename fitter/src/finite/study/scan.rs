@@ -50,7 +50,7 @@ pub fn scans(
             let pixels: Vec<Case> = (-HALF..=HALF).map(pixel).filter(free).collect();
             let truth = pixels
                 .par_iter()
-                .map(|c| c.truth(&solved[visibility]))
+                .map(|c| c.truth(&solved[visibility])[0])
                 .collect();
             let light = all(methods, &pixels)?;
             let name = format!("{altitude} m, sun {sun}°");

@@ -72,7 +72,7 @@ pub fn towers(methods: &Methods, solved: &Solved, xyz: &[[f64; 3]], view: &View)
     let cases: Vec<Case> = pixels
         .map(|pixel| case(solved, &scene, view, camera.direction(pixel, [0.5; 2])))
         .collect();
-    let truth: Vec<Spectrum> = cases.par_iter().map(|c| c.truth(solved)).collect();
+    let truth: Vec<Spectrum> = cases.par_iter().map(|c| c.truth(solved)[0]).collect();
     let light = all(methods, &cases)?;
     let mut columns = vec![];
     if view.walks > 0 {

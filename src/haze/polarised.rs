@@ -1,0 +1,146 @@
+//! Stokes vectors of in-scattered light. Format specification, sections 7.5 and 7.7.
+//!
+//! All points of a straight segment share its vertical plane, and with it the axes of polarisation: Q and U add up along it. Molecules
+//! polarise sunlight and, by the coherency tensor of the source, all other light; particles do not.
+
+use super::Haze;
+use super::integral::{Block, Integral, POLARISED};
+use crate::air::Segment;
+use crate::colour::xyz_to_linear_srgb;
+use crate::error::Result;
+use crate::math::{LANES, bound};
+use crate::polarisation::{Frame, Plane, Stokes, StokesSpectra, limit};
+use crate::simd::dispatch;
+use crate::sky::check_length;
+
+impl Haze {
+    /// Stokes vectors of the light that the air between `from` and `to` scatters to `from`, and the transmittance between them, at
+    /// each of [`Haze::wavelengths`]; the frame is that of the view from `from` to `to`. Q² + U² ≤ I².
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter`]; [`Error::Direction`](crate::Error::Direction) for an axis that is zero or not finite.
+    pub fn in_scatter_stokes(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+        in_scatter: StokesSpectra,
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.aerial_perspective_stokes(from, &[to], frame, in_scatter, transmittance)
+    }
+
+    /// [`Haze::in_scatter_stokes`] from one camera to many points; the outputs are `[points][wavelengths]`.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter_stokes`]. What precedes a bad point is written.
+    pub fn aerial_perspective_stokes(
+        &self,
+        camera: [f64; 3],
+        points: &[[f64; 3]],
+        frame: Frame,
+        in_scatter: StokesSpectra,
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        let n = self.wavelengths().len();
+        in_scatter.check(points.len().saturating_mul(n))?;
+        check_length(transmittance.len(), points.len().saturating_mul(n))?;
+        for (k, &point) in points.iter().enumerate() {
+            self.stokes(camera, point, frame, |block, light, through| {
+                let first = k * n + block * LANES;
+                let sun = &self.irradiance[block];
+                for i in 0..LANES.min(n - block * LANES) {
+                    let total = bound(light[0][i] * sun[i], 0.0, f32::MAX);
+                    in_scatter.i[first + i] = total;
+                    in_scatter.q[first + i] = total * light[1][i];
+                    in_scatter.u[first + i] = total * light[2][i];
+                    transmittance[first + i] = through[i];
+                }
+            })?;
+        }
+        Ok(())
+    }
+
+    /// As [`Haze::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the haze is
+    /// [`Stokes::through_polariser`].
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter_stokes`].
+    pub fn xyz_stokes(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+    ) -> Result<([Stokes; 3], [f32; 3])> {
+        let mut light = [[0f32; 3]; 3];
+        let mut seen = [0f32; 3];
+        self.stokes(from, to, frame, |block, parts, through| {
+            for (c, weight) in self.xyz[block].iter().enumerate() {
+                for i in 0..LANES {
+                    let total = weight[i] * parts[0][i];
+                    light[c][0] += total;
+                    light[c][1] += total * parts[1][i];
+                    light[c][2] += total * parts[2][i];
+                    seen[c] += weight[i] * through[i];
+                }
+            }
+        })?;
+        let finite = |v: f32| bound(v, f32::MIN, f32::MAX);
+        let stokes = light.map(|parts| {
+            let [i, q, u] = parts.map(finite);
+            Stokes { i, q, u }
+        });
+        let factor = |c: usize| bound(seen[c] / self.white[c], 0.0, 1.0);
+        Ok((stokes, core::array::from_fn(factor)))
+    }
+
+    /// As [`Haze::linear_srgb`], with Stokes vectors of red, green and blue.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter_stokes`].
+    pub fn linear_srgb_stokes(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+    ) -> Result<([Stokes; 3], [f32; 3])> {
+        let (light, through) = self.xyz_stokes(from, to, frame)?;
+        let part = |of: fn(&Stokes) -> f32| xyz_to_linear_srgb(light.each_ref().map(of));
+        let [i, q, u] = [part(|s| s.i), part(|s| s.q), part(|s| s.u)];
+        let stokes = |c: usize| Stokes {
+            i: i[c],
+            q: q[c],
+            u: u[c],
+        };
+        Ok((core::array::from_fn(stokes), self.srgb_factors(through)))
+    }
+
+    /// Hands blocks of light per unit of solar irradiance, of Q and U over it in the frame of the caller, and of transmittance to
+    /// `emit`.
+    fn stokes(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+        mut emit: impl FnMut(usize, [[f32; LANES]; 3], [f32; LANES]),
+    ) -> Result<()> {
+        let segment = Segment::between(&self.air.planet(), from, to)?;
+        let plane = Plane::new(segment.direction, segment.zenith(), self.sun);
+        let (c, s) = plane.turn(frame)?;
+        let (c, s) = (c as f32, s as f32);
+        dispatch(Integral::<POLARISED, _> {
+            haze: self,
+            segment: &segment,
+            plane,
+            emit: |block, result: Block| {
+                let [q, u] = result.linear;
+                let q_turned = core::array::from_fn(|i| c * q[i] + s * u[i]);
+                let u_turned = core::array::from_fn(|i| c * u[i] - s * q[i]);
+                let [q, u] = limit(result.scattered, q_turned, u_turned);
+                let through = super::attenuated(&result.depth);
+                emit(block, [result.scattered, q, u], through);
+            },
+        });
+        Ok(())
+    }
+}
