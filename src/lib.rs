@@ -104,6 +104,8 @@ pub use sky::Sky;
 #[cfg(feature = "std")]
 pub use source::ReadAt;
 #[cfg(feature = "std")]
+pub use spectrum::between_wavelengths;
+#[cfg(feature = "std")]
 pub use store::Traffic;
 #[cfg(feature = "std")]
 pub use sun::{SUN_RADIUS, SunDisc};

@@ -1,6 +1,35 @@
 //! Radiance between the wavelengths of the model. Format specification, section 7.3.
 
 use crate::axis::{hermite, linear};
+#[cfg(feature = "std")]
+use crate::error::{Error, Result};
+
+/// A spectrum at `wavelength` (nm), from its values at increasing `nodes`, as the model interpolates: smooth in the logarithm,
+/// linear beside zeros. For what is smooth, so divide radiance by the irradiance of the sun first.
+///
+/// # Errors
+/// [`Error::OutOfRange`] for wavelengths beyond the nodes; [`Error::Length`] unless `values` has one element per node.
+#[cfg(feature = "std")]
+pub fn between_wavelengths(nodes: &[f64], values: &[f32], wavelength: f64) -> Result<f32> {
+    let ends = nodes.first().zip(nodes.last());
+    let Some((&min, &max)) = ends.filter(|_| values.len() == nodes.len()) else {
+        return Err(Error::Length {
+            what: "values",
+            expected: nodes.len().max(1) as u64,
+            got: values.len() as u64,
+        });
+    };
+    if !(min..=max).contains(&wavelength) {
+        return Err(Error::OutOfRange {
+            parameter: "wavelength",
+            value: wavelength,
+            min,
+            max,
+            unit: "nm",
+        });
+    }
+    Ok(between(nodes, values, wavelength) as f32)
+}
 
 /// Interpolates radiances at `nodes` (nm) to `wavelength`: smooth in the logarithm, linear where a value is zero.
 pub(crate) fn between(nodes: &[f64], radiance: &[f32], wavelength: f64) -> f64 {

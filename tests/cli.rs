@@ -143,7 +143,7 @@ fn bad_rows_get_an_error_and_good_ones_a_value() {
         ),
         (
             "transmittance,59.4,0.2,0,20,60,30,,550",
-            "not in this version",
+            "the file has no transmittance",
         ),
         ("brightness,59.4,0.2,0,20,60,30,,550", "unknown quantity"),
         ("radiance,59.4", "expected 9 cells, got 2"),
@@ -600,5 +600,79 @@ fn landscapes_and_froxel_volumes_are_written() {
         &["render", "--terrain", "hills", "--terrain-height", "-3"],
     ] {
         bench.refusal(wrong, "");
+    }
+}
+
+#[test]
+fn query_answers_finite_distances_and_the_sun() {
+    let bench = Bench::new();
+    let conditions = "59.4,0.2,300,10";
+    let row = |quantity: &str, zenith: f64, azimuth: f64, distance: &str, nm: f64| {
+        format!("{quantity},{conditions},{zenith},{azimuth},{distance},{nm}")
+    };
+    let rows = [
+        row("transmittance", 92.0, 40.0, "0", 600.0),
+        row("transmittance", 92.0, 40.0, "5000", 600.0),
+        row("in_scatter", 92.0, 40.0, "5000", 600.0),
+        row("in_scatter", 60.0, 40.0, "", 400.0),
+        row("transmittance", 60.0, 40.0, "inf", 400.0),
+        row("sun_radiance", 80.0, 0.0, "", 560.0),
+        row("in_scatter", 92.0, 40.0, "5000", 571.0),
+        row("in_scatter", 92.0, 40.0, "-1", 600.0),
+        row("transmittance", 92.0, 40.0, "NaN", 600.0),
+        row("sun_radiance", 80.0, 0.0, "7", 560.0),
+        row("in_scatter", 92.0, 40.0, "1e12", 600.0),
+        row("transmittance", 92.0, 40.0, "10", 800.0),
+    ];
+    let output = bench.run(&["query"], &format!("{HEADER}\n{}\n", rows.join("\n")));
+    assert!(output.status.success());
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let answers: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
+    let value = |i: usize| answers[i][9].parse::<f32>().unwrap();
+    let model = welkin::Model::default_model().unwrap();
+    let place = welkin::Conditions {
+        solar_elevation: 10f64.to_radians(),
+        solar_azimuth: 0.0,
+        visibility: 59.4e3,
+        albedo: 0.2,
+        altitude: 300.0,
+    };
+    let haze = model.haze(&place).unwrap();
+    let nm = |nm: f64| haze.wavelengths().iter().position(|&w| w == nm).unwrap();
+    let along = |zenith: f64, distance: f64| -> [f64; 3] {
+        let ((s, c), (y, x)) = (zenith.to_radians().sin_cos(), 40f64.to_radians().sin_cos());
+        [distance * s * x, distance * s * y, distance * c]
+    };
+    let from = [0.0, 0.0, 300.0];
+    let to = along(92.0, 5000.0);
+    let (mut light, mut through) = ([0.0; 12], [0.0; 12]);
+    let end = [to[0], to[1], to[2] + 300.0];
+    haze.in_scatter(from, end, &mut light, &mut through)
+        .unwrap();
+    let close =
+        |got: f32, expected: f32| assert!((got / expected - 1.0).abs() < 1e-5, "{got} {expected}");
+    assert_eq!(value(0), 1.0);
+    close(value(1), through[nm(600.0)]);
+    close(value(2), light[nm(600.0)]);
+    assert!(value(6) < light[nm(560.0)] && value(6) > light[nm(600.0)]);
+    haze.to_end(from, along(60.0, 1.0), &mut light, &mut through)
+        .unwrap();
+    close(value(3), light[nm(400.0)]);
+    close(value(4), through[nm(400.0)]);
+    let disc = welkin::SunDisc::new(&model.sky(&place).unwrap());
+    disc.radiance(disc.direction(), &mut light).unwrap();
+    close(value(5), light[nm(560.0)]);
+    for (i, error) in [
+        (7, "distance_m must not be negative"),
+        (8, "distance_m must not be negative"),
+        (9, "distance_m must be empty"),
+        (10, "coordinates"),
+        (11, "wavelength must be in"),
+    ] {
+        assert!(
+            answers[i][9].is_empty() && answers[i][10].contains(error),
+            "{}",
+            &answers[i][10]
+        );
     }
 }

@@ -5,6 +5,7 @@
 //! for). Only ratios mean something on another machine.
 
 mod clock;
+mod finite;
 mod paper;
 mod polarised;
 mod random;
@@ -40,6 +41,7 @@ fn main() -> Result<()> {
     let scene = Scene::new()?;
     let mut rows = scene.prepared()?;
     rows.extend(polarised::rows(&scene)?);
+    rows.extend(finite::rows(&scene)?);
     rows.extend(scene.general()?);
     rows.extend(scene.preparation()?);
     match json {

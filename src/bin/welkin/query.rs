@@ -6,13 +6,15 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 
 use csv::ByteRecord;
-use welkin::{Conditions, Frame, Model, PolarisedSky, Sky};
+use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, SunDisc};
 
 use crate::Source;
 use crate::failure::{Failure, Result, describe};
 
 /// Prepared skies that are kept at once.
 const MOST_SKIES: usize = 128;
+/// The same of hazes, which are larger.
+const MOST_HAZES: usize = 16;
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -59,6 +61,7 @@ pub fn answer(
         clamp,
         skies: HashMap::new(),
         polarised: HashMap::new(),
+        hazes: HashMap::new(),
     };
     let (mut rows, mut failures) = (0u64, 0u64);
     let mut row = ByteRecord::new();
@@ -165,13 +168,17 @@ impl Columns {
         for ((number, &index), name) in numbers.iter_mut().zip(&self.numbers).zip(NUMBERS) {
             *number = parse_number(name, &row[index])?;
         }
-        if let Some(cell) = self.distance.map(|index| &row[index])
-            && !cell.is_empty()
-            && parse_number(DISTANCE, cell)? != f64::INFINITY
-        {
+        let distance = match self.distance.map(|index| &row[index]) {
+            Some(cell) if !cell.is_empty() => parse_number(DISTANCE, cell)?,
+            _ => f64::INFINITY,
+        };
+        if !quantity.is_of_segments() && distance != f64::INFINITY {
             return Err("distance_m must be empty: radiance is along the whole ray".to_owned());
         }
-        answerer.answer(quantity, numbers)
+        if distance.is_nan() || distance < 0.0 {
+            return Err(format!("distance_m must not be negative, got {distance}"));
+        }
+        answerer.answer(quantity, numbers, distance)
     }
 }
 
@@ -209,6 +216,11 @@ enum Quantity {
     /// In the vertical frame.
     StokesQ,
     StokesU,
+    /// Of a segment, or of the whole ray.
+    Transmittance,
+    InScatter,
+    /// Of the disc alone.
+    SunRadiance,
 }
 
 impl Quantity {
@@ -219,14 +231,20 @@ impl Quantity {
             b"polarisation" => Ok(Self::Polarisation),
             b"stokes_q" => Ok(Self::StokesQ),
             b"stokes_u" => Ok(Self::StokesU),
-            b"transmittance" | b"in_scatter" | b"sun_radiance" => {
-                Err("not in this version".to_owned())
-            }
+            b"transmittance" => Ok(Self::Transmittance),
+            b"in_scatter" => Ok(Self::InScatter),
+            b"sun_radiance" => Ok(Self::SunRadiance),
             other => Err(format!(
-                "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q or stokes_u",
+                "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q, stokes_u, transmittance, in_scatter or sun_radiance",
                 String::from_utf8_lossy(other)
             )),
         }
+    }
+}
+
+impl Quantity {
+    fn is_of_segments(self) -> bool {
+        matches!(self, Self::Transmittance | Self::InScatter)
     }
 }
 
@@ -236,6 +254,7 @@ struct Answerer<'a> {
     clamp: bool,
     skies: HashMap<[u64; 4], Sky>,
     polarised: HashMap<[u64; 4], PolarisedSky>,
+    hazes: HashMap<[u64; 4], Haze>,
 }
 
 impl Answerer<'_> {
@@ -251,6 +270,7 @@ impl Answerer<'_> {
             azimuth,
             wavelength,
         ]: [f64; 7],
+        distance: f64,
     ) -> std::result::Result<f32, String> {
         if !(0.0..=180.0).contains(&zenith) {
             return Err(format!("view_zenith_deg must be in 0..=180, got {zenith}"));
@@ -265,8 +285,11 @@ impl Answerer<'_> {
             albedo,
             altitude,
         };
-        let direction = direction(zenith, azimuth);
-        let value = self.value(quantity, conditions, direction, wavelength);
+        let ray = Ray {
+            direction: direction(zenith, azimuth),
+            distance,
+        };
+        let value = self.value(quantity, conditions, &ray, wavelength);
         value.map_err(|error| describe(&error))
     }
 
@@ -274,9 +297,10 @@ impl Answerer<'_> {
         &mut self,
         quantity: Quantity,
         conditions: Conditions,
-        direction: [f32; 3],
+        ray: &Ray,
         wavelength: f64,
     ) -> welkin::Result<f32> {
+        let direction = ray.direction.map(|v| v as f32);
         match quantity {
             Quantity::Radiance => self.sky(conditions)?.radiance_at(direction, wavelength),
             Quantity::RelativeRadiance => {
@@ -296,21 +320,76 @@ impl Answerer<'_> {
                     _ => light.u,
                 })
             }
+            Quantity::Transmittance => {
+                let haze = self.haze(conditions)?;
+                let (_, through) = ray.through(haze)?;
+                welkin::between_wavelengths(haze.wavelengths(), &through, wavelength)
+            }
+            Quantity::InScatter => {
+                let (light, _) = ray.through(self.haze(conditions)?)?;
+                self.at(light, wavelength)
+            }
+            Quantity::SunRadiance => {
+                let disc = SunDisc::new(self.sky(conditions)?);
+                let mut light = vec![0.0; disc.wavelengths().len()];
+                disc.radiance(direction, &mut light)?;
+                self.at(light, wavelength)
+            }
         }
+    }
+
+    /// Spectral radiance between the wavelengths of the model.
+    fn at(&self, mut light: Vec<f32>, wavelength: f64) -> welkin::Result<f32> {
+        let head = self.model.head();
+        for (light, &node) in light.iter_mut().zip(&head.wavelengths) {
+            *light /= head.solar_irradiance_at(node) as f32;
+        }
+        let relative = welkin::between_wavelengths(&head.wavelengths, &light, wavelength)?;
+        Ok(relative * head.solar_irradiance_at(wavelength) as f32)
+    }
+
+    fn haze(&mut self, conditions: Conditions) -> welkin::Result<&Haze> {
+        let (model, clamp) = (self.model, self.clamp);
+        kept(&mut self.hazes, MOST_HAZES, conditions, || {
+            model.haze(&reachable(model, clamp, conditions)?)
+        })
     }
 
     fn sky(&mut self, conditions: Conditions) -> welkin::Result<&Sky> {
         let (model, clamp) = (self.model, self.clamp);
-        kept(&mut self.skies, conditions, || {
+        kept(&mut self.skies, MOST_SKIES, conditions, || {
             model.sky(&reachable(model, clamp, conditions)?)
         })
     }
 
     fn polarised_sky(&mut self, conditions: Conditions) -> welkin::Result<&PolarisedSky> {
         let (model, clamp) = (self.model, self.clamp);
-        kept(&mut self.polarised, conditions, || {
+        kept(&mut self.polarised, MOST_SKIES, conditions, || {
             model.polarised_sky(&reachable(model, clamp, conditions)?)
         })
+    }
+}
+
+/// What a row looks along.
+struct Ray {
+    direction: [f64; 3],
+    /// m; infinite up to the ground or to space.
+    distance: f64,
+}
+
+impl Ray {
+    /// In-scattered light and transmittance from the altitude of the conditions.
+    fn through(&self, haze: &Haze) -> welkin::Result<(Vec<f32>, Vec<f32>)> {
+        let n = haze.wavelengths().len();
+        let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+        let from = [0.0, 0.0, haze.conditions().altitude];
+        if self.distance == f64::INFINITY {
+            haze.to_end(from, self.direction, &mut light, &mut through)?;
+        } else {
+            let to = core::array::from_fn(|k| from[k] + self.distance * self.direction[k]);
+            haze.in_scatter(from, to, &mut light, &mut through)?;
+        }
+        Ok((light, through))
     }
 }
 
@@ -324,6 +403,7 @@ fn reachable(model: &Model, clamp: bool, conditions: Conditions) -> welkin::Resu
 /// The sky for these conditions, prepared now or earlier.
 fn kept<T>(
     skies: &mut HashMap<[u64; 4], T>,
+    most: usize,
     conditions: Conditions,
     prepare: impl FnOnce() -> welkin::Result<T>,
 ) -> welkin::Result<&T> {
@@ -336,7 +416,7 @@ fn kept<T>(
     .map(f64::to_bits);
     if !skies.contains_key(&key) {
         let sky = prepare()?;
-        if skies.len() == MOST_SKIES {
+        if skies.len() == most {
             skies.clear();
         }
         skies.insert(key, sky);
@@ -345,7 +425,7 @@ fn kept<T>(
 }
 
 /// Unit vector at a zenith angle and an azimuth from the sun, degrees; exact at the poles and the horizon.
-fn direction(zenith: f64, azimuth: f64) -> [f32; 3] {
+fn direction(zenith: f64, azimuth: f64) -> [f64; 3] {
     let elevation = (90.0 - zenith).to_radians();
     let (z, horizontal) = elevation.sin_cos();
     let horizontal = if zenith == 0.0 || zenith == 180.0 {
@@ -354,5 +434,5 @@ fn direction(zenith: f64, azimuth: f64) -> [f32; 3] {
         horizontal
     };
     let (y, x) = (azimuth % 360.0).to_radians().sin_cos();
-    [horizontal * x, horizontal * y, z].map(|v| v as f32)
+    [horizontal * x, horizontal * y, z]
 }
