@@ -604,6 +604,56 @@ fn landscapes_and_froxel_volumes_are_written() {
 }
 
 #[test]
+fn query_answers_the_polarisation_of_segments() {
+    let bench = Bench::new();
+    let row = |quantity: &str, nm: f64| format!("{quantity},59.4,0.2,300,10,88,40,20000,{nm}");
+    let quantities = ["in_scatter", "polarisation", "stokes_q", "stokes_u"];
+    let mut rows: Vec<_> = quantities.iter().map(|q| row(q, 560.0)).collect();
+    rows.extend([
+        row("polarisation", 579.0),
+        row("polarisation", 600.0),
+        row("stokes_q", 900.0),
+    ]);
+    let output = bench.run(&["query"], &format!("{HEADER}\n{}\n", rows.join("\n")));
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let answers: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
+    let value = |i: usize| answers[i][9].parse::<f32>().unwrap();
+    let model = welkin::Model::default_model().unwrap();
+    let haze = model
+        .haze(&welkin::Conditions {
+            solar_elevation: 10f64.to_radians(),
+            solar_azimuth: 0.0,
+            visibility: 59.4e3,
+            albedo: 0.2,
+            altitude: 300.0,
+        })
+        .unwrap();
+    let ((s, c), (y, x)) = (88f64.to_radians().sin_cos(), 40f64.to_radians().sin_cos());
+    let to = [2e4 * s * x, 2e4 * s * y, 300.0 + 2e4 * c];
+    let [mut i, mut q, mut u, mut through] = [[0.0; 12]; 4];
+    let out = welkin::StokesSpectra {
+        i: &mut i,
+        q: &mut q,
+        u: &mut u,
+    };
+    let frame = welkin::Frame::Vertical;
+    haze.in_scatter_stokes([0.0, 0.0, 300.0], to, frame, out, &mut through)
+        .unwrap();
+    let at = haze.wavelengths().iter().position(|&w| w == 560.0).unwrap();
+    for (got, expected) in [(value(0), i[at]), (value(2), q[at]), (value(3), u[at])] {
+        assert!((got - expected).abs() < 1e-4 * i[at], "{got} {expected}");
+    }
+    // The sun-aligned frame holds nearly all of the polarisation in Q.
+    let degree = q[at].hypot(u[at]) / i[at];
+    assert!(degree > 0.02 && value(1).abs() <= degree + 1e-5, "{degree}");
+    assert!(
+        (value(1) - value(4)) * (value(4) - value(5)) > 0.0,
+        "in between"
+    );
+    assert!(answers[6][10].contains("wavelength must be in"));
+}
+
+#[test]
 fn query_answers_finite_distances_and_the_sun() {
     let bench = Bench::new();
     let conditions = "59.4,0.2,300,10";

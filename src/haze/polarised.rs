@@ -9,9 +9,10 @@ use crate::air::Segment;
 use crate::colour::xyz_to_linear_srgb;
 use crate::error::Result;
 use crate::math::{LANES, bound};
-use crate::polarisation::{Frame, Plane, Stokes, StokesSpectra, limit};
+use crate::polarisation::{Frame, Plane, Stokes, StokesSpectra, between, limit};
 use crate::simd::dispatch;
-use crate::sky::check_length;
+use crate::sky::{MOST_WAVELENGTHS, check_length};
+use crate::spectrum::between_wavelengths;
 
 impl Haze {
     /// Stokes vectors of the light that the air between `from` and `to` scatters to `from`, and the transmittance between them, at
@@ -59,6 +60,31 @@ impl Haze {
             })?;
         }
         Ok(())
+    }
+
+    /// [`Haze::in_scatter_stokes`] at any wavelength (nm) within the range of the model, per unit of solar spectral irradiance, sr⁻¹.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter_stokes`]; [`Error::OutOfRange`](crate::Error::OutOfRange) for the wavelength.
+    pub fn relative_stokes_at(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+        wavelength: f64,
+    ) -> Result<Stokes> {
+        let nodes = self.wavelengths();
+        let mut lights = [Stokes::default(); MOST_WAVELENGTHS];
+        let mut relative = [0.0; MOST_WAVELENGTHS];
+        self.stokes(from, to, frame, |block, [i, q, u], _| {
+            for lane in 0..LANES.min(nodes.len() - block * LANES) {
+                let (i, q, u) = (i[lane], i[lane] * q[lane], i[lane] * u[lane]);
+                lights[block * LANES + lane] = Stokes { i, q, u };
+                relative[block * LANES + lane] = i;
+            }
+        })?;
+        let total = between_wavelengths(nodes, &relative[..nodes.len()], wavelength)?;
+        Ok(between(nodes, &lights[..nodes.len()], wavelength, total))
     }
 
     /// As [`Haze::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the haze is

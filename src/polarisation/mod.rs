@@ -9,5 +9,6 @@ mod table;
 pub use aspect::Frame;
 pub(crate) use aspect::Plane;
 pub use sky::PolarisedSky;
+pub(crate) use stokes::between;
 pub use stokes::{Stokes, StokesSpectra};
 pub(crate) use table::limit;

@@ -2,9 +2,8 @@
 
 use super::aspect::{Aspect, Frame};
 use super::prepare::prepare;
-use super::stokes::Stokes;
+use super::stokes::{Stokes, between};
 use super::table::{Block, Mix, Polarisation};
-use crate::axis::hermite;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
@@ -111,18 +110,7 @@ impl PolarisedSky {
         self.evaluate(direction, frame, |block, light| {
             store(&mut values[..nodes.len()], block, [1.0; LANES], &light);
         })?;
-        let (mut q, mut u) = (0.0, 0.0);
-        for (k, weight) in hermite(nodes, wavelength).taps() {
-            q += weight as f32 * values[k].q;
-            u += weight as f32 * values[k].u;
-        }
-        // Between the wavelengths the cubic can overshoot.
-        let share = i / (q.hypot(u) * (1.0 + 4.0 * f32::EPSILON)).max(1.0);
-        Ok(Stokes {
-            i,
-            q: q * share,
-            u: u * share,
-        })
+        Ok(between(nodes, &values[..nodes.len()], wavelength, i))
     }
 
     /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².

@@ -1,5 +1,6 @@
 //! Stokes vectors of linearly polarised light.
 
+use crate::axis::hermite;
 use crate::error::Result;
 use crate::sky::check_length;
 
@@ -82,6 +83,25 @@ impl Stokes {
     /// Radiance behind an ideal polariser at `angle` (rad) from `e1` towards `e2`.
     pub fn through_polariser(&self, angle: f32) -> f32 {
         (0.5 * (self.i + self.turned(angle).q)).max(0.0)
+    }
+}
+
+/// Light of the radiance `i` at a wavelength (nm) among nodes at which it is polarised as `values` are. Format specification,
+/// section 7.5.
+pub(crate) fn between(nodes: &[f64], values: &[Stokes], wavelength: f64, i: f32) -> Stokes {
+    let (mut q, mut u) = (0.0, 0.0);
+    for (k, weight) in hermite(nodes, wavelength).taps() {
+        // Nodes without light count 0.
+        let share = weight as f32 / values[k].i.max(f32::MIN_POSITIVE);
+        q += share * values[k].q;
+        u += share * values[k].u;
+    }
+    // Between the wavelengths the cubic can overshoot.
+    let share = i / (q.hypot(u) * (1.0 + 4.0 * f32::EPSILON)).max(1.0);
+    Stokes {
+        i,
+        q: q * share,
+        u: u * share,
     }
 }
 

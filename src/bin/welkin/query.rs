@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 
 use csv::ByteRecord;
-use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, SunDisc};
+use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, Stokes, SunDisc};
 
 use crate::Source;
 use crate::failure::{Failure, Result, describe};
@@ -243,8 +243,12 @@ impl Quantity {
 }
 
 impl Quantity {
+    /// Whether it may have a finite distance.
     fn is_of_segments(self) -> bool {
-        matches!(self, Self::Transmittance | Self::InScatter)
+        !matches!(
+            self,
+            Self::Radiance | Self::RelativeRadiance | Self::SunRadiance
+        )
     }
 }
 
@@ -308,17 +312,16 @@ impl Answerer<'_> {
                 sky.relative_radiance_at(direction, wavelength)
             }
             Quantity::Polarisation => {
-                let sky = self.polarised_sky(conditions)?;
-                let light = sky.stokes_at(direction, Frame::SunAligned, wavelength)?;
+                let light = self.stokes(conditions, ray, Frame::SunAligned, wavelength)?;
                 Ok(light.signed_degree())
             }
-            Quantity::StokesQ | Quantity::StokesU => {
-                let sky = self.polarised_sky(conditions)?;
-                let light = sky.stokes_at(direction, Frame::Vertical, wavelength)?;
-                Ok(match quantity {
-                    Quantity::StokesQ => light.q,
-                    _ => light.u,
-                })
+            Quantity::StokesQ => {
+                let light = self.stokes(conditions, ray, Frame::Vertical, wavelength)?;
+                Ok(light.q)
+            }
+            Quantity::StokesU => {
+                let light = self.stokes(conditions, ray, Frame::Vertical, wavelength)?;
+                Ok(light.u)
             }
             Quantity::Transmittance => {
                 let haze = self.haze(conditions)?;
@@ -336,6 +339,30 @@ impl Answerer<'_> {
                 self.at(light, wavelength)
             }
         }
+    }
+
+    /// Of the sky, or of what the air within a finite distance scatters.
+    fn stokes(
+        &mut self,
+        conditions: Conditions,
+        ray: &Ray,
+        frame: Frame,
+        wavelength: f64,
+    ) -> welkin::Result<Stokes> {
+        if ray.distance == f64::INFINITY {
+            let direction = ray.direction.map(|v| v as f32);
+            let sky = self.polarised_sky(conditions)?;
+            return sky.stokes_at(direction, frame, wavelength);
+        }
+        let haze = self.haze(conditions)?;
+        let [from, to] = ray.ends(haze);
+        let light = haze.relative_stokes_at(from, to, frame, wavelength)?;
+        let irradiance = self.model.head().solar_irradiance_at(wavelength) as f32;
+        Ok(Stokes {
+            i: irradiance * light.i,
+            q: irradiance * light.q,
+            u: irradiance * light.u,
+        })
     }
 
     /// Spectral radiance between the wavelengths of the model.
@@ -378,15 +405,21 @@ struct Ray {
 }
 
 impl Ray {
+    /// Start and end, of which the latter counts for finite distances.
+    fn ends(&self, haze: &Haze) -> [[f64; 3]; 2] {
+        let from = [0.0, 0.0, haze.conditions().altitude];
+        let to = core::array::from_fn(|k| from[k] + self.distance * self.direction[k]);
+        [from, to]
+    }
+
     /// In-scattered light and transmittance from the altitude of the conditions.
     fn through(&self, haze: &Haze) -> welkin::Result<(Vec<f32>, Vec<f32>)> {
         let n = haze.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
-        let from = [0.0, 0.0, haze.conditions().altitude];
+        let [from, to] = self.ends(haze);
         if self.distance == f64::INFINITY {
             haze.to_end(from, self.direction, &mut light, &mut through)?;
         } else {
-            let to = core::array::from_fn(|k| from[k] + self.distance * self.direction[k]);
             haze.in_scatter(from, to, &mut light, &mut through)?;
         }
         Ok((light, through))
