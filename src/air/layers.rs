@@ -6,6 +6,7 @@
 
 use crate::format::DensityView;
 use crate::geometry::Planet;
+use crate::lanes::Lanes;
 use crate::math::LANES;
 
 /// Vectors of constituents.
@@ -68,6 +69,8 @@ struct Layer {
     bottom: f64,
     /// 1 / thickness.
     rate: f64,
+    /// The same over the diameter of the planet.
+    bend: f64,
     polynomial: [Amounts; 3],
 }
 
@@ -103,12 +106,14 @@ impl Layers {
             Layer {
                 bottom: edge[0],
                 rate: 1.0 / (edge[1] - edge[0]),
+                bend: 1.0 / (edge[1] - edge[0]) / (2.0 * planet.radius),
                 polynomial,
             }
         });
         let mut layers = vec![Layer {
             bottom: 0.0,
             rate: 0.0,
+            bend: 0.0,
             polynomial: [Amounts::default(); 3],
         }];
         layers.extend(above);
@@ -135,17 +140,37 @@ impl Layers {
     /// Columns on `line` between the distances `from < to` from its tangent point (negative before it), m.
     #[inline(always)]
     pub fn columns(&self, line: Line, from: f64, to: f64) -> Amounts {
-        let mut sum = Amounts::default();
-        self.walk(line, from, to, |piece| {
-            let [a, b, c] = &self.layers[piece.layer].polynomial;
-            let length = piece.length();
-            for (q, sum) in sum.0[..self.quads].iter_mut().enumerate() {
-                for (i, sum) in sum.iter_mut().enumerate() {
-                    *sum += length * piece.mean([a.0[q][i], b.0[q][i], c.0[q][i]]);
+        match self.quads {
+            // The usual case: the sums stay in a register.
+            1 => self.sums::<1>(line, from, to),
+            _ => self.sums::<QUADS>(line, from, to),
+        }
+    }
+
+    #[inline(always)]
+    fn sums<const N: usize>(&self, line: Line, from: f64, to: f64) -> Amounts {
+        let mut sums = [Lanes::splat(0.0); N];
+        self.walk(
+            line,
+            from,
+            to,
+            #[inline(always)]
+            |piece| {
+                let [a, b, c] = &self.layers[piece.layer].polynomial;
+                let length = piece.length();
+                for q in 0..N {
+                    let [a, b, c] = [a, b, c].map(|amounts| Lanes(amounts.0[q]));
+                    let mean = a + b * piece.mean + c * piece.square;
+                    // Rounding must not make a density negative.
+                    sums[q] = sums[q] + mean.max(Lanes::splat(0.0)) * length;
                 }
-            }
-        });
-        sum
+            },
+        );
+        let mut amounts = Amounts::default();
+        for (out, sum) in amounts.0.iter_mut().zip(sums) {
+            *out = sum.0;
+        }
+        amounts
     }
 
     /// Densities weighted by `weight` and summed: the polynomial of each layer.
@@ -200,9 +225,9 @@ impl Layers {
         let (middle, length) = (0.5 * (start + end), end - start);
         let (m2, d2) = (middle * middle, length * length);
         let layer = &self.layers[i];
-        let scale = layer.rate / (2.0 * self.planet.radius);
-        let mean = (line.lowest - layer.bottom) * layer.rate + (m2 + d2 * (1.0 / 12.0)) * scale;
-        let variance = (m2 * (1.0 / 3.0) + d2 * (1.0 / 180.0)) * d2 * scale * scale;
+        let bend = layer.bend;
+        let mean = (line.lowest - layer.bottom) * layer.rate + (m2 + d2 * (1.0 / 12.0)) * bend;
+        let variance = (m2 * (1.0 / 3.0) + d2 * (1.0 / 180.0)) * d2 * bend * bend;
         Piece {
             start,
             end,

@@ -175,9 +175,13 @@ impl Air {
         let columns = self
             .layers
             .columns(segment.line, segment.from, segment.to());
-        for (block, out) in out.chunks_mut(LANES).enumerate() {
-            let depth = self.extinction.depth(&columns, block);
-            out.copy_from_slice(&depth[..out.len()]);
+        let (whole, rest) = out.as_chunks_mut();
+        for (block, out) in whole.iter_mut().enumerate() {
+            *out = self.extinction.depth(&columns, block);
+        }
+        if !rest.is_empty() {
+            let depth = self.extinction.depth(&columns, whole.len());
+            rest.copy_from_slice(&depth[..rest.len()]);
         }
     }
 
