@@ -455,3 +455,58 @@ fn chunks_are_added_replaced_and_cropped() {
         assert!((cropped.1[i] / all.1[w] - 1.0).abs() < 1e-5);
     }
 }
+
+/// Rays through all of the air by the source and by the fitted sky: two ways to the same light, with errors of their own.
+#[test]
+fn to_the_limb_the_haze_is_the_sky() {
+    let model = Model::default_model().unwrap();
+    let n = model.wavelengths().len();
+    let mut differences: [Vec<f64>; 4] = Default::default();
+    for i in 0..400 {
+        let u = |step: f64| (f64::from(i + 1) * step).fract();
+        let [night, steep] = [i % 2 == 1, i / 2 % 2 == 1];
+        let t = 2.0 * u(0.618_034) - 1.0;
+        let sun = match night {
+            true => -4.2 * u(0.754_878).powf(1.5),
+            false => 60.0 * u(0.754_878).powi(2),
+        };
+        let place = Conditions {
+            solar_elevation: sun.to_radians(),
+            solar_azimuth: 0.0,
+            visibility: 20e3 + 111.8e3 * u(0.569_84).powi(2),
+            albedo: u(0.430_16),
+            altitude: 15e3 * u(0.324_7).powi(2),
+        };
+        let elevation = if steep { t.asin() } else { 0.035 * t.powi(3) };
+        let azimuth = std::f64::consts::PI * u(0.245_1);
+        let ((z, r), (y, x)) = (elevation.sin_cos(), azimuth.sin_cos());
+        let direction = [r * x, r * y, z];
+        let [mut sky, mut haze, mut through] = [(); 3].map(|()| vec![0.0; n]);
+        let fitted = model.sky(&place).unwrap();
+        fitted
+            .radiance(direction.map(|v| v as f32), &mut sky)
+            .unwrap();
+        let from = [0.0, 0.0, place.altitude];
+        let integrated = model.haze(&place).unwrap();
+        integrated
+            .to_end(from, direction, &mut haze, &mut through)
+            .unwrap();
+        let pairs = haze.iter().zip(&sky).filter(|(_, sky)| **sky > 0.0);
+        let relative = pairs.map(|(haze, sky)| f64::from((haze / sky - 1.0).abs()));
+        differences[2 * usize::from(night) + usize::from(steep)].extend(relative);
+    }
+    let names = [
+        "day, near the horizon",
+        "day, elsewhere",
+        "twilight, near the horizon",
+        "twilight, elsewhere",
+    ];
+    let limits = [0.01, 0.01, 0.04, 0.01];
+    for ((name, mut all), limit) in names.into_iter().zip(differences).zip(limits) {
+        all.sort_by(f64::total_cmp);
+        let quantile = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
+        let [median, p95, p99] = [0.5, 0.95, 0.99].map(quantile);
+        println!("{name}: haze and sky differ by {median:.4}, {p95:.4}, {p99:.4}");
+        assert!(median < limit, "{name}: {median}");
+    }
+}

@@ -66,7 +66,7 @@ fn count(layers: &Layers, segment: &Segment, sky: &Heaven) -> usize {
     match rise / step + segment.length / stride {
         change if change < 0.25 => 1,
         change if change < 2.0 => 2,
-        change if change < 5.0 || !sky.low => 4,
+        change if change < 5.0 || (change < 10.0 && !sky.low) => 4,
         change if change < 10.0 => 6,
         change if change < 30.0 => 8,
         _ => MOST_PANELS,
