@@ -158,11 +158,11 @@ impl Layers {
             |piece| {
                 let [a, b, c] = &self.layers[piece.layer].polynomial;
                 let length = piece.length();
-                for q in 0..N {
+                for (q, sum) in sums.iter_mut().enumerate() {
                     let [a, b, c] = [a, b, c].map(|amounts| Lanes(amounts.0[q]));
                     let mean = a + b * piece.mean + c * piece.square;
                     // Rounding must not make a density negative.
-                    sums[q] = sums[q] + mean.max(Lanes::splat(0.0)) * length;
+                    *sum = *sum + mean.max(Lanes::splat(0.0)) * length;
                 }
             },
         );
