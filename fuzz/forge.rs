@@ -1,7 +1,7 @@
 //! Makes lengths and checksums of a file right, so that the fuzzer spends its time behind them; and asks a model
 //! everything.
 
-use welkin::{Air, Conditions, Frame, Haze, Model, PolarisedSky, Stokes};
+use welkin::{Air, Conditions, Frame, Haze, Model, PolarisedSky, Stokes, StokesSpectra};
 
 /// `data` with the length of the file and all checksums that can be found set right.
 pub fn forged(data: &[u8]) -> Vec<u8> {
@@ -64,6 +64,13 @@ pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
     if haze.in_scatter(from, to, &mut light, &mut through).is_ok() {
         assert!(light.iter().all(|l| l.is_finite() && *l >= 0.0), "{light:?}");
         assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
+        let (mut i, mut q, mut u) = (light.clone(), light.clone(), light.clone());
+        let spectra = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
+        haze.in_scatter_stokes(from, to, Frame::Vertical, spectra, &mut through)
+            .expect("the same points");
+        let parts = i.iter().zip(&q).zip(&u);
+        let stokes: Vec<_> = parts.map(|((&i, &q), &u)| Stokes { i, q, u }).collect();
+        check_polarised(&stokes);
         let (colour, factor) = haze.xyz(from, to).expect("the same points");
         assert!(colour.iter().chain(&factor).all(|v| v.is_finite()));
     }
@@ -73,11 +80,15 @@ pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
 pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
     let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
     if sky.relative_stokes(direction, Frame::Vertical, &mut light).is_ok() {
-        for stokes in light {
-            assert!(stokes.i.is_finite() && stokes.q.is_finite() && stokes.u.is_finite());
-            // Subnormal numbers have few digits.
-            assert!(stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40, "{stokes:?}");
-        }
+        check_polarised(&light);
+    }
+}
+
+fn check_polarised(light: &[Stokes]) {
+    for stokes in light {
+        assert!(stokes.i.is_finite() && stokes.q.is_finite() && stokes.u.is_finite());
+        // Subnormal numbers have few digits.
+        assert!(stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40, "{stokes:?}");
     }
 }
 
