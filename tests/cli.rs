@@ -586,6 +586,24 @@ fn landscapes_and_froxel_volumes_are_written() {
             "{i}: {near} {far}"
         );
     }
+    run(&[
+        "froxels",
+        "--spectral",
+        "--size",
+        "3x2x4",
+        "--out",
+        "spectral.raw",
+    ]);
+    let bytes = std::fs::read(bench.folder.path().join("spectral.raw")).unwrap();
+    assert_eq!(bytes.len(), 64 + 4 * 24 * 3 * 2 * 4);
+    assert_eq!(bytes[24..28], 24u32.to_le_bytes());
+    let spectra = bytes[64..].chunks_exact(4 * 24);
+    for spectrum in spectra {
+        let value = |i: usize| f32::from_le_bytes(spectrum[4 * i..][..4].try_into().unwrap());
+        // Light in the first half, transmittance in the second, which grows with the wavelength at first.
+        assert!((0..12).all(|i| value(i) > 0.0) && (12..24).all(|i| value(i) <= 1.0));
+        assert!(value(12) < value(14));
+    }
     run(&["froxels", "--size", "3x2x4", "--out", "volume.exr"]);
     assert!(exists("volume.exr") > 500);
     for wrong in [

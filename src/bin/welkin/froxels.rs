@@ -14,8 +14,8 @@ use crate::image::{Planes, exr};
 
 /// First bytes of a raw volume.
 const MAGIC: &[u8; 8] = b"WLKFROXL";
-/// Channels: in-scattered light, transmittance.
-const CHANNELS: usize = 6;
+/// Channels of colour: in-scattered light, transmittance.
+const COLOURS: [&str; 6] = ["R", "G", "B", "TR", "TG", "TB"];
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -65,7 +65,10 @@ pub struct Options {
     /// Depth of the last slice along the axis, m.
     #[arg(long, default_value_t = 100_000.0, value_name = "M")]
     far: f64,
-    /// The volume: .exr (six channels per slice) or .raw (a header of 64 bytes, then single precision).
+    /// All wavelengths of the model instead of linear sRGB.
+    #[arg(long)]
+    spectral: bool,
+    /// The volume: .exr (six channels per slice, or two per wavelength) or .raw (a header of 64 bytes, then single precision).
     #[arg(long, default_value = "froxels.exr", value_name = "FILE")]
     out: PathBuf,
 }
@@ -81,7 +84,9 @@ fn size(text: &str) -> std::result::Result<[usize; 3], String> {
 /// `[slice][row][column][channel]`.
 struct Volume {
     size: [usize; 3],
-    values: Vec<[f32; CHANNELS]>,
+    /// Names: `R` … `TB`, or `400nm` … `T400nm` …
+    channels: Vec<String>,
+    values: Vec<f32>,
 }
 
 pub fn run(options: &Options) -> Result<()> {
@@ -111,7 +116,7 @@ pub fn run(options: &Options) -> Result<()> {
         out,
         "time            {:.0} ms for {} froxels",
         1e3 * time.as_secs_f64(),
-        volume.values.len()
+        volume.values.len() / volume.channels.len()
     )?;
     Ok(())
 }
@@ -137,19 +142,36 @@ impl Options {
 fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
     let [width, height, depth] = options.size;
     let place = [0.0, 0.0, options.altitude];
-    let mut values = Vec::with_capacity(width * height * depth);
+    let wavelengths = haze.wavelengths();
+    let channels: Vec<String> = match options.spectral {
+        true => ["", "T"]
+            .iter()
+            .flat_map(|kind| wavelengths.iter().map(move |nm| format!("{kind}{nm}nm")))
+            .collect(),
+        false => COLOURS.map(str::to_owned).to_vec(),
+    };
+    let mut values = vec![0.0; width * height * depth * channels.len()];
+    let mut rows = values.chunks_exact_mut(channels.len());
     for slice in 0..depth {
         for i in 0..width * height {
             let at = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
             let direction = camera.direction([at(i % width, width), at(i / width, height)]);
             let distance = options.depth(slice) / camera.depth(direction);
             let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
-            let ([r, g, b], [tr, tg, tb]) = haze.linear_srgb(place, point)?;
-            values.push([r, g, b, tr, tg, tb]);
+            let Some(row) = rows.next() else { break };
+            let (light, through) = row.split_at_mut(channels.len() / 2);
+            if options.spectral {
+                haze.in_scatter(place, point, light, through)?;
+            } else {
+                let colours = haze.linear_srgb(place, point)?;
+                light.copy_from_slice(&colours.0);
+                through.copy_from_slice(&colours.1);
+            }
         }
     }
     Ok(Volume {
         size: options.size,
+        channels,
         values,
     })
 }
@@ -157,10 +179,12 @@ fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
 fn layers(volume: &Volume) -> Result<Vec<u8>> {
     let [width, height, depth] = volume.size;
-    let mut planes = Vec::with_capacity(CHANNELS * depth);
-    for (slice, values) in volume.values.chunks_exact(width * height).enumerate() {
-        for (c, name) in ["R", "G", "B", "TR", "TG", "TB"].into_iter().enumerate() {
-            let plane = values.iter().map(|v| v[c]).collect();
+    let channels = volume.channels.len();
+    let mut planes = Vec::with_capacity(channels * depth);
+    let slices = volume.values.chunks_exact(width * height * channels);
+    for (slice, values) in slices.enumerate() {
+        for (c, name) in volume.channels.iter().enumerate() {
+            let plane = values.iter().skip(c).step_by(channels).copied().collect();
             planes.push((format!("slice{slice:03}.{name}"), plane));
         }
     }
@@ -168,18 +192,19 @@ fn layers(volume: &Volume) -> Result<Vec<u8>> {
         size: [width, height],
         planes,
         attributes: Vec::new(),
-        comment: "in-scattered light, linear sRGB, cd m^-2 (R, G, B); transmittance (TR, TG, TB)",
+        comment: "in-scattered light: linear sRGB, cd m^-2 (R, G, B), or W m^-2 sr^-1 nm^-1 (by wavelength); transmittance (T and the same)",
     })
 }
 
-/// Header, then `[slice][row][column][R, G, B, TR, TG, TB]` as f32, all little-endian.
+/// Header, then `[slice][row][column][channel]` as f32, all little-endian.
 fn raw(options: &Options, volume: &Volume) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
-    let counts = [1, volume.size[0], volume.size[1], volume.size[2], CHANNELS];
+    let [width, height, depth] = volume.size;
+    let counts = [1, width, height, depth, volume.channels.len()];
     bytes.extend(counts.iter().flat_map(|&n| (n as u32).to_le_bytes()));
     let numbers = [options.near, options.far, options.lens.field()];
     bytes.extend(numbers.iter().flat_map(|&v| (v as f32).to_le_bytes()));
     bytes.resize(64, 0);
-    bytes.extend(volume.values.iter().flatten().flat_map(|v| v.to_le_bytes()));
+    bytes.extend(volume.values.iter().flat_map(|v| v.to_le_bytes()));
     bytes
 }
