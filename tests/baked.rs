@@ -84,9 +84,9 @@ proptest! {
             let pairs = colour.xyz(direction).unwrap().into_iter().zip(sky.xyz(direction).unwrap());
             colours.extend(pairs.map(|(got, expected)| error(got, expected)));
         }
-        // The promise was measured at other directions, so it holds but for chance.
-        prop_assert!(percentile(spectral.clone(), 0.95) <= 1.3 * BakedSky::TOLERANCE, "{}", percentile(spectral, 0.95));
-        prop_assert!(percentile(colours.clone(), 0.95) <= 1.3 * BakedSky::TOLERANCE, "{}", percentile(colours, 0.95));
+        // The promise was measured at other directions, with a margin for that.
+        prop_assert!(percentile(spectral.clone(), 0.95) <= 1.1 * BakedSky::TOLERANCE, "{}", percentile(spectral, 0.95));
+        prop_assert!(percentile(colours.clone(), 0.95) <= 1.1 * BakedSky::TOLERANCE, "{}", percentile(colours, 0.95));
     }
 
     #[test]

@@ -64,6 +64,9 @@ const fn grid(up: u32, down: u32, azimuth: u32, sun: u32) -> Grid {
     }
 }
 
+/// Share of the tolerance that the compared directions must keep, so that others keep it, too.
+const MARGIN: f64 = 0.85;
+
 /// Directions that are compared.
 const SAMPLES: u32 = 192;
 
@@ -88,7 +91,8 @@ pub(super) fn bake<const N: usize, C: Channels<N>>(
             .partition_point(|&(typical, _)| typical > wanted)
             .min(last)
     };
-    let mut i = fitting(tolerance).max(least);
+    let accepted = MARGIN * tolerance;
+    let mut i = fitting(accepted).max(least);
     loop {
         let (typical, grid) = GRIDS[i];
         let table = dispatch(Bake {
@@ -96,7 +100,7 @@ pub(super) fn bake<const N: usize, C: Channels<N>>(
             channels,
         });
         let error = truth.compare(&table, frame);
-        if error.p95 <= tolerance {
+        if error.p95 <= if i == last { tolerance } else { accepted } {
             return Ok((table, error));
         }
         if i == last {
@@ -106,7 +110,7 @@ pub(super) fn bake<const N: usize, C: Channels<N>>(
             });
         }
         // This sky is harder than others by as much as its error is larger.
-        i = fitting(tolerance * typical / error.p95).max(i + 1);
+        i = fitting(accepted * typical / error.p95).max(i + 1);
     }
 }
 
