@@ -219,7 +219,8 @@ fn in_scatter_is_linear_at_first_adds_up_and_is_never_negative() {
         );
         assert!(median < 1e-4, "sun {elevation}°: {median}");
         assert!(p99 < 0.01, "sun {elevation}°: {p99}");
-        assert!(max < 0.1, "sun {elevation}°: {max}");
+        // A few grazing segments at sunset end their panels elsewhere when they are divided.
+        assert!(max < 0.25, "sun {elevation}°: {max}");
     }
 }
 
@@ -501,12 +502,13 @@ fn to_the_limb_the_haze_is_the_sky() {
         "twilight, near the horizon",
         "twilight, elsewhere",
     ];
-    let limits = [0.01, 0.01, 0.04, 0.01];
+    let limits = [0.01, 0.01, 0.03, 0.01];
     for ((name, mut all), limit) in names.into_iter().zip(differences).zip(limits) {
         all.sort_by(f64::total_cmp);
         let quantile = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
         let [median, p95, p99] = [0.5, 0.95, 0.99].map(quantile);
         println!("{name}: haze and sky differ by {median:.4}, {p95:.4}, {p99:.4}");
         assert!(median < limit, "{name}: {median}");
+        assert!(p95 < 8.0 * limit, "{name}: {p95}");
     }
 }

@@ -67,6 +67,9 @@ const KINDS: usize = 3;
 /// How much each counts.
 const SHARES: [f32; KINDS] = [0.7, 0.1, 0.2];
 
+/// As much of a kind, in all of a segment, as gets its full share.
+const NOTICED: f32 = 0.01;
+
 /// What has been seen of a segment up to a distance.
 #[derive(Clone, Copy, Default)]
 struct Mark {
@@ -166,21 +169,23 @@ fn see_low(marks: &mut [Mark], glance: &Glance) {
         let now = (one_minus_exp_neg(marks[i].depth), glance.density(end));
         let [visible, ultraviolet] = glance.light(0.5 * (start + end));
         let share = now.0 - before.0;
+        // Behind thick air nothing is seen, so a change of density there hardly counts.
+        let through = (1.0 - 0.5 * (now.0 + before.0)).sqrt().sqrt();
         light[i] = [
             visible * share,
             ultraviolet * share,
-            (now.1 - before.1).abs(),
+            (now.1 - before.1).abs() * through,
         ];
         before = now;
         for (total, light) in total.iter_mut().zip(light[i]) {
             *total += light;
         }
     }
-    let used: f32 = (0..KINDS)
-        .map(|k| if total[k] > 0.0 { SHARES[k] } else { 0.0 })
-        .sum();
+    // What is hardly there gets no panels of its own.
+    let share = |k: usize| SHARES[k] * (total[k] / NOTICED).min(1.0);
+    let used: f32 = (0..KINDS).map(share).sum();
     let factor: [f32; KINDS] =
-        core::array::from_fn(|k| SHARES[k] / (used * total[k]).max(f32::MIN_POSITIVE));
+        core::array::from_fn(|k| share(k) / (used * total[k]).max(f32::MIN_POSITIVE));
     for i in 1..marks.len() {
         let more: f32 = light[i]
             .iter()
