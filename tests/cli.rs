@@ -515,22 +515,48 @@ fn plans_say_what_scenes_need() {
     }
 }
 
+/// Values of all channels of a landscape.
+fn landscape(bench: &Bench, more: &[&str]) -> Vec<f32> {
+    let scene = "render --terrain flat --sun-elevation 25 --view-azimuth 90 --visibility 100 --size 12 --out scene.exr";
+    let arguments: Vec<&str> = scene.split(' ').chain(more.iter().copied()).collect();
+    let output = bench.run(&arguments, "");
+    assert!(output.status.success(), "{output:?}");
+    let path = bench.folder.path().join("scene.exr");
+    let image = exr::prelude::read_first_flat_layer_from_file(path).unwrap();
+    let channels = &image.layer_data.channel_data.list;
+    channels
+        .iter()
+        .flat_map(|c| c.sample_data.values_as_f32().collect::<Vec<_>>())
+        .collect()
+}
+
+/// Every method shows nearly the same landscape, and none the very same.
+#[test]
+fn the_light_of_the_air_is_computed_by_any_method() {
+    let bench = Bench::new();
+    let picture = |method| landscape(&bench, &["--altitude", "100", "--haze", method]);
+    let source = picture("source");
+    assert_eq!(source, landscape(&bench, &["--altitude", "100"]));
+    let mut pictures = vec![source.clone()];
+    for method in ["eq2", "blurred", "blend"] {
+        let other = picture(method);
+        let pairs = other.iter().zip(&source);
+        let mut apart: Vec<f32> = pairs.map(|(o, s)| (o / s - 1.0).abs()).collect();
+        apart.sort_by(f32::total_cmp);
+        let [median, most] = [apart[apart.len() / 2], apart[apart.len() * 9 / 10]];
+        assert!(median < 0.02 && most < 0.1, "{method}: {median} {most}");
+        assert!(!pictures.contains(&other), "{method}");
+        pictures.push(other);
+    }
+}
+
 /// Two polarisers across each other share the light of a landscape; one of them lifts the haze.
 #[test]
 fn a_polariser_stands_before_a_landscape() {
     let bench = Bench::new();
-    let picture = |polariser: &[&str]| -> Vec<f32> {
-        let scene = "render --terrain flat --altitude 800 --sun-elevation 25 --view-azimuth 90 --visibility 100 --size 12 --out scene.exr";
-        let arguments: Vec<&str> = scene.split(' ').chain(polariser.iter().copied()).collect();
-        let output = bench.run(&arguments, "");
-        assert!(output.status.success(), "{output:?}");
-        let path = bench.folder.path().join("scene.exr");
-        let image = exr::prelude::read_first_flat_layer_from_file(path).unwrap();
-        let channels = &image.layer_data.channel_data.list;
-        channels
-            .iter()
-            .flat_map(|c| c.sample_data.values_as_f32().collect::<Vec<_>>())
-            .collect()
+    let picture = |polariser: &[&str]| {
+        let altitude = ["--altitude", "800"];
+        landscape(&bench, &[&altitude[..], polariser].concat())
     };
     let open = picture(&[]);
     let lifted = picture(&["--polariser", "65"]);
@@ -613,6 +639,8 @@ fn landscapes_and_froxel_volumes_are_written() {
         &["render", "--terrain", "nowhere.png"],
         &["render", "--terrain", "hills", "--spectral"],
         &["render", "--terrain", "hills", "--polariser", "NaN"],
+        &["render", "--terrain", "hills", "--haze", "fog"],
+        &["render", "--haze", "eq2"],
         &["render", "--polariser", "65"],
         &["render", "--terrain", "hills", "--field-of-view", "0"],
         &["render", "--terrain", "hills", "--terrain-height", "-3"],

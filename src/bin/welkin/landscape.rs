@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, Stokes, xyz_to_linear_srgb};
 
 use crate::camera::{Camera, Lens};
+use crate::difference::{Difference, Method};
 use crate::failure::{Failure, Result};
 use crate::terrain::{FARTHEST, Field, Terrain, altitude};
 
@@ -32,6 +33,15 @@ pub struct Options {
         requires = "terrain"
     )]
     polariser: Option<f64>,
+    /// How the light of the air before the terrain is computed.
+    #[arg(
+        long,
+        value_enum,
+        default_value_t,
+        requires = "terrain",
+        conflicts_with = "polariser"
+    )]
+    haze: Method,
 }
 
 /// Width over height of a picture in perspective.
@@ -40,11 +50,13 @@ pub const ASPECT: f64 = 1.5;
 const COVER: [[f32; 3]; 3] = [[0.10, 0.14, 0.06], [0.20, 0.18, 0.15], [0.75, 0.77, 0.80]];
 
 /// All that a landscape needs.
-pub struct Landscape {
+pub struct Landscape<'a> {
     terrain: Terrain,
     camera: Camera,
     place: [f64; 3],
     haze: Haze,
+    /// Instead of the haze's own light.
+    difference: Option<Difference<'a>>,
     sky: Sky,
     /// XYZ per unit of relative radiance.
     xyz: Vec<[f64; 3]>,
@@ -71,12 +83,12 @@ impl Options {
     }
 
     /// Prepares the landscape around an observer, if one is wanted.
-    pub fn prepare(
+    pub fn prepare<'a>(
         &self,
-        model: &Model,
+        model: &'a Model,
         conditions: &Conditions,
         azimuth: f64,
-    ) -> Result<Option<Landscape>> {
+    ) -> Result<Option<Landscape<'a>>> {
         let Some(terrain) = &self.terrain else {
             return Ok(None);
         };
@@ -88,8 +100,10 @@ impl Options {
             0.0,
             conditions.altitude.max(terrain.height(0.0, 0.0)) + 2.0,
         ];
+        let haze = model.haze(conditions)?;
         Ok(Some(Landscape {
-            haze: model.haze(conditions)?,
+            difference: Difference::new(model, &haze, self.haze)?,
+            haze,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
             terrain,
@@ -149,7 +163,7 @@ impl Options {
     }
 }
 
-impl Landscape {
+impl Landscape<'_> {
     /// Linear sRGB of every pixel, cd m⁻².
     pub fn pixels(&self, [width, height]: [usize; 2]) -> Result<Vec<[f32; 3]>> {
         let pixel = |i: usize| {
@@ -170,7 +184,10 @@ impl Landscape {
         let point = std::array::from_fn(|k| self.place[k] + distance.min(FARTHEST) * direction[k]);
         let surface = self.surface(radius, point)?;
         let Some(polariser) = &self.polariser else {
-            let (light, through) = self.haze.linear_srgb(self.place, point)?;
+            let (mut light, through) = self.haze.linear_srgb(self.place, point)?;
+            if let Some(difference) = &self.difference {
+                light = difference.light(&self.haze, self.place, point)?;
+            }
             return Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]));
         };
         let haze = self

@@ -1,6 +1,7 @@
 //! The `welkin` command: renders, queries and describes clear-sky models.
 
 mod camera;
+mod difference;
 mod failure;
 mod froxels;
 mod image;
