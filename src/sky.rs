@@ -244,16 +244,7 @@ impl Sky {
 
     fn relative_at(&self, direction: [f32; 3], wavelength: f64) -> Result<f64> {
         let nodes = self.wavelengths.as_slice();
-        let [min, max] = [nodes[0], nodes[nodes.len() - 1]];
-        if !(min..=max).contains(&wavelength) {
-            return Err(Error::OutOfRange {
-                parameter: "wavelength",
-                value: wavelength,
-                min,
-                max,
-                unit: "nm",
-            });
-        }
+        spectrum::check(wavelength, [nodes[0], nodes[nodes.len() - 1]])?;
         let lookup = self.lookup(direction)?;
         let mut values = [0.0; MOST_WAVELENGTHS];
         let values = &mut values[..nodes.len()];

@@ -19,16 +19,23 @@ pub fn between_wavelengths(nodes: &[f64], values: &[f32], wavelength: f64) -> Re
             got: values.len() as u64,
         });
     };
-    if !(min..=max).contains(&wavelength) {
-        return Err(Error::OutOfRange {
+    check(wavelength, [min, max])?;
+    Ok(between(nodes, values, wavelength) as f32)
+}
+
+/// Refuses wavelengths outside the range of the nodes, nm.
+#[cfg(feature = "std")]
+pub(crate) fn check(wavelength: f64, [min, max]: [f64; 2]) -> Result<()> {
+    match (min..=max).contains(&wavelength) {
+        true => Ok(()),
+        false => Err(Error::OutOfRange {
             parameter: "wavelength",
             value: wavelength,
             min,
             max,
             unit: "nm",
-        });
+        }),
     }
-    Ok(between(nodes, values, wavelength) as f32)
 }
 
 /// Interpolates radiances at `nodes` (nm) to `wavelength`: smooth in the logarithm, linear where a value is zero.

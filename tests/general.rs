@@ -48,6 +48,11 @@ fn fewer_chunks_cost_as_much_accuracy_as_is_said() {
 }
 
 #[test]
+fn it_fits_where_there_is_no_heap() {
+    assert!(size_of::<General>() < 76_000);
+}
+
+#[test]
 fn at_the_nodes_all_interpolations_agree() {
     let general = |i| {
         General::new(welkin::DEFAULT_MODEL)

@@ -502,13 +502,15 @@ fn to_the_limb_the_haze_is_the_sky() {
         "twilight, near the horizon",
         "twilight, elsewhere",
     ];
-    let limits = [0.01, 0.01, 0.03, 0.01];
-    for ((name, mut all), limit) in names.into_iter().zip(differences).zip(limits) {
+    let limits = [[0.01, 0.05], [0.005, 0.02], [0.03, 0.2], [0.01, 0.05]];
+    for ((name, mut all), limits) in names.into_iter().zip(differences).zip(limits) {
         all.sort_by(f64::total_cmp);
         let quantile = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
         let [median, p95, p99] = [0.5, 0.95, 0.99].map(quantile);
         println!("{name}: haze and sky differ by {median:.4}, {p95:.4}, {p99:.4}");
-        assert!(median < limit, "{name}: {median}");
-        assert!(p95 < 8.0 * limit, "{name}: {p95}");
+        assert!(
+            median < limits[0] && p95 < limits[1],
+            "{name}: {median} {p95}"
+        );
     }
 }

@@ -59,15 +59,15 @@ impl Axis {
     pub fn around(&self, x: f64) -> Nodes {
         let nodes = &self.nodes[..self.len];
         match locate(nodes, x) {
-            None => [hermite(nodes, x); 2].into(),
-            Some((i, t)) => [self.pieces[i].at(t), between((i, t))].into(),
+            None => Nodes {
+                cubic: hermite(nodes, x),
+                line: hermite(nodes, x),
+            },
+            Some((i, t)) => Nodes {
+                cubic: self.pieces[i].at(t),
+                line: between((i, t)),
+            },
         }
-    }
-}
-
-impl From<[Stencil; 2]> for Nodes {
-    fn from([cubic, line]: [Stencil; 2]) -> Self {
-        Self { cubic, line }
     }
 }
 

@@ -31,7 +31,10 @@ const MOST_CONSTITUENTS: usize = 16;
 ///
 /// Costs one to two microseconds per query and no preparation; skies that many queries share are cheaper
 /// [prepared](crate::Model::sky). The file must not be larger than 64 altitudes, 256 radiance chunks, rank 512, 256
-/// channels and 64 wavelengths. About 40 kB in size, nothing on the heap. `Send + Sync`.
+/// channels and 64 wavelengths, nor than 64 visibilities. About 75 kB in size, nothing on the heap. `Send + Sync`.
+///
+/// Between the nodes of the file it differs from [`Sky`](crate::Sky) by what [`Interpolation::Lean`] leaves out; where the
+/// tolerances of the format specification count, ask for [`Interpolation::Full`].
 pub struct General<'a> {
     head: HeadView<'a>,
     chunks: Chunks<'a>,
@@ -114,7 +117,7 @@ impl<'a> General<'a> {
         })
     }
 
-    /// The same with another interpolation between chunks.
+    /// The same with another interpolation between chunks than [`Interpolation::Lean`].
     #[must_use]
     pub fn with_interpolation(mut self, interpolation: Interpolation) -> Self {
         self.interpolation = interpolation;

@@ -92,6 +92,7 @@ impl<'a, 'b> Query<'a, 'b> {
         contract::fetch_level(instructions, chunk, n, &self.place.curve[1]);
     }
 
+    /// Sums the chunks, asking for each a few ahead of its turn.
     #[inline(always)]
     fn answer<I: Instructions>(&self, instructions: I, out: &mut [f32]) -> Result<()> {
         let Self { model, place, .. } = self;
