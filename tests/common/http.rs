@@ -25,18 +25,23 @@ impl Server {
         let (requests, bytes) = (server.requests.clone(), server.bytes.clone());
         std::thread::spawn(move || {
             for stream in listener.incoming() {
+                let mut stream = stream.unwrap();
+                let (head, body) = answer(&stream, &file);
+                // Before they are sent: whoever has them may ask at once how many there were.
                 requests.fetch_add(1, Ordering::Relaxed);
-                bytes.fetch_add(answer(stream.unwrap(), &file), Ordering::Relaxed);
+                bytes.fetch_add(body.len() as u64, Ordering::Relaxed);
+                stream.write_all(head.as_bytes()).unwrap();
+                stream.write_all(body).unwrap();
             }
         });
         server
     }
 }
 
-/// Answers one request; returns the length of the body.
-fn answer(mut stream: TcpStream, file: &[u8]) -> u64 {
+/// Head and body of the answer to a request.
+fn answer<'a>(stream: &TcpStream, file: &'a [u8]) -> (String, &'a [u8]) {
     let mut range = None;
-    let reader = BufReader::new(stream.try_clone().unwrap());
+    let reader = BufReader::new(stream);
     for line in reader.lines().map_while(Result::ok) {
         if let Some(value) = line.strip_prefix("Range: bytes=") {
             let (first, last) = value.split_once('-').unwrap();
@@ -60,9 +65,7 @@ fn answer(mut stream: TcpStream, file: &[u8]) -> u64 {
         "HTTP/1.1 {status}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
         body.len()
     );
-    stream.write_all(head.as_bytes()).unwrap();
-    stream.write_all(body).unwrap();
-    body.len() as u64
+    (head, body)
 }
 
 pub struct Client(pub SocketAddr);
