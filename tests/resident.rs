@@ -5,25 +5,25 @@ use std::hint::black_box;
 use welkin::{BakedSky, Conditions, Model};
 
 /// Resident memory of this process, kB: anonymous, and the pages of files with this ending.
+///
+/// Page by page: the sums in /proc/self/status are kept per processor and lag behind.
 fn resident(ending: &str) -> [usize; 2] {
-    let number = |line: &str| -> usize {
-        let number = line.split_whitespace().nth(1).unwrap();
-        number.parse().unwrap()
-    };
-    let status = std::fs::read_to_string("/proc/self/status").unwrap();
-    let anonymous = status.lines().find(|line| line.starts_with("RssAnon:"));
     let maps = std::fs::read_to_string("/proc/self/smaps").unwrap();
     let mut here = false;
-    let mut pages = 0;
+    let [mut anonymous, mut pages] = [0, 0];
     for line in maps.lines() {
-        match line.starts_with("Rss:") {
-            true if here => pages += number(line),
-            true => {}
-            false if line.contains('-') && line.contains(" r") => here = line.ends_with(ending),
-            false => {}
+        let mut words = line.split_whitespace();
+        let name = words.next().unwrap_or_default();
+        let number = |word: Option<&str>| word.and_then(|n| n.parse::<usize>().ok()).unwrap();
+        match name {
+            "Anonymous:" => anonymous += number(words.next()),
+            "Rss:" if here => pages += number(words.next()),
+            // The first line of a mapping: its addresses.
+            _ if name.contains('-') => here = line.ends_with(ending),
+            _ => {}
         }
     }
-    [number(anonymous.unwrap()), pages]
+    [anonymous, pages]
 }
 
 #[test]
