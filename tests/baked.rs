@@ -1,6 +1,8 @@
 //! Baked skies: as good as they say, continuous, and the same from every path.
 #![cfg(feature = "default-model")]
 
+mod common;
+
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
@@ -68,7 +70,7 @@ fn percentile(mut errors: Vec<f64>, share: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(common::cases(40))]
 
     #[test]
     fn errors_are_as_promised(conditions in conditions(), seed in 0.0..1.0f64) {

@@ -78,7 +78,7 @@ fn distance(got: &Stokes, expected: &Stokes) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(common::cases(40))]
 
     #[test]
     fn errors_are_as_promised(conditions in conditions(), frame in frame(), seed in 0.0..1.0f64) {

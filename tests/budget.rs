@@ -20,6 +20,8 @@ fn sorted(a: f64, b: f64) -> [f64; 2] {
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn scenes_read_what_was_planned_and_no_more(
         (a, b) in (0.0..2000.0f64, 0.0..2000.0f64),

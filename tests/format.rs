@@ -235,6 +235,8 @@ fn frames_that_lie_about_their_length_are_refused() {
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn any_valid_head_survives_a_round_trip(
         altitudes in proptest::collection::btree_set(0u32..15_000, 1..5),

@@ -85,6 +85,8 @@ fn bits_of(error: &Error) -> String {
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn general_queries_agree_with_skies(
         altitude in prop_oneof![Just(0.0), Just(120.0), Just(2000.0), 0.0..2000.0f64],

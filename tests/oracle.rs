@@ -11,6 +11,8 @@ fn close(got: f32, expected: f64, zenith: f64) -> bool {
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn sky_follows_the_specification(
         altitude in prop_oneof![Just(0.0), Just(120.0), 0.0..2000.0f64],

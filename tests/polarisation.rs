@@ -19,6 +19,8 @@ fn stokes(sky: &PolarisedSky, direction: [f32; 3], frame: Frame) -> Vec<Stokes> 
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn polarisation_follows_the_specification(
         altitude in prop_oneof![Just(0.0), Just(120.0), 0.0..2000.0f64],

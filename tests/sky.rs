@@ -66,6 +66,8 @@ fn unit(elevation: f64, azimuth: f64) -> [f32; 3] {
 }
 
 proptest! {
+    #![proptest_config(common::cases(256))]
+
     #[test]
     fn radiance_is_finite_and_not_negative(conditions in conditions(), direction in prop::array::uniform3(any_f32())) {
         let sky = MODEL.sky(&conditions).unwrap();

@@ -6,6 +6,7 @@ pub mod haze;
 pub mod http;
 pub mod oracle;
 
+use proptest::test_runner::{Config, RngSeed};
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
@@ -14,6 +15,22 @@ use welkin::format::{
 use welkin::geometry::Planet;
 
 pub const RANK: usize = 5;
+
+/// The same `cases` of a property test in every run: what has passed does not fail by chance where nothing has changed.
+///
+/// `WELKIN_CASES=N` takes N times as many from new seeds. What fails is printed and becomes a test of its own.
+pub fn cases(cases: u32) -> Config {
+    let factor = std::env::var("WELKIN_CASES").ok();
+    let factor: Option<u32> = factor.map(|n| n.parse().expect("WELKIN_CASES is a number"));
+    let cases = cases * factor.unwrap_or(1);
+    Config {
+        cases,
+        max_global_rejects: 4 * cases,
+        rng_seed: factor.map_or(RngSeed::Fixed(0), |_| RngSeed::Random),
+        failure_persistence: None,
+        ..Config::default()
+    }
+}
 
 /// A model with `altitudes` × `visibilities` radiance chunks.
 pub fn head(altitudes: &[f64], visibilities: &[f64]) -> Head {
