@@ -1,6 +1,6 @@
 //! One line of the conformance suite's queries, answered by the library.
 
-use welkin::{Conditions, Error, Frame, Model, Stokes};
+use welkin::{Conditions, Error, Frame, Haze, Model, Stokes, StokesSpectra};
 
 /// The values, or the class of the error.
 pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
@@ -37,6 +37,9 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     match quantity {
         "transmittance" => return transmittance(model, visibility, segment).map_err(|e| e.class()),
         "in_scatter" => return in_scatter(model, &conditions, segment).map_err(|e| e.class()),
+        "in_scatter_stokes" => {
+            return in_scatter_stokes(model, &conditions, segment).map_err(|e| e.class());
+        }
         _ => {}
     }
     let direction = [x, y, z].map(|v| v as f32);
@@ -106,16 +109,42 @@ fn in_scatter(
     conditions: &Conditions,
     [from, to]: [[f64; 3]; 2],
 ) -> Result<Vec<f32>, Error> {
-    // A haze does not ask where the observer is.
-    let [altitude, _] = model.altitude_range();
-    let haze = model.haze(&Conditions {
-        altitude,
-        ..*conditions
-    })?;
+    let haze = haze(model, conditions)?;
     let mut light = vec![0.0; haze.wavelengths().len()];
     let mut through = light.clone();
     haze.in_scatter(from, to, &mut light, &mut through)?;
-    let sun = |l: &f64| model.head().solar_irradiance_at(*l) as f32;
-    let suns = haze.wavelengths().iter().map(sun);
-    Ok(light.iter().zip(suns).map(|(l, sun)| l / sun).collect())
+    Ok(per_sun(model, &light))
+}
+
+/// L, then Q, then U.
+fn in_scatter_stokes(
+    model: &Model,
+    conditions: &Conditions,
+    [from, to]: [[f64; 3]; 2],
+) -> Result<Vec<f32>, Error> {
+    let haze = haze(model, conditions)?;
+    let [mut i, mut q, mut u, mut through] = [(); 4].map(|()| vec![0.0; haze.wavelengths().len()]);
+    let light = StokesSpectra {
+        i: &mut i,
+        q: &mut q,
+        u: &mut u,
+    };
+    haze.in_scatter_stokes(from, to, Frame::Vertical, light, &mut through)?;
+    Ok([i, q, u].map(|part| per_sun(model, &part)).concat())
+}
+
+fn haze(model: &Model, conditions: &Conditions) -> Result<Haze, Error> {
+    // A haze does not ask where the observer is.
+    let [altitude, _] = model.altitude_range();
+    model.haze(&Conditions {
+        altitude,
+        ..*conditions
+    })
+}
+
+fn per_sun(model: &Model, light: &[f32]) -> Vec<f32> {
+    let head = model.head();
+    let suns = head.wavelengths.iter();
+    let suns = suns.map(|wavelength| head.solar_irradiance_at(*wavelength) as f32);
+    light.iter().zip(suns).map(|(l, sun)| l / sun).collect()
 }

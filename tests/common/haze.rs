@@ -33,6 +33,28 @@ pub fn chunks(head: &Head, swing: f32) -> Vec<Chunk> {
     chunks
 }
 
+/// The same with a source that is strongest across the plane of the sun, and few particles.
+pub fn polarised_chunks(head: &Head) -> Vec<Chunk> {
+    let mut chunks = chunks(head, 0.2);
+    for chunk in &mut chunks {
+        match &mut chunk.payload {
+            Payload::SourceBasis(basis) => {
+                for (row, value) in [0.2, 0.9, 0.4, 0.25].into_iter().enumerate() {
+                    basis.factors[2][row * SOURCE_RANKS[2]] = value;
+                }
+            }
+            Payload::Source(source) => {
+                let molecules = head.constituents * head.wavelengths.len();
+                for scattering in &mut source.scattering[molecules..] {
+                    *scattering *= 0.05;
+                }
+            }
+            _ => {}
+        }
+    }
+    chunks
+}
+
 /// The first component of the moments is light from everywhere, the others lean it.
 fn source_basis(head: &Head, swing: f32) -> SourceBasis {
     let moments = 4 + harmonics(SOURCE_DEGREE, SOURCE_ORDERS);

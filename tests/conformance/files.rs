@@ -305,8 +305,9 @@ fn air() -> Vec<u8> {
 }
 
 /// The air and what it scatters: without radiance.
-fn hazy() -> [(&'static str, &'static str, Vec<u8>); 3] {
+fn hazy() -> [(&'static str, &'static str, Vec<u8>); 4] {
     let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
+    let polarised = common::haze::polarised_chunks(&head);
     let file = |swing: f32, visibilities: &[usize]| {
         let mut chunks = common::haze::chunks(&head, swing);
         chunks.retain(|c| c.visibility.is_none_or(|v| visibilities.contains(&v)));
@@ -322,6 +323,11 @@ fn hazy() -> [(&'static str, &'static str, Vec<u8>); 3] {
             "haze-negative",
             "the source is negative in some directions",
             file(6.0, &[0, 1, 2]),
+        ),
+        (
+            "haze-polarised",
+            "molecules scatter most of the light, and polarise it",
+            encode(&head, &polarised).expect("a valid model"),
         ),
         (
             "haze-sparse",

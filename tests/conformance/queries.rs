@@ -26,15 +26,12 @@ const SPREAD: usize = 14;
 pub fn of(case: &Case) -> Vec<Value> {
     let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
     all.extend(special(&case.bytes));
-    let segments: Option<fn(&Case, &Query, usize) -> Value> = match case.needs.first() {
-        Some(&"transmittance") => Some(through),
-        Some(&"haze") => Some(into),
-        _ => None,
-    };
-    if let Some(segment) = segments {
+    if let Some(&("transmittance" | "haze")) = case.needs.first() {
         all.retain(|query| query.direction != [0.0; 3]);
         let asked = all.iter().enumerate();
-        let mut queries: Vec<Value> = asked.map(|(i, query)| segment(case, query, i)).collect();
+        let mut queries: Vec<Value> = asked
+            .flat_map(|(i, query)| segment(case, query, i))
+            .collect();
         queries.extend(segment_refusals(case, &all[0]));
         return queries;
     }
@@ -202,6 +199,14 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     queries
 }
 
+/// What is asked about a segment.
+fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
+    match case.needs.contains(&"haze") {
+        true => into(case, query, i),
+        false => vec![through(case, query, i)],
+    }
+}
+
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
 fn through(case: &Case, query: &Query, i: usize) -> Value {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
@@ -211,8 +216,9 @@ fn through(case: &Case, query: &Query, i: usize) -> Value {
     with_values(asked, &expected, &absolute)
 }
 
-/// Light that is scattered towards the observer, over the same distances and, every third time, over one metre.
-fn into(case: &Case, query: &Query, i: usize) -> Value {
+/// Light that is scattered towards the observer, without and with its polarisation, over the same distances and, every third time,
+/// over one metre.
+fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
     let farthest = if case.name == "haze-negative" {
         2.0
     } else {
@@ -230,7 +236,7 @@ fn into(case: &Case, query: &Query, i: usize) -> Value {
         solar_elevation,
         ..*query
     };
-    let asked = over("in_scatter", query, distance);
+    let asked = ["in_scatter", "in_scatter_stokes"].map(|name| over(name, query, distance));
     let query = clamped(query, &ranges(&case.bytes));
     let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
     // Only the oracle makes numbers; the library says whether the chunks are there.
@@ -239,12 +245,18 @@ fn into(case: &Case, query: &Query, i: usize) -> Value {
         altitude: ranges(&case.bytes).altitude[0],
         ..Conditions::default()
     }) {
-        return with_error(asked, error.class());
+        return asked.map(|asked| with_error(asked, error.class())).into();
     }
-    let expected = Oracle::new(&case.raw).in_scatter(&query, distance, LONGEST_PIECE);
+    let light = Oracle::new(&case.raw).in_scatter(&query, distance, LONGEST_PIECE);
+    let part = |i: usize| -> Vec<f64> { light.iter().map(|light| light[i]).collect() };
     let tolerance = if distance <= 100.0 { OF_SHORT } else { OF_LONG };
-    let absolute: Vec<f64> = expected.iter().map(|l| tolerance * l).collect();
-    with_values(asked, &expected, &absolute)
+    let [l, q, u] = [0, 1, 2].map(part);
+    let absolute: Vec<f64> = l.iter().map(|l| tolerance * l).collect();
+    let [plain, stokes] = asked;
+    vec![
+        with_values(plain, &l, &absolute),
+        with_values(stokes, &[l, q, u].concat(), &absolute.repeat(3)),
+    ]
 }
 
 fn over(quantity: &str, query: &Query, distance: f64) -> Value {
@@ -253,26 +265,27 @@ fn over(quantity: &str, query: &Query, distance: f64) -> Value {
     asked
 }
 
-/// Segments that end nowhere, and conditions outside the model.
+/// Conditions outside the model.
 fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
-    let quantity = match case.needs.contains(&"haze") {
-        true => "in_scatter",
-        false => "transmittance",
-    };
-    let ask = |class: &str, change: &dyn Fn(&mut Query)| {
+    let hazy = case.needs.contains(&"haze");
+    let ask = |quantity: &str, change: &dyn Fn(&mut Query)| {
         let mut query = Query { ..*query };
         change(&mut query);
-        with_error(over(quantity, &query, 100.0), class)
+        with_error(over(quantity, &query, 100.0), "range")
     };
     let ranges = ranges(&case.bytes);
-    let mut queries = vec![ask("range", &|q| q.visibility = ranges.visibility[1] * 1.1)];
-    if quantity == "in_scatter" {
-        queries.push(ask("range", &|q| q.albedo = 1.1));
-        queries.push(ask("range", &|q| {
-            q.solar_elevation = ranges.elevation[0] - 0.01
-        }));
+    let far = |q: &mut Query| q.visibility = ranges.visibility[1] * 1.1;
+    if !hazy {
+        return vec![ask("transmittance", &far)];
     }
-    queries
+    vec![
+        ask("in_scatter", &far),
+        ask("in_scatter", &|q| q.albedo = 1.1),
+        ask("in_scatter", &|q| {
+            q.solar_elevation = ranges.elevation[0] - 0.01
+        }),
+        ask("in_scatter_stokes", &far),
+    ]
 }
 
 /// What a query means whose conditions lie outside by no more than rounding.

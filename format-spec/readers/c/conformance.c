@@ -107,6 +107,19 @@ static welkin_error answer_in_scatter(const welkin_file *file, const query *q, f
     return error;
 }
 
+static welkin_error answer_in_scatter_stokes(const welkin_file *file, const query *q, float *scratch, size_t floats)
+{
+    float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
+    welkin_haze haze;
+    welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
+    if (!error) error = welkin_in_scatter_stokes(&haze, q->conditions.altitude, q->direction, q->distance, l, s, u);
+    if (error) return error;
+    print_floats(l, file->wavelengths);
+    print_floats(s, file->wavelengths);
+    print_floats(u, file->wavelengths);
+    return WELKIN_OK;
+}
+
 static welkin_error answer_stokes(const welkin_sky *sky, const query *q)
 {
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
@@ -157,6 +170,7 @@ static welkin_error answer(const welkin_file *file, const query *q, unsigned mod
     welkin_error error;
     if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);
     if (strcmp(q->quantity, "in_scatter") == 0) return answer_in_scatter(file, q, scratch, floats);
+    if (strcmp(q->quantity, "in_scatter_stokes") == 0) return answer_in_scatter_stokes(file, q, scratch, floats);
     error = welkin_prepare(&sky, file, &q->conditions, mode | (stokes ? WELKIN_POLARISED : 0), scratch, floats);
     if (error) return error;
     return stokes ? answer_stokes(&sky, q) : answer_radiance(&sky, q);

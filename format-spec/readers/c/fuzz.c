@@ -52,7 +52,7 @@ static void ask_sky(const welkin_file *file, const welkin_conditions *conditions
 static void ask_segments(const welkin_file *file, const welkin_conditions *conditions, float *scratch, size_t floats)
 {
     static const double segments[4][4] = {{1, 0, 0.01, 9e4}, {0.1, 0.2, 0.9, 1e6}, {0.3, 0, -0.5, 3e3}, {1, 0, 0, 0}};
-    float values[WELKIN_MAX_WAVELENGTHS];
+    float values[WELKIN_MAX_WAVELENGTHS], q[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
     welkin_air air;
     welkin_haze haze;
     int i, hazy;
@@ -61,6 +61,10 @@ static void ask_segments(const welkin_file *file, const welkin_conditions *condi
     for (i = 0; i < 4; i++) {
         if (!welkin_transmittance(&air, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, 1);
         if (hazy && !welkin_in_scatter(&haze, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
+        if (hazy && !welkin_in_scatter_stokes(&haze, 100, segments[i], segments[i][3], values, q, u)) {
+            check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
+            check(u, file->wavelengths, -FLT_MAX, FLT_MAX);
+        }
     }
 }
 

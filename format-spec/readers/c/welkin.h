@@ -179,6 +179,10 @@ WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file
  * integral over some hundred points: for checks and for tables, not for each pixel. */
 WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light);
 
+/* The same light with its Stokes components Q and U in the vertical frame at the start. */
+WELKIN_API welkin_error welkin_in_scatter_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
+                                                 float *light, float *q, float *u);
+
 #ifdef __cplusplus
 }
 #endif
@@ -2081,17 +2085,59 @@ WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file
     return welkin__read_sources(haze, entries, &linear, &scratch);
 }
 
+/* Cosine and sine of the azimuth of the view less that of the sun, counter-clockwise around the vertical; 0 where there is none. */
+typedef struct welkin__azimuth {
+    double cosine, sine;
+} welkin__azimuth;
+
 /* A point of a segment, and what is where there. */
 typedef struct welkin__spot {
-    double up[3], altitude, sine, cos_theta, sin_theta, cos_phi; /* sine of the sun's elevation; the view direction around the vertical */
+    double up[3], altitude, sine, cos_theta, sin_theta; /* sine of the sun's elevation; the view direction from the vertical */
+    welkin__azimuth phi;
 } welkin__spot;
 
+/* A line of sight from its start: a unit vector, and the components of the sun's direction along e1 and e2 of the vertical frame. */
+typedef struct welkin__sight {
+    double v[3], p1, p2;
+} welkin__sight;
+
 static double welkin__dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* What is left of a vector across a unit vector. */
+static double welkin__across(const double *vector, const double *up, double *across)
+{
+    double along = welkin__dot(vector, up);
+    int i;
+    for (i = 0; i < 3; i++) across[i] = vector[i] - along * up[i];
+    return sqrt(welkin__dot(across, across));
+}
+
+static welkin__azimuth welkin__azimuth_between(const double *view, const double *sun, const double *up)
+{
+    welkin__azimuth phi = {1, 0};
+    double v[3], s[3], lengths = welkin__across(view, up, v);
+    lengths *= welkin__across(sun, up, s);
+    if (lengths > 1e-12) {
+        double turn = up[0] * (s[1] * v[2] - s[2] * v[1]) + up[1] * (s[2] * v[0] - s[0] * v[2]) + up[2] * (s[0] * v[1] - s[1] * v[0]);
+        phi.cosine = fmin(fmax(welkin__dot(v, s) / lengths, -1), 1);
+        phi.sine = fmin(fmax(turn / lengths, -1), 1);
+    }
+    return phi;
+}
+
+static void welkin__find_sun(welkin__sight *sight, const double *sun)
+{
+    static const double up[3] = {0, 0, 1};
+    welkin__azimuth phi = welkin__azimuth_between(sight->v, sun, up);
+    double view = sqrt(sight->v[0] * sight->v[0] + sight->v[1] * sight->v[1]), level = sqrt(sun[0] * sun[0] + sun[1] * sun[1]);
+    sight->p1 = view * sun[2] - sight->v[2] * level * phi.cosine;
+    sight->p2 = level * phi.sine;
+}
 
 static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, const double v[3], double s)
 {
     welkin__spot spot;
-    double radius = haze->air.file->planet_radius, distance, both, across = 0;
+    double radius = haze->air.file->planet_radius, distance;
     int i;
     for (i = 0; i < 3; i++) spot.up[i] = s * v[i];
     spot.up[2] += radius + altitude;
@@ -2101,9 +2147,7 @@ static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, co
     spot.sine = fmin(fmax(welkin__dot(spot.up, haze->sun), -1), 1);
     spot.cos_theta = fmin(fmax(welkin__dot(spot.up, v), -1), 1);
     spot.sin_theta = sqrt(1 - spot.cos_theta * spot.cos_theta);
-    for (i = 0; i < 3; i++) across += (v[i] - spot.cos_theta * spot.up[i]) * (haze->sun[i] - spot.sine * spot.up[i]);
-    both = spot.sin_theta * sqrt(1 - spot.sine * spot.sine);
-    spot.cos_phi = both > 1e-12 ? fmin(fmax(across / both, -1), 1) : 1;
+    spot.phi = welkin__azimuth_between(v, haze->sun, spot.up);
     return spot;
 }
 
@@ -2175,12 +2219,12 @@ static welkin__stencil welkin__at_nodes(const unsigned char *axis, uint32_t n, d
 /* N_lm P_lm(cos theta) cos(m phi) in the order of the file. */
 static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot, double *values)
 {
-    double diagonal = sqrt(0.25 / WELKIN__PI), azimuthal = 1, before_azimuthal = spot->cos_phi, x = spot->cos_theta;
+    double diagonal = sqrt(0.25 / WELKIN__PI), azimuthal = 1, before_azimuthal = spot->phi.cosine, x = spot->cos_theta;
     uint32_t m, l;
     for (m = 0; m <= haze->orders; m++) {
         double value, before = 0, last = 0;
         if (m > 0) {
-            double next = 2 * spot->cos_phi * azimuthal - before_azimuthal;
+            double next = 2 * spot->phi.cosine * azimuthal - before_azimuthal;
             before_azimuthal = azimuthal;
             azimuthal = next;
             diagonal *= sqrt((2.0 * m + 1) / (2.0 * m)) * spot->sin_theta;
@@ -2197,24 +2241,43 @@ static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot,
     }
 }
 
-/* How the components of the moments look to molecules and to particles. */
+/* How light arrives at a line of sight: from molecules, from particles, and Q and U from molecules. */
+enum { WELKIN__MOLECULES, WELKIN__PARTICLES, WELKIN__Q, WELKIN__U, WELKIN__LOOKS };
+
+/* Factors of the tensor's components xx, yy, zz, xz. */
+static void welkin__tensor_looks(const welkin__spot *spot, double (*looks)[4])
+{
+    double c = spot->cos_theta, s = spot->sin_theta, cp = spot->phi.cosine, sp = spot->phi.sine;
+    looks[WELKIN__MOLECULES][0] = c * c * cp * cp + sp * sp;
+    looks[WELKIN__MOLECULES][1] = c * c * sp * sp + cp * cp;
+    looks[WELKIN__Q][0] = c * c * cp * cp - sp * sp;
+    looks[WELKIN__Q][1] = c * c * sp * sp - cp * cp;
+    looks[WELKIN__MOLECULES][2] = looks[WELKIN__Q][2] = s * s;
+    looks[WELKIN__MOLECULES][3] = looks[WELKIN__Q][3] = -2 * s * c * cp;
+    looks[WELKIN__U][0] = -2 * c * sp * cp;
+    looks[WELKIN__U][1] = 2 * c * sp * cp;
+    looks[WELKIN__U][2] = 0;
+    looks[WELKIN__U][3] = 2 * s * sp;
+    memset(looks[WELKIN__PARTICLES], 0, sizeof looks[WELKIN__PARTICLES]);
+}
+
+/* How the components of the moments look. */
 static void welkin__see(const welkin_haze *haze, const welkin__spot *spot, double (*seen)[WELKIN__MAX_MOMENTS])
 {
-    double tensor[4], harmonics[WELKIN__MAX_HARMONICS], c2 = spot->cos_theta * spot->cos_theta, f2 = spot->cos_phi * spot->cos_phi;
-    uint32_t b, i, rm = haze->rank[2], nh = welkin__harmonic_count(haze->degree, haze->orders);
-    tensor[0] = c2 * f2 + 1 - f2;
-    tensor[1] = c2 * (1 - f2) + f2;
-    tensor[2] = 1 - c2;
-    tensor[3] = -2 * spot->sin_theta * spot->cos_theta * spot->cos_phi;
+    double tensor[WELKIN__LOOKS][4], harmonics[WELKIN__MAX_HARMONICS];
+    uint32_t b, i, k, rm = haze->rank[2], nh = welkin__harmonic_count(haze->degree, haze->orders);
+    const unsigned char *factor = haze->factor[2];
+    welkin__tensor_looks(spot, tensor);
     welkin__harmonics(haze, spot, harmonics);
     for (b = 0; b < rm; b++) {
-        seen[0][b] = seen[1][b] = 0;
-        for (i = 0; i < 4; i++) seen[0][b] += tensor[i] * (double)welkin__f32(haze->factor[2] + 4 * ((size_t)i * rm + b));
-        for (i = 0; i < nh; i++) seen[1][b] += harmonics[i] * (double)welkin__f32(haze->factor[2] + 4 * ((size_t)(4 + i) * rm + b));
+        for (k = 0; k < WELKIN__LOOKS; k++)
+            for (seen[k][b] = 0, i = 0; i < 4; i++) seen[k][b] += tensor[k][i] * (double)welkin__f32(factor + 4 * ((size_t)i * rm + b));
+        for (i = 0; i < nh; i++)
+            seen[WELKIN__PARTICLES][b] += harmonics[i] * (double)welkin__f32(factor + 4 * ((size_t)(4 + i) * rm + b));
     }
 }
 
-/* The core of a visibility at an altitude and sun, seen by molecules and by particles: [2][channel components]. */
+/* The core of a visibility at an altitude and sun, seen in every way: [look][channel components]. */
 static void welkin__contract(const welkin_haze *haze, uint32_t visibility, const double *a, const double *s,
                              double (*seen)[WELKIN__MAX_MOMENTS], double (*out)[WELKIN__MAX_COMPONENTS])
 {
@@ -2227,7 +2290,7 @@ static void welkin__contract(const welkin_haze *haze, uint32_t visibility, const
             float weight = welkin__narrow(a[i] * s[j]);
             for (c = 0; c < width; c++) sum[c] += weight * core[c];
         }
-    for (i = 0; i < 2; i++)
+    for (i = 0; i < WELKIN__LOOKS; i++)
         for (c = 0; c < rc; c++)
             for (out[i][c] = 0, b = 0; b < haze->rank[2]; b++) out[i][c] += seen[i][b] * (double)sum[b * rc + c];
 }
@@ -2241,18 +2304,20 @@ static double welkin__level_at(const welkin_haze *haze, uint32_t visibility, con
     return sum;
 }
 
-/* S_R and S_A at every wavelength. */
+/* S_R, S_A, Q_R and U_R at every wavelength. */
 static void welkin__sources(const welkin_haze *haze, const welkin__spot *spot, double (*out)[WELKIN_MAX_WAVELENGTHS])
 {
     welkin__stencil altitude = welkin__at_nodes(haze->altitude, haze->altitudes, spot->altitude, WELKIN__CUBE_ROOT);
     welkin__stencil sun = welkin__at_nodes(haze->sine, haze->suns, spot->sine, WELKIN__SINE);
-    double a[WELKIN__MAX_COMPONENTS], s[WELKIN__MAX_COMPONENTS], seen[2][WELKIN__MAX_MOMENTS], part[2][WELKIN__MAX_COMPONENTS];
+    double a[WELKIN__MAX_COMPONENTS], s[WELKIN__MAX_COMPONENTS], seen[WELKIN__LOOKS][WELKIN__MAX_MOMENTS],
+        part[WELKIN__LOOKS][WELKIN__MAX_COMPONENTS];
     double logarithm[WELKIN_MAX_WAVELENGTHS] = {0};
     uint32_t m, w, i, c, f, rc = haze->rank[3], nw = haze->air.file->wavelengths;
     welkin__mix(haze->factor[0], haze->rank[0], &altitude, a);
     welkin__mix(haze->factor[1], haze->rank[1], &sun, s);
     welkin__see(haze, spot, seen);
-    for (w = 0; w < nw; w++) out[0][w] = out[1][w] = 0;
+    for (i = 0; i < WELKIN__LOOKS; i++)
+        for (w = 0; w < nw; w++) out[i][w] = 0;
     for (m = 0; m < haze->visibilities; m++) {
         welkin__contract(haze, m, a, s, seen, part);
         for (w = 0; w < nw; w++) {
@@ -2260,15 +2325,15 @@ static void welkin__sources(const welkin_haze *haze, const welkin__spot *spot, d
             double share[2] = {1, 0};
             share[1] = (double)haze->bounce[w] * exp(ground - air);
             logarithm[w] += haze->weight[m] * air;
-            for (i = 0; i < 2; i++)
+            for (i = 0; i < WELKIN__LOOKS; i++)
                 for (f = 0; f < 2; f++)
                     for (c = 0; c < rc; c++)
                         out[i][w] += haze->weight[m] * share[f] * part[i][c] *
                                      (double)welkin__f32(haze->factor[3] + 4 * (((size_t)f * nw + w) * rc + c));
         }
     }
-    for (w = 0; w < nw; w++)
-        for (i = 0; i < 2; i++) out[i][w] = exp(logarithm[w]) * (out[i][w] < 0 ? 0 : out[i][w]);
+    for (i = 0; i < WELKIN__LOOKS; i++)
+        for (w = 0; w < nw; w++) out[i][w] = exp(logarithm[w]) * (i < WELKIN__Q && out[i][w] < 0 ? 0 : out[i][w]);
 }
 
 /* Times 4 pi. */
@@ -2285,22 +2350,29 @@ static double welkin__phase_value(uint32_t phase, double p, const double v[3], c
     return (1 - size) * (1 + size) / (x * sqrt(x));
 }
 
-/* Light per metre that the air of a point sends along the segment. */
-static void welkin__emission(const welkin_haze *haze, const welkin__spot *spot, const double v[3], double *light)
+/* L, Q and U per metre of what the air of a point sends along the segment. */
+static void welkin__emission(const welkin_haze *haze, const welkin__spot *spot, const welkin__sight *sight,
+                             double (*light)[WELKIN_MAX_WAVELENGTHS])
 {
-    double profile[WELKIN_MAX_CONSTITUENTS], sunlight[WELKIN_MAX_WAVELENGTHS], source[2][WELKIN_MAX_WAVELENGTHS];
+    double profile[WELKIN_MAX_CONSTITUENTS], sunlight[WELKIN_MAX_WAVELENGTHS], source[WELKIN__LOOKS][WELKIN_MAX_WAVELENGTHS];
     size_t nw = haze->air.file->wavelengths, nk = haze->air.file->constituents, w, k;
     uint32_t p;
     welkin__profiles(&haze->air, spot->altitude, profile);
     welkin__sunlight(haze, spot, sunlight);
     welkin__sources(haze, spot, source);
-    for (w = 0; w < nw; w++) light[w] = 0;
+    for (k = 0; k < 3; k++)
+        for (w = 0; w < nw; w++) light[k][w] = 0;
     for (p = 0; p < haze->species; p++)
         for (w = 0; w < nw; w++) {
-            double once = welkin__phase_value(haze->phase[p], (double)haze->parameter[p * nw + w], v, haze->sun) * sunlight[w];
-            double scattering = 0;
+            double parameter = (double)haze->parameter[p * nw + w], once = sunlight[w] / (4 * WELKIN__PI), scattering = 0, dipole;
+            int molecules = haze->phase[p] == 1;
             for (k = 0; k < nk; k++) scattering += (double)haze->scattering[(p * nk + k) * nw + w] * profile[k];
-            light[w] += scattering * (once / (4 * WELKIN__PI) + source[haze->phase[p] == 1 ? 0 : 1][w]);
+            light[0][w] += scattering * (once * welkin__phase_value(haze->phase[p], parameter, sight->v, haze->sun) +
+                                         source[molecules ? WELKIN__MOLECULES : WELKIN__PARTICLES][w]);
+            if (!molecules) continue;
+            dipole = once * 0.75 * (1 - parameter) / (1 + parameter / 2);
+            light[1][w] += scattering * (dipole * (sight->p2 * sight->p2 - sight->p1 * sight->p1) + source[WELKIN__Q][w]);
+            light[2][w] += scattering * (-2 * dipole * sight->p1 * sight->p2 + source[WELKIN__U][w]);
         }
 }
 
@@ -2329,48 +2401,73 @@ static uint32_t welkin__intervals(double start, double end, double *ends)
 }
 
 /* The segment from an altitude along a unit vector; Gauss-Legendre rule of three points in each interval. */
-static void welkin__gather(const welkin_haze *haze, double altitude, const double v[3], const welkin__line *segment, double *sum)
+static void welkin__gather(const welkin_haze *haze, double altitude, const welkin__sight *sight, const welkin__line *segment,
+                           double (*sum)[WELKIN_MAX_WAVELENGTHS])
 {
     static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     const welkin_file *f = haze->air.file;
     double top = f->top_altitude + f->top_altitude * f->top_altitude / (2 * f->planet_radius), reach = welkin__crossing(segment, top);
-    double ends[64], columns[WELKIN_MAX_CONSTITUENTS] = {0}, light[WELKIN_MAX_WAVELENGTHS], through[WELKIN_MAX_WAVELENGTHS];
+    double ends[64], columns[WELKIN_MAX_CONSTITUENTS] = {0}, light[3][WELKIN_MAX_WAVELENGTHS], through[WELKIN_MAX_WAVELENGTHS];
     double start = fmax(segment->start, -reach), end = fmin(segment->end, reach);
     welkin__line piece = *segment;
-    uint32_t i, j, w, n;
+    uint32_t i, j, k, w, n;
     piece.end = start;
     n = end > start ? welkin__intervals(start, end, ends) : 0;
     for (i = 1; i < n; i++)
         for (j = 0; j < 3 && ends[i] > ends[i - 1]; j++) {
             double half = (ends[i] - ends[i - 1]) / 2, s = ends[i - 1] + half * (1 + node[j]);
-            welkin__spot spot = welkin__spot_at(haze, altitude, v, s - segment->start);
+            welkin__spot spot = welkin__spot_at(haze, altitude, sight->v, s - segment->start);
             piece.start = piece.end;
             piece.end = s;
             welkin__integrate(&haze->air, &piece, columns);
             welkin__attenuate(haze, columns, through);
-            welkin__emission(haze, &spot, v, light);
-            for (w = 0; w < f->wavelengths; w++) sum[w] += 2 * half * weight[j] * through[w] * light[w];
+            welkin__emission(haze, &spot, sight, light);
+            for (k = 0; k < 3; k++)
+                for (w = 0; w < f->wavelengths; w++) sum[k][w] += 2 * half * weight[j] * through[w] * light[k][w];
         }
+}
+
+/* Sums of L, Q and U along a segment. */
+static welkin_error welkin__scattered(const welkin_haze *haze, double altitude, const double direction[3], double distance,
+                                      double (*sum)[WELKIN_MAX_WAVELENGTHS])
+{
+    double radius = haze->air.file->planet_radius;
+    welkin__line line;
+    welkin__sight sight;
+    int good = 1;
+    uint32_t w;
+    welkin_error error = welkin__segment(altitude, direction, distance, sight.v);
+    if (error) return error;
+    welkin__find_sun(&sight, haze->sun);
+    line.radius = radius;
+    line.start = (radius + altitude) * sight.v[2];
+    line.end = line.start + distance;
+    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
+    welkin__gather(haze, altitude, &sight, &line, sum);
+    for (w = 0; w < haze->air.file->wavelengths; w++) good &= sum[0][w] >= 0 && sum[0][w] <= (double)FLT_MAX;
+    return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
 WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light)
 {
-    double v[3], sum[WELKIN_MAX_WAVELENGTHS] = {0}, radius = haze->air.file->planet_radius;
-    welkin__line line;
-    int good = 1;
+    double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
-    welkin_error error = welkin__segment(altitude, direction, distance, v);
-    if (error) return error;
-    line.radius = radius;
-    line.start = (radius + altitude) * v[2];
-    line.end = line.start + distance;
-    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
-    welkin__gather(haze, altitude, v, &line, sum);
-    for (w = 0; w < haze->air.file->wavelengths; w++) {
-        light[w] = welkin__narrow(sum[w]);
-        good &= sum[w] >= 0 && sum[w] <= (double)FLT_MAX;
+    welkin_error error = welkin__scattered(haze, altitude, direction, distance, sum);
+    for (w = 0; w < haze->air.file->wavelengths && !error; w++) light[w] = welkin__narrow(sum[0][w]);
+    return error;
+}
+
+WELKIN_API welkin_error welkin_in_scatter_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
+                                                 float *light, float *q, float *u)
+{
+    double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
+    uint32_t w;
+    welkin_error error = welkin__scattered(haze, altitude, direction, distance, sum);
+    for (w = 0; w < haze->air.file->wavelengths && !error; w++) {
+        light[w] = welkin__narrow(sum[0][w]);
+        error = welkin__limit_polarisation(light[w], sum[1][w], sum[2][w], &q[w], &u[w]);
     }
-    return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
+    return error;
 }
 
 #endif /* WELKIN_IMPLEMENTATION */

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Oracle, Query, dot, hermite, phase, piecewise};
+use super::{Oracle, Query, cross, dot, hermite, phase, piecewise, vertical_frame};
 
 const SOLAR_RADIUS: f64 = 0.004_654_793;
 /// Nodes and weights of a Gauss-Legendre rule on −1..1, exact for the fifth degree.
@@ -13,11 +13,15 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 type Vector = [f64; 3];
+/// L, Q and U in the vertical frame.
+type Light = [f64; 3];
 
 /// What holds everywhere on a segment.
 struct Scene {
     sun: Vector,
     view: Vector,
+    /// Axes of the vertical frame.
+    frame: [Vector; 2],
     /// Extinction, `[constituent][wavelength]`.
     extinction: Vec<f64>,
     /// `B(λ)`.
@@ -47,13 +51,13 @@ struct Source {
 impl Oracle<'_> {
     /// In-scattered light at every wavelength, towards the observer over a distance; the integral is cut into pieces that
     /// are not longer than `step`, m.
-    pub fn in_scatter(&self, q: &Query, distance: f64, step: f64) -> Vec<f64> {
+    pub fn in_scatter(&self, q: &Query, distance: f64, step: f64) -> Vec<Light> {
         let scene = self.scene(q);
         let start = [0.0, 0.0, self.radius() + q.altitude];
         let mut cuts = self.crossings(start, scene.view, distance);
         cuts.push((-dot(start, scene.view)).clamp(0.0, distance));
         cuts.sort_by(f64::total_cmp);
-        let mut sum = vec![0.0; self.n.w];
+        let mut sum = vec![[0.0; 3]; self.n.w];
         for pair in cuts.windows(2) {
             let pieces = ((pair[1] - pair[0]) / step).ceil().max(8.0) as usize;
             let length = (pair[1] - pair[0]) / pieces as f64;
@@ -61,11 +65,16 @@ impl Oracle<'_> {
                 for (node, weight) in GAUSS {
                     let s = pair[0] + length * (i as f64 + 0.5 + 0.5 * node);
                     let light = self.scattered_at(&scene, start, s);
-                    for (sum, light) in sum.iter_mut().zip(light) {
+                    for (sum, light) in sum.as_flattened_mut().iter_mut().zip(light.as_flattened())
+                    {
                         *sum += 0.5 * length * weight * light;
                     }
                 }
             }
+        }
+        for [l, q, u] in &mut sum {
+            let share = (*l / q.hypot(*u)).min(1.0);
+            (*q, *u) = (share * *q, share * *u);
         }
         sum
     }
@@ -92,13 +101,15 @@ impl Oracle<'_> {
         });
         let (sine, cosine) = q.solar_elevation.sin_cos();
         let length = dot(q.direction, q.direction).sqrt();
+        let view = q.direction.map(|v| v / length);
         Scene {
             sun: [
                 cosine * q.solar_azimuth.cos(),
                 cosine * q.solar_azimuth.sin(),
                 sine,
             ],
-            view: q.direction.map(|v| v / length),
+            view,
+            frame: vertical_frame(view, q.solar_azimuth),
             extinction: (0..n.k * n.w)
                 .map(|i| head(self.at.extinction, n.k * n.w, i))
                 .collect(),
@@ -189,7 +200,7 @@ impl Oracle<'_> {
     }
 
     /// The integrand at a distance from the start.
-    fn scattered_at(&self, scene: &Scene, start: Vector, s: f64) -> Vec<f64> {
+    fn scattered_at(&self, scene: &Scene, start: Vector, s: f64) -> Vec<Light> {
         let point = along(start, scene.view, s);
         let distance = dot(point, point).sqrt();
         let altitude = distance - self.radius();
@@ -199,23 +210,35 @@ impl Oracle<'_> {
             .collect();
         let depth = self.depth(scene, start, scene.view, s);
         let sunlight = self.sunlight(scene, point);
-        let [molecules, particles] = self.sources(scene, point);
+        let sources = self.sources(scene, point);
         let cosine = dot(scene.view, scene.sun);
+        // Light that was scattered once is polarised along the normal of the scattering plane.
+        let [n1, n2] = scene.frame.map(|e| dot(cross(scene.view, scene.sun), e));
         (0..self.n.w)
             .map(|w| {
-                let mut light = 0.0;
+                let [molecules, q, u, particles] = sources[w];
+                let mut light = [0.0; 3];
                 for species in &scene.species {
                     let coefficient: f64 = (0..self.n.k)
                         .map(|k| species.scattering[k * self.n.w + w] * air[k])
                         .sum();
-                    let once = phase(species.code, species.parameter[w], cosine) * sunlight[w];
-                    let source = match species.code {
-                        1 => molecules[w],
-                        _ => particles[w],
+                    let parameter = species.parameter[w];
+                    let once = sunlight[w] / (4.0 * PI);
+                    let dipole = once * 0.75 * (1.0 - parameter) / (1.0 + parameter / 2.0);
+                    let scattered = match species.code {
+                        1 => [
+                            molecules,
+                            q + dipole * (n1 * n1 - n2 * n2),
+                            u + dipole * 2.0 * n1 * n2,
+                        ],
+                        _ => [particles, 0.0, 0.0],
                     };
-                    light += coefficient * (once / (4.0 * PI) + source);
+                    light[0] += coefficient * once * phase(species.code, parameter, cosine);
+                    for (light, scattered) in light.iter_mut().zip(scattered) {
+                        *light += coefficient * scattered;
+                    }
                 }
-                (-depth[w]).exp() * light
+                light.map(|part| (-depth[w]).exp() * part)
             })
             .collect()
     }
@@ -245,12 +268,16 @@ impl Oracle<'_> {
         depth.iter().map(|d| area / PI * (-d).exp()).collect()
     }
 
-    /// S_R and S_A at every wavelength.
-    fn sources(&self, scene: &Scene, point: Vector) -> [Vec<f64>; 2] {
+    /// S_R, Q_R, U_R and S_A at every wavelength.
+    fn sources(&self, scene: &Scene, point: Vector) -> Vec<[f64; 4]> {
         let source = &scene.source;
         let distance = dot(point, point).sqrt();
         let up = point.map(|v| v / distance);
         let (lift, sine) = (dot(up, scene.view), dot(up, scene.sun));
+        let at = |nodes: &[f64], x: f64| hermite(nodes, x.clamp(nodes[0], nodes[nodes.len() - 1]));
+        let altitude = (distance - self.radius()).max(0.0);
+        let a = at(&source.altitudes, altitude.cbrt());
+        let s = at(&source.suns, (12.5 * sine).asinh());
         let level = |v: Vector, l: f64| -> Vector { std::array::from_fn(|i| v[i] - l * up[i]) };
         let (view, sun) = (level(scene.view, lift), level(scene.sun, sine));
         let both = (dot(view, view) * dot(sun, sun)).sqrt();
@@ -258,22 +285,23 @@ impl Oracle<'_> {
             true => (dot(view, sun) / both).clamp(-1.0, 1.0).acos(),
             false => 0.0,
         };
-        let theta = lift.clamp(-1.0, 1.0).acos();
-        let at = |nodes: &[f64], x: f64| hermite(nodes, x.clamp(nodes[0], nodes[nodes.len() - 1]));
-        let altitude = (distance - self.radius()).max(0.0);
-        let a = at(&source.altitudes, altitude.cbrt());
-        let s = at(&source.suns, (12.5 * sine).asinh());
-        let moments = self.moments(source, theta, phi);
-        [0, 1].map(|class| {
-            (0..self.n.w)
-                .map(|w| {
-                    let terms = (0..source.ranks[2]).map(|b| {
-                        moments[b][class] * self.brightness(source, [&a, &s], b, w, scene.ground[w])
-                    });
-                    terms.sum::<f64>().max(0.0)
-                })
-                .collect()
-        })
+        let x = sun.map(|v| v / dot(sun, sun).sqrt().max(f64::MIN_POSITIVE));
+        let axes = [x, cross(up, x), up];
+        let frame = scene.frame.map(|e| axes.map(|axis| dot(e, axis)));
+        let moments = self.moments(source, lift.clamp(-1.0, 1.0).acos(), phi, frame);
+        (0..self.n.w)
+            .map(|w| {
+                let mut sum = [0.0; 4];
+                for (b, moments) in moments.iter().enumerate() {
+                    let brightness = self.brightness(source, [&a, &s], b, w, scene.ground[w]);
+                    for (sum, moment) in sum.iter_mut().zip(moments) {
+                        *sum += moment * brightness;
+                    }
+                }
+                let [molecules, q, u, particles] = sum;
+                [molecules.max(0.0), q, u, particles.max(0.0)]
+            })
+            .collect()
     }
 
     /// G_b.
@@ -342,30 +370,33 @@ impl Oracle<'_> {
         sum * self.f32(at, 6)
     }
 
-    /// What a component of the moments looks like to molecules and to particles.
-    fn moments(&self, source: &Source, theta: f64, phi: f64) -> Vec<[f64; 2]> {
+    /// What a component of the moments looks like through polarisers along the axes `e1` and `e2`, in the local frame: to
+    /// molecules in L, Q and U, and to particles.
+    fn moments(
+        &self,
+        source: &Source,
+        theta: f64,
+        phi: f64,
+        [e1, e2]: [Vector; 2],
+    ) -> Vec<[f64; 4]> {
         let rank = source.ranks[2];
-        let (st, ct) = theta.sin_cos();
-        let (sp, cp) = phi.sin_cos();
-        let tensor = [
-            (ct * cp).powi(2) + sp * sp,
-            (ct * sp).powi(2) + cp * cp,
-            st * st,
-            -2.0 * st * ct * cp,
-        ];
+        let factor = |row: usize, b: usize| -> f64 { self.f32(source.factor[2], row * rank + b) };
         let mut harmonics = Vec::new();
         for m in 0..=source.orders {
             for l in m..=source.degree {
-                harmonics.push(harmonic(l, m, ct) * (m as f64 * phi).cos());
+                harmonics.push(harmonic(l, m, theta.cos()) * (m as f64 * phi).cos());
             }
         }
-        let column = |first: usize, values: &[f64], b: usize| -> f64 {
-            let rows = values.iter().enumerate();
-            rows.map(|(i, v)| v * self.f32(source.factor[2], (first + i) * rank + b))
-                .sum()
-        };
         (0..rank)
-            .map(|b| [column(0, &tensor, b), column(4, &harmonics, b)])
+            .map(|b| {
+                let [xx, yy, zz, xz] = [0, 1, 2, 3].map(|row| factor(row, b));
+                let tensor = |v: Vector| [xx * v[0] + xz * v[2], yy * v[1], xz * v[0] + zz * v[2]];
+                let (along, across) = (dot(e1, tensor(e1)), dot(e2, tensor(e2)));
+                let rows = harmonics.iter().enumerate();
+                let particles = rows.map(|(i, v)| v * factor(4 + i, b)).sum();
+                let mixed = 2.0 * dot(e1, tensor(e2));
+                [along + across, along - across, mixed, particles]
+            })
             .collect()
     }
 }

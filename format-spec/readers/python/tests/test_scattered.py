@@ -114,6 +114,24 @@ class Scattered(unittest.TestCase):
         expected = 1e-9 * (sunlight / (4.0 * np.pi) + SOURCE_LEVEL)
         np.testing.assert_allclose(light, expected, rtol=1e-3)
 
+    def test_polarisation(self):
+        """A short segment of molecules: Q and U of sunlight; the source is the same from everywhere."""
+        model = welkin.from_bytes(haze_file(1, 1e-4, 1e-9))
+        place = {"altitude": 0.0, "visibility": 5e4}
+        scene = {"solar_elevation": 0.5, "albedo": 0.0, "solar_azimuth": 0.3, **place}
+        sun = [np.cos(0.5) * np.cos(0.3), np.cos(0.5) * np.sin(0.3), np.sin(0.5)]
+        sunlight = model.transmittance(sun, np.inf, **place)
+        # Along the level +x the axes are up and −y: at the zenith up is away from the sun, right is right of it.
+        level, zenith = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]
+        right = {"level": (sun[2], -sun[1]), "zenith": (-np.cos(0.5), 0.0)}
+        for name, view in (("level", level), ("zenith", zenith)):
+            p1, p2 = right[name]
+            light, q, u = model.scattered_stokes(view, 1.0, **scene)
+            dipole = 1e-9 * 0.75 * sunlight / (4.0 * np.pi)
+            np.testing.assert_allclose(q, dipole * (p2**2 - p1**2), rtol=1e-3)
+            np.testing.assert_allclose(u, -2.0 * dipole * p1 * p2, rtol=1e-3, atol=1e-18)
+            np.testing.assert_array_equal(light, model.scattered(view, 1.0, **scene))
+
     def test_conditions(self):
         model = welkin.from_bytes(haze_file(2, 1e-4, 1e-4))
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "altitude": 0.0, "visibility": 5e4}

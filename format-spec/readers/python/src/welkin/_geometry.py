@@ -41,6 +41,13 @@ def elevation_of(units):
     return np.arctan2(units[:, 2], np.hypot(units[:, 0], units[:, 1]))
 
 
+def sun_across(elevation, solar_elevation, phi):
+    """Components of the sun's direction along e1 and e2 of the vertical frame of views (7.5)."""
+    p1 = np.cos(elevation) * np.sin(solar_elevation)
+    p1 = p1 - np.sin(elevation) * np.cos(solar_elevation) * np.cos(phi)
+    return p1, np.cos(solar_elevation) * np.sin(phi)
+
+
 def horizon_dip(planet_radius, altitude):
     """Angle of the geometric horizon below the horizontal, rad."""
     return np.arctan(np.sqrt(altitude * (2.0 * planet_radius + altitude)) / planet_radius)

@@ -7,9 +7,9 @@ import numpy as np
 from . import _head
 from ._air import altitude_on_line, path_integrals, profile_at
 from ._axes import linear_weights, node_weights
-from ._geometry import horizon_dip, sun_vector
+from ._geometry import elevation_of, horizon_dip, sun_across, sun_vector
 from ._head import PHASE_RAYLEIGH, check_phase, require, require_increasing, require_within
-from ._phase import Angle, phase_function
+from ._phase import Angle, phase_function, rayleigh_share
 
 SOLAR_RADIUS = 0.004654793
 TENSOR = 4
@@ -96,10 +96,9 @@ def _harmonics(degree, orders):
     return [(l, m) for m in range(orders + 1) for l in range(m, degree + 1)]
 
 
-def _harmonic_values(degree, orders, cos_theta, cos_phi):
+def _harmonic_values(degree, orders, cos_theta, phi):
     """N_lm P_lm(cos θ) cos mφ: (P, nh)."""
     sin_theta = np.sqrt(np.maximum(0.0, 1.0 - cos_theta**2))
-    phi = np.arccos(np.clip(cos_phi, -1.0, 1.0))
     diagonal = np.full_like(cos_theta, np.sqrt(0.25 / np.pi))
     columns = []
     for m in range(orders + 1):
@@ -167,12 +166,13 @@ class Haze:
         return max(1, (1 << 20) // (64 * widest))
 
     def scattered(self, units, distance):
-        """Light (N, nw), sr⁻¹, of segments along units (N, 3), of lengths (N,) in m."""
+        """L, Q, U (N, 3, nw), sr⁻¹, of segments along units (N, 3), of lengths (N,) in m."""
         along, weights = self._quadrature(units, distance)
         n, q = along.shape
         points = _Points(self, np.repeat(units, q, axis=0), along.ravel())
-        light = self._transmittance_from_observer(units, along) * self._emission(points)
-        return np.sum(weights[:, :, None] * light.reshape(n, q, -1), axis=1)
+        through = self._transmittance_from_observer(units, along)
+        light = through[:, None, :] * self._emission(points)
+        return np.sum(weights[:, :, None, None] * light.reshape(n, q, 3, -1), axis=1)
 
     def _quadrature(self, units, distance):
         """Distances (N, Q) of points from the observer, and their weights in m.
@@ -206,20 +206,23 @@ class Haze:
         return np.exp(-(columns @ self._extinction))
 
     def _emission(self, points):
-        """Light per metre (P, nw) that the air at points sends towards the observer."""
+        """L, Q, U per metre (P, 3, nw) of what the air at points sends towards the observer."""
         air = profile_at(self._profiles, self._head.planet_radius, points.altitude)
         sunlight = self._sunlight(points) / (4.0 * np.pi)
-        direct, molecules, particles = 0.0, 0.0, 0.0
+        p1, p2 = points.sun_across
+        molecules, q, u, particles = self._sources(points)
+        light, polarised = 0.0, [0.0, 0.0]
         for p, code in enumerate(self._phase):
             coefficient = air @ self._scattering[p]
-            phase = phase_function(code, self._parameter[p], points.angle)
-            direct = direct + coefficient * phase * sunlight
+            once = phase_function(code, self._parameter[p], points.angle) * sunlight
             if code == PHASE_RAYLEIGH:
-                molecules = molecules + coefficient
+                light = light + coefficient * (once + molecules)
+                dipole = 0.75 * rayleigh_share(self._parameter[p]) * sunlight
+                polarised[0] = polarised[0] + coefficient * (dipole * (p2**2 - p1**2) + q)
+                polarised[1] = polarised[1] + coefficient * (-2.0 * dipole * p1 * p2 + u)
             else:
-                particles = particles + coefficient
-        source_r, source_a = self._sources(points)
-        return direct + molecules * source_r + particles * source_a
+                light = light + coefficient * (once + particles)
+        return np.stack(np.broadcast_arrays(light, *polarised), axis=1)
 
     def _sunlight(self, points):
         """D: share of the sun's disc above the horizon times transmittance to space: (P, nw)."""
@@ -234,7 +237,7 @@ class Haze:
         return np.where(visible, area / np.pi, 0.0)[:, None] * space
 
     def _sources(self, points):
-        """S_R and S_A of molecules and particles: (P, nw) each."""
+        """S_R, Q_R, U_R of molecules and S_A of particles: (P, nw) each."""
         basis = self._basis
         ra, rs, rm, rc = basis.ranks
         a = _at_nodes(np.cbrt(basis.altitude), np.cbrt(points.altitude)) @ basis.altitude_factor
@@ -242,11 +245,9 @@ class Haze:
         pairs = (a[:, :, None] * (sun_weights @ basis.sun_factor)[:, None, :]).reshape(-1, ra * rs)
         nw = self._head.counts["nw"]
         channels = basis.channel_factor[:nw], basis.channel_factor[nw:]
-        sides = (
-            points.tensor_moments @ basis.moment_factor[:TENSOR],
-            points.harmonics(basis) @ basis.moment_factor[TENSOR:],
-        )
-        sums = [0.0, 0.0]
+        sides = [moments @ basis.moment_factor[:TENSOR] for moments in points.tensor_moments]
+        sides.append(points.harmonics(basis) @ basis.moment_factor[TENSOR:])
+        sums = [0.0] * len(sides)
         for weight, source in self._mix:
             tensor = (pairs @ source.core.reshape(ra * rs, rm * rc)).reshape(-1, rm, rc)
             ground = self._bounce * np.exp(sun_weights @ (source.level[1] - source.level[0]))
@@ -255,7 +256,8 @@ class Haze:
                 light = light @ channels[0].T + ground * (light @ channels[1].T)
                 sums[side] = sums[side] + weight * light
         level = np.exp(sun_weights @ self._level)
-        return [np.maximum(0.0, level * light) for light in sums]
+        molecules, q, u, particles = (level * light for light in sums)
+        return np.maximum(0.0, molecules), q, u, np.maximum(0.0, particles)
 
 
 def _at_nodes(nodes, x):
@@ -276,26 +278,33 @@ class _Points:
         up = position / np.linalg.norm(position, axis=1, keepdims=True)
         self.sin_sun = up @ haze._sun
         self.cos_view = np.sum(up * units, axis=1)
-        self.cos_phi = _cos_azimuth(up, units, haze._sun)
+        self.phi = _azimuth(up, units, haze._sun)
+        start = _azimuth(np.array([[0.0, 0.0, 1.0]]), units, haze._sun)
+        elevation = elevation_of(units), np.arctan2(haze._sun[2], np.hypot(*haze._sun[:2]))
+        self.sun_across = [part[:, None] for part in sun_across(*elevation, start)]
 
     @property
     def tensor_moments(self):
-        """Factors of M_xx, M_yy, M_zz and M_xz: (P, 4)."""
-        cos2, cos_phi = self.cos_view**2, self.cos_phi
-        sin2, sin2_phi = 1.0 - cos2, 1.0 - cos_phi**2
-        xx = cos2 * cos_phi**2 + sin2_phi
-        yy = cos2 * sin2_phi + cos_phi**2
-        xz = -2.0 * np.sqrt(np.maximum(0.0, sin2)) * self.cos_view * cos_phi
-        return np.stack([xx, yy, sin2, xz], axis=1)
+        """Factors of M_xx, M_yy, M_zz and M_xz in S_R, Q_R and U_R: (P, 4) each."""
+        cos, cos_phi, sin_phi = self.cos_view, np.cos(self.phi), np.sin(self.phi)
+        sin = np.sqrt(np.maximum(0.0, 1.0 - cos**2))
+        xx, yy = (cos * cos_phi) ** 2, (cos * sin_phi) ** 2
+        zz, xz = sin**2, -2.0 * sin * cos * cos_phi
+        mixed = 2.0 * cos * sin_phi * cos_phi
+        return (
+            np.stack([xx + sin_phi**2, yy + cos_phi**2, zz, xz], axis=1),
+            np.stack([xx - sin_phi**2, yy - cos_phi**2, zz, xz], axis=1),
+            np.stack([-mixed, mixed, 0.0 * mixed, 2.0 * sin * sin_phi], axis=1),
+        )
 
     def harmonics(self, basis):
-        return _harmonic_values(basis.degree, basis.orders, self.cos_view, self.cos_phi)
+        return _harmonic_values(basis.degree, basis.orders, self.cos_view, self.phi)
 
 
-def _cos_azimuth(up, units, sun):
-    """Cosine (P,) of the azimuth between view and sun around `up`; 1 where there is none."""
+def _azimuth(up, units, sun):
+    """Azimuth (P,) of the view less that of the sun, counter-clockwise around `up`; 0 where there is none."""
     view = units - np.sum(up * units, axis=1, keepdims=True) * up
     light = sun - (up @ sun)[:, None] * up
     lengths = np.linalg.norm(view, axis=1) * np.linalg.norm(light, axis=1)
-    cosine = np.sum(view * light, axis=1) / np.where(lengths > 0.0, lengths, 1.0)
-    return np.where(lengths > 1e-12, np.clip(cosine, -1.0, 1.0), 1.0)
+    turn = np.sum(up * np.cross(light, view), axis=1)
+    return np.where(lengths > 1e-12, np.arctan2(turn, np.sum(view * light, axis=1)), 0.0)

@@ -16,7 +16,7 @@ from ._haze import Haze
 from ._head import read_head
 from ._spectral import Wavelengths
 from .errors import InvalidValueError, PointError, RangeError
-from .sky import Conditions, Sky
+from .sky import Conditions, Sky, bounded_stokes
 
 FARTHEST = 1e9
 """Largest coordinate of an end of a segment, m."""
@@ -132,8 +132,16 @@ class Model:
         result = np.exp(-(columns @ self._extinction_at(visibility)))
         return _finite(result).reshape(*shape, -1)
 
+    def scattered(self, directions, distance, **scene):
+        """Light that the air of straight segments scatters to an observer: (…, 3) → (…, W).
+
+        It is per unit of solar spectral irradiance, sr⁻¹. `scene` is that of `sky`, but
+        with any altitude; `distance` is as in `transmittance`. An integral over many points: slow for images.
+        """
+        return self.scattered_stokes(directions, distance, **scene)[..., 0, :]
+
     @np.errstate(all="ignore")
-    def scattered(
+    def scattered_stokes(
         self,
         directions,
         distance,
@@ -144,10 +152,9 @@ class Model:
         altitude,
         solar_azimuth=0.0,
     ):
-        """Light that the air of straight segments scatters to an observer: (…, 3) → (…, W).
+        """The same light as Stokes components L, Q, U: (…, 3) → (…, 3, W).
 
-        It is per unit of solar spectral irradiance, sr⁻¹. The conditions are those of `sky`, but
-        with any altitude; `distance` is as in `transmittance`. An integral over many points: slow for images.
+        They are those of the vertical frame at the observer, as in `Sky.stokes`.
         """
         lowest, _ = self.altitude_range
         conditions = self._conditions(solar_elevation, visibility, albedo, lowest, solar_azimuth)
@@ -157,7 +164,8 @@ class Model:
         starts = range(0, max(1, len(units)), haze.block)
         blocks = (slice(i, i + haze.block) for i in starts)
         light = np.concatenate([haze.scattered(units[b], distance[b]) for b in blocks])
-        return _finite(light).reshape(*np.shape(directions)[:-1], -1)
+        light = bounded_stokes(*np.moveaxis(_finite(light), 1, 0))
+        return _finite(light).reshape(*np.shape(directions)[:-1], 3, -1)
 
     def _conditions(self, solar_elevation, visibility, albedo, altitude, solar_azimuth):
         if not math.isfinite(solar_azimuth):

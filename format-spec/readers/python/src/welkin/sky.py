@@ -7,7 +7,8 @@ import numpy as np
 
 from . import _head
 from ._axes import free_spline, linear_weights, mirrored_spline, node_weights
-from ._geometry import Observer, azimuth_from_sun, elevation_of, sun_vector, unit_vectors
+from ._geometry import Observer, azimuth_from_sun, elevation_of, sun_across
+from ._geometry import sun_vector, unit_vectors
 from ._head import GROUND_BIT, PHASE_RAYLEIGH
 from ._phase import Angle, phase_function, rayleigh_share
 from .errors import InvalidValueError
@@ -118,7 +119,7 @@ class Sky:
             radiance = self._wavelengths.interpolate_radiance(nodes[:, 0], wavelength)
             lit = np.where(nodes[:, :1] > 0.0, nodes[:, :1], 1.0)
             q, u = np.moveaxis((nodes[:, 1:] / lit) @ weights.T, 1, 0)
-            return _bounded_stokes(radiance, q * radiance, u * radiance)
+            return bounded_stokes(radiance, q * radiance, u * radiance)
 
         return self._blockwise(directions, evaluate)
 
@@ -184,7 +185,7 @@ class Sky:
         q = dipole * (p2**2 - p1**2) + m[:, 0] + self._bounce * m[:, 2]
         side = np.sin(view.phi)[:, None]
         u = -2.0 * dipole * p1 * p2 + side * (m[:, 1] + self._bounce * m[:, 3])
-        return _bounded_stokes(radiance, lead * q, lead * u)
+        return bounded_stokes(radiance, lead * q, lead * u)
 
     def _stencils(self):
         """Weights other than zero of the nodes: altitudes and visibilities, {index: weight}."""
@@ -281,13 +282,11 @@ class _View:
     @property
     def sun_across(self):
         """Components (N, 1) of the sun's direction along e1 and e2 of the vertical frame."""
-        sun, view = self._solar_elevation, self.elevation
-        p1 = np.cos(view) * np.sin(sun) - np.sin(view) * np.cos(sun) * np.cos(self.phi)
-        p2 = np.cos(sun) * np.sin(self.phi)
+        p1, p2 = sun_across(self.elevation, self._solar_elevation, self.phi)
         return p1[:, None], p2[:, None]
 
 
-def _bounded_stokes(radiance, q, u):
+def bounded_stokes(radiance, q, u):
     """L, Q, U (N, 3, K) with Q and U scaled where they exceed L."""
     polarised = np.hypot(q, u)
     too_much = polarised > radiance
