@@ -5,7 +5,7 @@
 
 use super::frame::{Frame, prepared};
 use super::lattice::{Lattice, Nodes};
-use super::quality::{BakeError, directions};
+use super::quality::{Errors, directions};
 use super::table::{Grid, Spots, Table};
 use super::turn::{Axes, Turn};
 use crate::error::Result;
@@ -102,16 +102,16 @@ impl Degrees {
     }
 
     /// Distances of (Q/I, U/I) from those of the sky that this was made from, at directions between the nodes.
-    pub fn error<const N: usize>(
+    pub fn errors<const N: usize>(
         &self,
         sky: &PolarisedSky,
         table: &Table<N>,
         frame: &Frame,
-    ) -> Result<BakeError> {
+    ) -> Result<Errors> {
         let wavelengths = sky.sky().wavelengths().len();
         let mut truth = vec![Stokes::default(); wavelengths];
-        let mut errors = Vec::new();
-        for direction in directions(sky.sky()) {
+        let mut errors = Errors::default();
+        for (direction, part) in directions(sky.sky()) {
             sky.relative_stokes(direction, Against::Vertical, &mut truth)?;
             let vector = direction.map(|v| Lanes([v]));
             let Some(vector) = prepared(vector) else {
@@ -121,10 +121,10 @@ impl Degrees {
             let turn = Axes::Vertical.turn(frame, &vector);
             for (block, truth) in truth.chunks(LANES).enumerate() {
                 let [q, u] = turned(&self.at(&spots, 0, block), &turn, 0);
-                errors.extend(truth.iter().zip(q.0.iter().zip(&u.0)).map(distance));
+                errors.add(truth.iter().zip(q.0.iter().zip(&u.0)).map(distance), part);
             }
         }
-        Ok(BakeError::of(errors))
+        Ok(errors.sorted())
     }
 
     /// Bytes on the heap.

@@ -36,17 +36,18 @@ impl PolarisedSky {
             let sky = self.sky().bake_at_least(tolerance, least)?;
             let table = &sky.baked.table;
             let degrees = Degrees::new(self, table.grid);
-            let error = degrees.error(self, table, sky.frame())?;
-            if error.p95 <= tolerance {
+            let errors = degrees.errors(self, table, sky.frame())?;
+            let strain = errors.strain(tolerance, table.grid);
+            if strain <= 1.0 {
                 return Ok(BakedPolarisedSky {
                     sky,
                     degrees,
-                    error,
+                    error: errors.summary(),
                 });
             }
             least = quality::beyond(table.grid).ok_or(Error::Tolerance {
                 expected: tolerance,
-                got: error.p95,
+                got: strain * tolerance,
             })?;
         }
     }
