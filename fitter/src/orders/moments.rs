@@ -13,7 +13,7 @@ pub const HARMONICS: usize =
 /// Moments of one grid node.
 pub const COUNT: usize = TENSOR + HARMONICS;
 
-/// Altitudes of the grid, m.
+/// Altitudes of the grid, m: of air that thins out towards the last.
 pub const ALTITUDES: [f64; 36] = [
     0.0, 60.0, 150.0, 300.0, 500.0, 750.0, 1000.0, 1250.0, 1500.0, 1700.0, 1850.0, 2000.0, 2150.0,
     2300.0, 2500.0, 2750.0, 3250.0, 4000.0, 5000.0, 6000.0, 7500.0, 9000.0, 10_500.0, 12_000.0,
@@ -61,40 +61,52 @@ pub fn sun_taps(mu: f64) -> ([usize; 4], [f32; 4]) {
     )
 }
 
-/// Cubic stencil over [`ALTITUDES`], in the cube root of altitude.
-pub fn altitude_stencil(altitude: f64) -> Stencil {
-    let nodes = ALTITUDES.map(f64::cbrt);
-    hermite(&nodes, altitude.max(0.0).cbrt())
+/// The last of them.
+pub const HIGHEST: f64 = ALTITUDES[ALTITUDES.len() - 1];
+
+/// [`ALTITUDES`], and more where the air reaches higher: they crowd towards its edge, where light changes like a root.
+pub fn altitudes(top: f64) -> Vec<f64> {
+    let mut nodes = ALTITUDES.to_vec();
+    if top > HIGHEST {
+        let approach = (1..BEYOND).map(|k| top - (top - HIGHEST) * 0.5f64.powi(k));
+        nodes.extend(approach.chain([top]));
+    }
+    nodes
 }
+
+/// Nodes beyond [`ALTITUDES`].
+const BEYOND: i32 = 7;
 
 /// Moments at every node: `[altitude][sun][moment]`, per unit of solar irradiance.
 #[derive(Clone)]
 pub struct Moments {
+    /// Cube roots of the altitudes.
+    roots: Vec<f64>,
     values: Vec<[Spectrum; COUNT]>,
 }
 
 impl Moments {
-    /// All zero.
-    pub fn zero() -> Self {
+    /// Joins the rows of all `altitudes`.
+    pub fn from_rows(altitudes: &[f64], rows: Vec<Vec<[Spectrum; COUNT]>>) -> Self {
         Self {
-            values: vec![[[0.0; NW]; COUNT]; ALTITUDES.len() * SUNS],
-        }
-    }
-
-    /// Joins the rows of all altitudes.
-    pub fn from_rows(rows: Vec<Vec<[Spectrum; COUNT]>>) -> Self {
-        Self {
+            roots: altitudes.iter().map(|h| h.cbrt()).collect(),
             values: rows.into_iter().flatten().collect(),
         }
     }
 
-    /// From all values in a row.
+    /// From all values at [`ALTITUDES`] in a row.
     pub fn from_values(values: &[f32]) -> Self {
         let (spectra, _) = values.as_chunks::<NW>();
         let (nodes, _) = spectra.as_chunks::<COUNT>();
         Self {
+            roots: ALTITUDES.map(f64::cbrt).to_vec(),
             values: nodes.to_vec(),
         }
+    }
+
+    /// Cubic stencil over the altitudes, in their cube roots.
+    pub fn altitude_stencil(&self, altitude: f64) -> Stencil {
+        hermite(&self.roots, altitude.max(0.0).cbrt())
     }
 
     /// The moments of altitude `i` and sun `j`.
@@ -196,6 +208,15 @@ mod tests {
             let next = ((2 * l + 1) as f64 * c * p1 - l as f64 * p0) / (l + 1) as f64;
             (p0, p1) = (p1, next);
         }
+    }
+
+    #[test]
+    fn the_grid_reaches_the_edge_of_the_air() {
+        assert_eq!(altitudes(HIGHEST), ALTITUDES);
+        let nodes = altitudes(120e3);
+        assert!(nodes.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(nodes[nodes.len() - 1], 120e3);
+        assert!(nodes[nodes.len() - 2] > 119_500.0);
     }
 
     #[test]

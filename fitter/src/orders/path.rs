@@ -1,6 +1,7 @@
 //! The points along a view ray at which the source function is sampled.
 
 use super::medium::{Medium, NW, Spectrum};
+use super::moments::HIGHEST;
 use crate::column::ColumnIntegrator;
 
 /// A quadrature node on a ray.
@@ -94,7 +95,7 @@ fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
         .zip(profiles)
         .map(|(part, p)| part.extinction[2] * p)
         .sum();
-    let climb = fineness * height_step(h);
+    let climb = fineness * height_step(h, medium.atmosphere.top());
     let r = medium.atmosphere.planet_radius + h;
     // |cosine·ds + ds²/2r| = climb, the curvature of the planet included.
     let slope = cosine.abs();
@@ -104,8 +105,9 @@ fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
         .min(fineness * LONGEST)
 }
 
-/// How far one may climb before the profiles change: finest across the inversion at 2 km.
-fn height_step(h: f64) -> f64 {
+/// How far one may climb before the profiles change: finest across the inversion at 2 km, and ever finer towards the edge of air that
+/// does not end where the grid of the light field does.
+fn height_step(h: f64, top: f64) -> f64 {
     match h {
         h if h < 1300.0 => 400.0,
         h if h < 2700.0 => 150.0,
@@ -113,6 +115,7 @@ fn height_step(h: f64) -> f64 {
         h if h < 14_000.0 => 350.0,
         h if h < 40_000.0 => 1000.0,
         h if h < 60_000.0 => 2000.0,
-        _ => 5000.0,
+        h if h < HIGHEST || top <= HIGHEST => 5000.0,
+        h => (0.1 * (top - h)).clamp(100.0, 5000.0),
     }
 }

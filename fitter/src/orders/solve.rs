@@ -2,7 +2,7 @@
 
 use super::medium::{Medium, NW, Spectrum};
 use super::moments::{
-    ALTITUDES, COUNT, HARMONICS, Moments, SUNS, TENSOR, azimuth_harmonics, order_start,
+    ALTITUDES, COUNT, HARMONICS, Moments, SUNS, TENSOR, altitudes, azimuth_harmonics, order_start,
     polar_harmonics, sun_coordinate, sun_node,
 };
 use super::path::{Path, trace};
@@ -97,6 +97,7 @@ struct Direction {
 
 /// Directions of integration at every altitude of the grid.
 struct Sphere {
+    altitudes: Vec<f64>,
     /// Cosine and sine, over half a turn.
     azimuths: Vec<(f64, f64)>,
     /// Zenith angles per altitude.
@@ -152,11 +153,13 @@ impl Sphere {
             .map(|k| ((k as f64 + 0.5) / count as f64 * PI).sin_cos())
             .map(|(s, c)| (c, s))
             .collect();
-        let directions = ALTITUDES
+        let altitudes = altitudes(planet.top);
+        let directions = altitudes
             .par_iter()
             .map(|&h| directions(medium, planet, h, settings, finer))
             .collect();
         Self {
+            altitudes,
             azimuths,
             directions,
         }
@@ -219,7 +222,7 @@ impl<'a> Solver<'a> {
                 row
             })
             .collect();
-        Moments::from_rows(rows)
+        Moments::from_rows(&sphere.altitudes, rows)
     }
 
     /// Radiance in `direction` for every sun node and azimuth.

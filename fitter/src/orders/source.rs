@@ -2,8 +2,8 @@
 
 use super::medium::{Medium, NW, PER_SPHERE, Spectrum};
 use super::moments::{
-    COUNT, DEGREES, Moments, ORDERS, SUNS, TENSOR, altitude_stencil, azimuth_harmonics,
-    order_start, polar_harmonics, sun_taps,
+    COUNT, DEGREES, Moments, ORDERS, SUNS, TENSOR, azimuth_harmonics, order_start, polar_harmonics,
+    sun_taps,
 };
 use super::path::Node;
 
@@ -78,7 +78,7 @@ impl SourceTable {
             };
         }
         let mut rows = vec![[0.0; ROW * NW]; SUNS];
-        for (i, share) in altitude_stencil(node.altitude).taps() {
+        for (i, share) in moments.altitude_stencil(node.altitude).taps() {
             let kernel = kernel.map(|k| k.map(|v| share as f32 * v));
             for (j, row) in rows.iter_mut().enumerate() {
                 contract(moments.node(i, j), &kernel, row);
