@@ -2,7 +2,7 @@
 
 use crate::baked::largest_bytes;
 use crate::error::{Error, Result};
-use crate::format::{KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
+use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
 use crate::general::{Chunks, General, HeadView};
 use crate::model::{Key, Model};
 
@@ -13,6 +13,8 @@ pub enum Channels {
     Spectral,
     /// XYZ or RGB.
     Colour,
+    /// Stokes vectors at the wavelengths of the model.
+    Stokes,
 }
 
 /// The conditions that a scene can meet, and what it tolerates. Albedo is free: every chunk holds all of it.
@@ -46,7 +48,10 @@ pub struct Plan {
     /// Largest 99th percentile of the relative error of a chunk against its traced data. Between altitudes and
     /// visibilities of the model errors are larger; the documentation of the model says how much.
     pub error_p99: f32,
-    /// Relative error that baking adds at most at 95 % of directions and channels.
+    /// Where Stokes vectors are asked for: largest median and largest 99th percentile of the error of the degree of linear
+    /// polarisation of a chunk against its traced data.
+    pub degree_error: Option<[f32; 2]>,
+    /// Relative error that baking adds at most at 95 % of directions and channels: to the radiance, and to (Q, U) relative to it.
     pub bake_p95: f64,
 }
 
@@ -62,7 +67,7 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that is not positive,
-    /// [`Error::MissingChunk`] if the file lacks a chunk.
+    /// [`Error::MissingChunk`] if the file lacks a chunk, such as those of the polarisation.
     pub fn plan(&self, budget: &Budget) -> Result<Plan> {
         let head = self.head();
         check("altitude", budget.altitude, self.altitude_range())?;
@@ -73,28 +78,36 @@ impl Model {
         check_range("tolerance", tolerance, [f64::MIN_POSITIVE, 1.0], "")?;
         let altitudes = around(&head.altitudes, budget.altitude);
         let visibilities = around(&head.visibilities, budget.visibility);
-        let mut keys: Vec<Key> = vec![(Kind::RadianceBasis, None, None)];
+        let polarised = budget.channels == Channels::Stokes;
+        let kinds = &FACTORS[..if polarised { 2 } else { 1 }];
+        let mut keys: Vec<Key> = kinds
+            .iter()
+            .map(|&[basis, _]| (basis, None, None))
+            .collect();
         for a in altitudes {
             keys.push((Kind::Column, Some(a), None));
-            keys.extend(
-                visibilities
-                    .clone()
-                    .map(|v| (Kind::Radiance, Some(a), Some(v))),
-            );
+            for v in visibilities.clone() {
+                keys.extend(kinds.iter().map(|&[_, own]| (own, Some(a), Some(v))));
+            }
         }
         let chunks = keys
             .into_iter()
             .map(|(kind, a, v)| self.find(kind, a, v))
             .collect::<Result<Vec<_>>>()?;
         let entries = || chunks.iter().map(|&i| &self.directory()[i]);
-        let worst = |error: f32, other: f32| error.max(other);
+        let worst = |kind: Kind, error: fn(&Entry) -> f32| {
+            let of_kind = entries().filter(|entry| entry.kind == kind);
+            of_kind.map(error).fold(0.0, f32::max)
+        };
+        let [median, p99]: [fn(&Entry) -> f32; 2] = [|e| e.error_median, |e| e.error_p99];
         Ok(Plan {
             budget: *budget,
             file_bytes: self.head_bytes() + entries().map(|entry| entry.length).sum::<usize>(),
             chunk_count: chunks.len(),
             sky_bytes: largest_bytes(budget.channels, head),
-            error_median: entries().map(|entry| entry.error_median).fold(0.0, worst),
-            error_p99: entries().map(|entry| entry.error_p99).fold(0.0, worst),
+            error_median: worst(Kind::Radiance, median),
+            error_p99: worst(Kind::Radiance, p99),
+            degree_error: polarised.then(|| [median, p99].map(|e| worst(Kind::Polarisation, e))),
             bake_p95: budget.tolerance,
             chunks,
         })
@@ -109,7 +122,7 @@ impl Model {
         self.load_chunks(&plan.chunks)
     }
 
-    /// Prepares general queries within a plan of this model, and reads what they need.
+    /// Prepares general queries within a plan of this model, and reads what it asks for. They are not polarised.
     ///
     /// # Errors
     /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`General`].
@@ -122,7 +135,8 @@ impl Model {
             let kind = match entry.kind {
                 Kind::Radiance => KIND_RADIANCE,
                 Kind::Column => KIND_COLUMN,
-                _ => KIND_RADIANCE_BASIS,
+                Kind::RadianceBasis => KIND_RADIANCE_BASIS,
+                _ => continue,
             };
             let place = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
             chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
@@ -130,6 +144,12 @@ impl Model {
         General::assemble(head, chunks)
     }
 }
+
+/// Factor matrices of the radiance and of its polarisation: what all chunks share, and what each has.
+const FACTORS: [[Kind; 2]; 2] = [
+    [Kind::RadianceBasis, Kind::Radiance],
+    [Kind::PolarisationBasis, Kind::Polarisation],
+];
 
 /// The nodes that interpolation between two values touches: one more on either side of those around them.
 fn around(nodes: &[f64], [low, high]: [f64; 2]) -> std::ops::Range<usize> {

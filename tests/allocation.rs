@@ -82,6 +82,7 @@ fn baked_queries_do_not_allocate() {
     let mut out = vec![0.0; 19 * n];
     let mut rgb = [[0.0; 3]; 19];
     let mut heroes = [[0.0; 4]; 19];
+    let mut stokes = [[Stokes::default(); 4]; 19];
     let sun = SunDisc::new(&sky);
     let sampler = colour.sampler().with_sun(&sun);
     let component: Vec<f32> = (0..19).map(|i| (i as f32).sin()).collect();
@@ -114,6 +115,12 @@ fn baked_queries_do_not_allocate() {
         &directions,
         &[[400.0, 500.0, 600.0, 700.0]; 19],
         &mut heroes,
+    );
+    let _ = polarised.hero_batch(
+        &directions,
+        Frame::Vertical,
+        &[[400.0, 500.0, 600.0, 700.0]; 19],
+        &mut stokes,
     );
     let _ = baked.irradiance([0.0, 0.0, 1.0], &mut out[..n]);
     let _ = sun.radiance(sun.direction(), &mut out[..n]);

@@ -56,6 +56,38 @@ proptest! {
 }
 
 #[test]
+fn polarised_scenes_read_what_was_planned() {
+    let model = Model::stream(common::polarised_bytes(0.02)).unwrap();
+    for (altitude, visibility) in [([0.0, 0.0], [20e3, 20e3]), ([0.0, 900.0], [25e3, 90e3])] {
+        let budget = Budget {
+            channels: Channels::Stokes,
+            ..budget(altitude, visibility)
+        };
+        let plan = model.plan(&budget).unwrap();
+        model.load(&plan).unwrap();
+        let requests = model.traffic().requests;
+        for t in [0.0, 0.4, 1.0] {
+            let between = |[low, high]: [f64; 2]| low + t * (high - low);
+            let conditions = Conditions {
+                altitude: between(altitude),
+                visibility: between(visibility),
+                ..Conditions::default()
+            };
+            model.polarised_sky(&conditions).unwrap();
+        }
+        assert_eq!(model.touched_bytes(), plan.file_bytes);
+        assert_eq!(model.traffic().requests, requests);
+        model.general(&plan).unwrap();
+    }
+    let plain = Model::from_bytes(common::model_bytes()).unwrap();
+    let error = plain.plan(&Budget {
+        channels: Channels::Stokes,
+        ..budget([0.0, 0.0], [20e3, 20e3])
+    });
+    assert!(matches!(error, Err(Error::MissingChunk { .. })));
+}
+
+#[test]
 fn bad_budgets_are_typed_errors() {
     let model = Model::from_bytes(common::model_bytes()).unwrap();
     let sound = budget([0.0, 100.0], [20e3, 30e3]);
@@ -89,7 +121,7 @@ fn bad_budgets_are_typed_errors() {
 fn baked_skies_keep_the_promises_of_the_plan() {
     let model = Model::default_model().unwrap();
     for tolerance in [0.01, 0.0025, 0.0012] {
-        for channels in [Channels::Spectral, Channels::Colour] {
+        for channels in [Channels::Spectral, Channels::Colour, Channels::Stokes] {
             let plan = model
                 .plan(&Budget {
                     tolerance,
@@ -98,6 +130,10 @@ fn baked_skies_keep_the_promises_of_the_plan() {
                 })
                 .unwrap();
             assert!(plan.error_p99 > 0.0 && plan.file_bytes < model.file_bytes() / 10);
+            let degree = plan
+                .degree_error
+                .map(|[median, p99]| 0.0 < median && median < p99);
+            assert_eq!(degree, (channels == Channels::Stokes).then_some(true));
             for elevation in [-3.0f64, 4.0, 60.0] {
                 let conditions = Conditions {
                     solar_elevation: elevation.to_radians(),
@@ -113,6 +149,12 @@ fn baked_skies_keep_the_promises_of_the_plan() {
                         .bake_colour(tolerance)
                         .map(|b| (b.bytes(), b.bake_error()))
                         .unwrap(),
+                    Channels::Stokes => {
+                        let sky = model.polarised_sky(&conditions).unwrap();
+                        let baked = sky.bake(tolerance).unwrap();
+                        assert!(baked.sky().bake_error().p95 <= plan.bake_p95);
+                        (baked.bytes(), baked.polarisation_error())
+                    }
                 };
                 assert!(bytes <= plan.sky_bytes, "{bytes} {plan:?}");
                 assert!(error.p95 <= plan.bake_p95);

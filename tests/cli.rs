@@ -505,6 +505,9 @@ fn plans_say_what_scenes_need() {
         text.contains("per baked sky") && text.contains("p95 at most 0.25 %"),
         "{text}"
     );
+    let text = bench.run(&["plan", "--stokes"], "");
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("of the degree    median 0.00"), "{text}");
     for bad in [
         ["--altitudes", "0..1e9"],
         ["--altitudes", "high"],

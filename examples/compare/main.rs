@@ -394,7 +394,7 @@ impl Scene {
     }
 
     /// Four wavelengths per direction: one at random and three that divide the range with it.
-    fn heroes(&self) -> Vec<[f32; 4]> {
+    pub fn heroes(&self) -> Vec<[f32; 4]> {
         let [low, high] = self.model.wavelength_range();
         let mut sequence = Sequence::<1>::new();
         let place = |t: f64, k: usize| low + (high - low) * (t + 0.25 * k as f64).fract();

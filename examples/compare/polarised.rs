@@ -52,6 +52,22 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
                 .try_for_each(|&d| ask(d))
         }),
     );
+    let heroes = scene.heroes();
+    let mut four = vec![[Stokes::default(); 4]; ROUND];
+    let mut peer_four = vec![[0.0; 4]; ROUND];
+    let hero = clock::duel(
+        [ROUND; 2],
+        unwrapped(|round| {
+            let wavelengths = &heroes[span(round, ROUND)];
+            baked.hero_batch(&scene.part(round), black_box(FRAME), wavelengths, &mut four)
+        }),
+        unwrapped(|round| {
+            let wavelengths = &heroes[span(round, ROUND)];
+            scene
+                .spectral
+                .hero_batch(&scene.part(round), wavelengths, &mut peer_four)
+        }),
+    );
     let row = |name, ns| Row {
         name,
         peer: "the same without polarisation",
@@ -62,6 +78,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     Ok(vec![
         row("polarised_spectral_batch", batch),
         row("polarised_spectral_single", single),
+        row("polarised_hero_batch", hero),
         segments(scene)?,
     ])
 }

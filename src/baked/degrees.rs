@@ -5,7 +5,7 @@
 
 use super::frame::{Frame, prepared};
 use super::lattice::{Lattice, Nodes};
-use super::quality::{Errors, directions};
+use super::quality::{Errors, LARGEST, directions};
 use super::table::{Grid, Spots, Table};
 use super::turn::{Axes, Turn};
 use crate::error::Result;
@@ -27,6 +27,11 @@ pub(super) struct Degrees {
     pub blocks: usize,
     /// `[block][up rows, then down rows][azimuth]`.
     cells: Vec<Lanes<PAIR>>,
+}
+
+/// Most bytes that they take, for `n` wavelengths.
+pub(super) fn largest_table(n: usize) -> usize {
+    n.div_ceil(LANES) * LARGEST.cells() * size_of::<Lanes<PAIR>>()
 }
 
 /// Makes them.

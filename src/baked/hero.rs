@@ -145,33 +145,45 @@ impl Sink<LANES> for Heroes<'_> {
     ) {
         for i in 0..count {
             let wavelengths = &self.wavelengths[index + i];
-            let radiance = if table.blocks() == 1 {
-                let logarithms = table.logarithm(spots, i, 0).0;
-                self.mix(wavelengths, &logarithms)
-            } else {
-                let mut logarithms = [[0.0; LANES]; BLOCKS];
-                for (block, logarithms) in logarithms[..table.blocks()].iter_mut().enumerate() {
-                    *logarithms = table.logarithm(spots, i, block).0;
-                }
-                self.mix(wavelengths, logarithms.as_flattened())
-            };
-            let radiance = radiance * spots.opacity.0[i];
-            self.out[index + i] = radiance.min(Lanes::splat(f32::MAX)).0;
+            self.out[index + i] = self.axis.radiance(table, spots, i, wavelengths).0;
         }
     }
 }
 
-impl Heroes<'_> {
+impl WavelengthAxis {
+    /// Spectral radiance at four wavelengths for direction `i`.
     #[inline(always)]
-    fn mix(&self, wavelengths: &[f32; 4], logarithms: &[f32]) -> Lanes<4> {
-        let (mut mixed, mut irradiance) = (Lanes::splat(0.0), Lanes::splat(0.0));
+    pub fn radiance<const W: usize>(
+        &self,
+        table: &Table<LANES>,
+        spots: &Spots<W>,
+        i: usize,
+        wavelengths: &[f32; 4],
+    ) -> Lanes<4> {
+        let mixed = if table.blocks() == 1 {
+            self.mix(wavelengths, &table.logarithm(spots, i, 0).0)
+        } else {
+            let mut logarithms = [[0.0; LANES]; BLOCKS];
+            for (block, logarithms) in logarithms[..table.blocks()].iter_mut().enumerate() {
+                *logarithms = table.logarithm(spots, i, block).0;
+            }
+            self.mix(wavelengths, logarithms.as_flattened())
+        };
+        let irradiance = Lanes(wavelengths.map(|wavelength| self.irradiance(wavelength)));
+        let radiance = mixed.exp2() * irradiance * spots.opacity.0[i];
+        radiance.min(Lanes::splat(f32::MAX))
+    }
+
+    /// Values at the nodes, interpolated.
+    #[inline(always)]
+    pub fn mix(&self, wavelengths: &[f32; 4], values: &[f32]) -> Lanes<4> {
+        let mut mixed = Lanes::splat(0.0);
         for (lane, &wavelength) in wavelengths.iter().enumerate() {
-            let (interval, t) = self.axis.locate(wavelength);
-            let taps = &logarithms[interval.first as usize..][..4];
+            let (interval, t) = self.locate(wavelength);
+            let taps = &values[interval.first as usize..][..4];
             let [a, b, c, d] = interval.weights(t);
             mixed.0[lane] = (a * taps[0] + b * taps[1]) + (c * taps[2] + d * taps[3]);
-            irradiance.0[lane] = self.axis.irradiance(wavelength);
         }
-        mixed.exp2() * irradiance
+        mixed
     }
 }

@@ -1,8 +1,8 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
 //! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables
-//! and `quality` chooses their size; `degrees` and `turn` add polarisation; `spectral`, `colour` and `polarised` are the
-//! public faces.
+//! and `quality` chooses their size; `degrees` and `turn` add polarisation; `spectral`, `colour`, `polarised` and the two of `hero`
+//! are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
 mod bake;
@@ -11,6 +11,7 @@ mod colour;
 mod degrees;
 mod frame;
 mod hero;
+mod hero_stokes;
 mod irradiance;
 mod lattice;
 mod polarised;
@@ -42,6 +43,9 @@ pub(crate) fn largest_bytes(channels: crate::Channels, head: &Head) -> usize {
     match channels {
         crate::Channels::Spectral => quality::largest_table(n, 16) + spectral::axis_bytes(head),
         crate::Channels::Colour => quality::largest_table(3, 4),
+        crate::Channels::Stokes => {
+            largest_bytes(crate::Channels::Spectral, head) + degrees::largest_table(n)
+        }
     }
 }
 

@@ -20,7 +20,7 @@ use crate::simd::dispatch;
 #[derive(Clone, Debug)]
 pub struct BakedPolarisedSky {
     sky: BakedSky,
-    degrees: Degrees,
+    pub(super) degrees: Degrees,
     error: BakeError,
 }
 
@@ -179,7 +179,7 @@ impl Sink<LANES> for Rows<'_> {
 }
 
 /// Squared degree that may exceed 1 when rounding has had its share.
-const ALMOST_WHOLE: f32 = 1.0 - 16.0 * f32::EPSILON;
+pub(super) const ALMOST_WHOLE: f32 = 1.0 - 16.0 * f32::EPSILON;
 
 impl StokesSpectra<'_> {
     /// Where splines overshoot, back to the whole light. That is rare.

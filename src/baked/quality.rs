@@ -82,9 +82,12 @@ const GRIDS: [(f64, Grid); 8] = [
     (3e-4, grid(96, 64, 48, 96)),
 ];
 
+/// The largest grid.
+pub(super) const LARGEST: Grid = GRIDS[GRIDS.len() - 1].1;
+
 /// Most bytes that the tables of a baked sky take, for `n` channels in vectors of `width`.
 pub(super) fn largest_table(n: usize, width: usize) -> usize {
-    let (_, grid) = GRIDS[GRIDS.len() - 1];
+    let grid = LARGEST;
     n.div_ceil(width) * width * size_of::<f32>() * (grid.cells() + grid.envelope_cells())
 }
 

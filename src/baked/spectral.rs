@@ -25,7 +25,7 @@ pub struct BakedSky {
     wavelengths: Vec<f64>,
     /// Solar irradiance at the wavelengths, padded.
     irradiance: Vec<Lanes<LANES>>,
-    axis: WavelengthAxis,
+    pub(super) axis: WavelengthAxis,
 }
 
 struct Spectrum {
@@ -200,7 +200,7 @@ impl BakedSky {
         })
     }
 
-    fn check_wavelengths(&self, wavelengths: &[[f32; 4]]) -> Result<()> {
+    pub(super) fn check_wavelengths(&self, wavelengths: &[[f32; 4]]) -> Result<()> {
         let [min, max] = self.axis.range();
         let outside = |l: &&f32| !(min..=max).contains(*l);
         match wavelengths.as_flattened().iter().find(outside) {

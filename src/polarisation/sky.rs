@@ -3,7 +3,7 @@
 use super::aspect::{Aspect, Frame};
 use super::prepare::prepare;
 use super::stokes::{Stokes, between};
-use super::table::{Block, Mix, Polarisation};
+use super::table::{Block, Mix, Polarisation, limit_even};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
@@ -134,13 +134,13 @@ impl PolarisedSky {
     }
 
     /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit` block by
-    /// block of wavelengths. Smooth and even in φ, and not limited to the whole light.
+    /// block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
     pub(crate) fn ratios(
         &self,
         ray: &Ray,
         phi: f64,
         angle: SunAngle,
-        emit: impl FnMut(usize, [[f32; LANES]; 2]),
+        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
     ) {
         let tables = self.sky.tables();
         let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
@@ -154,7 +154,11 @@ impl PolarisedSky {
             from_q: [1.0, 0.0],
             from_u: [0.0, 1.0],
         };
-        self.polarisation.ratios(tables, &lookup, &mix, emit);
+        let sine = phi.sin() as f32;
+        self.polarisation
+            .ratios(tables, &lookup, &mix, |block, [q, u]| {
+                emit(block, limit_even(q, u, sine));
+            });
     }
 
     #[inline(always)]

@@ -27,6 +27,9 @@ pub struct Options {
     /// Colours instead of spectra.
     #[arg(long)]
     rgb: bool,
+    /// Stokes vectors instead of radiance.
+    #[arg(long, conflicts_with = "rgb")]
+    stokes: bool,
     /// Write JSON.
     #[arg(long)]
     json: bool,
@@ -39,9 +42,10 @@ pub fn run(options: &Options) -> Result<()> {
         visibility: options.visibilities.map(|km| km * 1e3),
         solar_elevation: options.sun_elevations.map(f64::to_radians),
         tolerance: options.tolerance,
-        channels: match options.rgb {
-            true => Channels::Colour,
-            false => Channels::Spectral,
+        channels: match (options.rgb, options.stokes) {
+            (true, _) => Channels::Colour,
+            (_, true) => Channels::Stokes,
+            _ => Channels::Spectral,
         },
     })?;
     let report = json!({
@@ -52,6 +56,7 @@ pub fn run(options: &Options) -> Result<()> {
         "sky_bytes": plan.sky_bytes,
         "error_median": plan.error_median,
         "error_p99": plan.error_p99,
+        "degree_error": plan.degree_error.map(|[median, p99]| json!({"median": median, "p99": p99})),
         "bake_p95": plan.bake_p95,
     });
     let mut out = std::io::stdout().lock();
@@ -73,6 +78,12 @@ pub fn run(options: &Options) -> Result<()> {
         100.0 * plan.error_median,
         100.0 * plan.error_p99
     )?;
+    if let Some([median, p99]) = plan.degree_error {
+        writeln!(
+            out,
+            "of the degree    median {median:.4}, p99 {p99:.4} of linear polarisation"
+        )?;
+    }
     writeln!(
         out,
         "added by baking  p95 at most {:.2} %",

@@ -1,0 +1,148 @@
+//! Stokes vectors at a few wavelengths that differ from query to query. Format specification, section 7.5: Q/I and U/I are
+//! interpolated as the logarithm of I is.
+
+use super::batch::{Directions, Each, One, Sink, check_length};
+use super::degrees::{self, turned};
+use super::polarised::{ALMOST_WHOLE, BakedPolarisedSky};
+use super::spectral::LANES;
+use super::table::{Spots, Table};
+use super::turn::{Axes, Turn};
+use crate::error::Result;
+use crate::lanes::Lanes;
+use crate::polarisation::{Frame, Stokes};
+use crate::simd::dispatch;
+
+/// Most blocks of wavelengths.
+const BLOCKS: usize = 256usize.div_ceil(degrees::LANES);
+
+impl BakedPolarisedSky {
+    /// Stokes vectors at four wavelengths (nm) within the range of the model, as [`PolarisedSky::stokes_at`]. The radiance is that
+    /// of [`BakedSky::hero`].
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a direction or an axis that is zero or not finite, [`Error::OutOfRange`] for a wavelength.
+    ///
+    /// [`PolarisedSky::stokes_at`]: crate::PolarisedSky::stokes_at
+    /// [`BakedSky::hero`]: crate::BakedSky::hero
+    /// [`Error::Direction`]: crate::Error::Direction
+    /// [`Error::OutOfRange`]: crate::Error::OutOfRange
+    #[inline]
+    pub fn hero(
+        &self,
+        direction: [f32; 3],
+        frame: Frame,
+        wavelengths: [f32; 4],
+    ) -> Result<[Stokes; 4]> {
+        self.sky().check_wavelengths(&[wavelengths])?;
+        let mut out = [[Stokes::default(); 4]];
+        dispatch(One {
+            frame: self.sky().frame(),
+            table: &self.sky().baked.table,
+            direction,
+            sink: Heroes {
+                sky: self,
+                axes: Axes::new(frame)?,
+                wavelengths: &[wavelengths],
+                out: &mut out,
+            },
+        })?;
+        Ok(out[0])
+    }
+
+    /// [`BakedPolarisedSky::hero`] for many directions with wavelengths of their own.
+    ///
+    /// # Errors
+    /// As [`BakedPolarisedSky::hero`]; [`Error::Length`](crate::Error::Length) unless there are as many components, wavelengths and
+    /// results. What precedes a bad direction may or may not be written.
+    pub fn hero_batch(
+        &self,
+        directions: &Directions,
+        frame: Frame,
+        wavelengths: &[[f32; 4]],
+        out: &mut [[Stokes; 4]],
+    ) -> Result<()> {
+        directions.check()?;
+        check_length("wavelengths", wavelengths.len(), directions.len())?;
+        check_length("output", out.len(), directions.len())?;
+        self.sky().check_wavelengths(wavelengths)?;
+        let axes = Axes::new(frame)?;
+        dispatch(Each {
+            frame: self.sky().frame(),
+            table: &self.sky().baked.table,
+            directions: *directions,
+            sink: Heroes {
+                sky: self,
+                axes,
+                wavelengths,
+                out,
+            },
+        })
+    }
+}
+
+/// Stokes vectors at four wavelengths of each direction's own.
+struct Heroes<'a> {
+    sky: &'a BakedPolarisedSky,
+    axes: Axes,
+    wavelengths: &'a [[f32; 4]],
+    out: &'a mut [[Stokes; 4]],
+}
+
+impl Sink<LANES> for Heroes<'_> {
+    #[inline(always)]
+    fn put<const W: usize>(
+        &mut self,
+        index: usize,
+        count: usize,
+        table: &Table<LANES>,
+        spots: &Spots<W>,
+        vectors: &[Lanes<W>; 3],
+    ) {
+        let sky = self.sky.sky();
+        let turn = self.axes.turn(sky.frame(), vectors);
+        for i in 0..count {
+            let wavelengths = &self.wavelengths[index + i];
+            let light = sky.axis.radiance(table, spots, i, wavelengths);
+            let ratios = self.ratios(spots, &turn, i, wavelengths);
+            self.out[index + i] = bounded(light, ratios);
+        }
+    }
+}
+
+impl Heroes<'_> {
+    /// Q/I and U/I for direction `i`.
+    #[inline(always)]
+    fn ratios<const W: usize>(
+        &self,
+        spots: &Spots<W>,
+        turn: &Turn<W>,
+        i: usize,
+        wavelengths: &[f32; 4],
+    ) -> [Lanes<4>; 2] {
+        let degrees = &self.sky.degrees;
+        let axis = &self.sky.sky().axis;
+        let at = |block: usize| turned(&degrees.at(spots, i, block), turn, i);
+        if degrees.blocks == 1 {
+            return at(0).map(|ratios| axis.mix(wavelengths, &ratios.0));
+        }
+        let mut ratios = [[[0.0; degrees::LANES]; BLOCKS]; 2];
+        for block in 0..degrees.blocks {
+            let [q, u] = at(block);
+            (ratios[0][block], ratios[1][block]) = (q.0, u.0);
+        }
+        ratios.map(|ratios| axis.mix(wavelengths, ratios.as_flattened()))
+    }
+}
+
+/// Where splines overshoot, no more than the whole light.
+#[inline(always)]
+fn bounded(light: Lanes<4>, [q, u]: [Lanes<4>; 2]) -> [Stokes; 4] {
+    let share = Lanes::splat(ALMOST_WHOLE) / (q * q + u * u).max(Lanes::splat(ALMOST_WHOLE));
+    let polarised = light * share.sqrt();
+    let (q, u) = (q * polarised, u * polarised);
+    core::array::from_fn(|lane| Stokes {
+        i: light.0[lane],
+        q: q.0[lane],
+        u: u.0[lane],
+    })
+}
