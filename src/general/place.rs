@@ -1,6 +1,6 @@
 //! Where a query stands on the axes of a model.
 
-use super::around::{Axis, Nodes};
+use super::around::{Axis, Interpolation, Nodes};
 use super::head::HeadView;
 use crate::axis::{Ends, Taps, alpha_coordinate, chord, spline};
 use crate::conditions::Conditions;
@@ -56,6 +56,7 @@ impl Place {
         head: &HeadView,
         [altitudes, visibilities]: &[Axis; 2],
         question: &Question,
+        interpolation: Interpolation,
     ) -> Self {
         let Question {
             conditions,
@@ -77,8 +78,8 @@ impl Place {
         let axis = &head.elevation;
         let sun = axis.coordinate(conditions.solar_elevation);
         Self {
-            altitudes: altitudes.around(conditions.altitude.cbrt()),
-            visibilities: visibilities.around(1.0 / conditions.visibility),
+            altitudes: altitudes.around(conditions.altitude.cbrt(), interpolation),
+            visibilities: visibilities.around(1.0 / conditions.visibility, interpolation),
             curve: [
                 spline(alpha, intervals, Ends::Free),
                 spline(sun, axis.intervals, Ends::Free),

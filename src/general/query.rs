@@ -34,7 +34,7 @@ impl Kernel for One<'_, '_> {
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = Place::new(&model.head, &model.axes, &question);
+        let place = Place::new(&model.head, &model.axes, &question, model.interpolation);
         let mut query = Query {
             model,
             place: &place,
@@ -60,10 +60,12 @@ impl<'a, 'b> Query<'a, 'b> {
     fn look_around(&mut self) -> Result<()> {
         let Self { model, place, .. } = *self;
         let mut slots = self.chunks.iter_mut();
-        for (k, (a, altitude)) in place.altitudes.taps().enumerate() {
+        for (slot, (a, weight)) in self.columns.iter_mut().zip(place.altitudes.cubic.taps()) {
             let column = model.chunks.column(a);
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
-            self.columns[k] = Some((column, altitude[0] as f32));
+            *slot = Some((column, weight as f32));
+        }
+        for (a, altitude) in place.altitudes.taps() {
             for (v, visibility) in place.visibilities.taps() {
                 let Some(share) = model.interpolation.share(altitude, visibility) else {
                     continue;
