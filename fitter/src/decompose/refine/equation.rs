@@ -1,0 +1,88 @@
+//! The equations that a fit should fulfil, and what the factors say of them.
+
+use super::normal::Normal;
+use super::{Basis, row};
+use crate::decompose::Chunk;
+use crate::orders::{FIELDS, NW};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::Rng;
+
+/// Albedos at which the radiance is compared.
+pub const ALBEDOS: [f32; 3] = [0.0, 0.3, 1.0];
+/// Weight of the relative error of a single field against that of the radiance.
+const FIELD_WEIGHT: f32 = 0.4;
+
+/// A linear equation: the radiance (or one field) at a site, a wavelength and an albedo, relative to what was traced.
+pub struct Equation {
+    /// Index of the wavelength.
+    pub wavelength: usize,
+    /// Factor of each field.
+    pub share: [f32; FIELDS],
+    /// What Σ share · field should be.
+    pub target: f32,
+    /// Square root of its weight.
+    pub weight: f32,
+}
+
+impl Equation {
+    /// All fields together are the radiance.
+    pub fn radiance(chunk: &Chunk, site: usize, wavelength: usize, albedo: f32) -> Self {
+        let (wavelength, share) = chunk.radiance_equation(site, wavelength, albedo);
+        Self {
+            wavelength,
+            share,
+            target: 1.0,
+            weight: chunk.weight(site),
+        }
+    }
+
+    /// One of the fields is what was traced.
+    pub fn field(&self, chunk: &Chunk, site: usize, field: usize) -> Self {
+        let mut share = [0.0; FIELDS];
+        share[field] = self.share[field];
+        Self {
+            wavelength: self.wavelength,
+            share,
+            target: share[field] * chunk.value(site, field, self.wavelength),
+            weight: self.weight * FIELD_WEIGHT,
+        }
+    }
+
+    /// Σ_f share_f · channel_(f, w, r) for every r.
+    pub fn mix(&self, basis: &Basis, out: &mut [f32]) {
+        out.fill(0.0);
+        for (f, share) in self.share.iter().enumerate() {
+            if *share != 0.0 {
+                let channel = row(&basis.channel, f * NW + self.wavelength, basis.rank);
+                for (o, c) in out.iter_mut().zip(channel) {
+                    *o += share * c;
+                }
+            }
+        }
+    }
+
+    /// Adds itself, linear in `x` with the coefficients `coefficient`, to the normal equations of a step of `x`.
+    #[inline(always)]
+    pub fn push(&self, normal: &mut Normal, x: &[f32], coefficient: impl Fn(usize) -> f32) {
+        normal.push(|column| {
+            let mut value = 0.0;
+            for (r, (x, entry)) in x.iter().zip(column).enumerate() {
+                let c = coefficient(r);
+                value += c * x;
+                *entry = c * self.weight;
+            }
+            (self.target - value) * self.weight
+        });
+    }
+}
+
+/// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one of them.
+pub fn equations(chunk: &Chunk, site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
+    let draw = rng.next_u64() as usize;
+    let radiance = |k: usize| {
+        let albedo = ALBEDOS[(draw >> (8 + 8 * k)) % 3];
+        Equation::radiance(chunk, site, draw % 4 + 4 * k, albedo)
+    };
+    let field = radiance(draw % 3).field(chunk, site, (draw >> 40) % FIELDS);
+    [radiance(0), radiance(1), radiance(2), field]
+}
