@@ -402,18 +402,29 @@ fn sources_that_do_not_fit_their_basis_are_refused() {
     let mut other = source(&head, 0.0);
     other.ranks = [1, 1, 2, 1];
     other.core = vec![1.0; 2];
-    let chunks = [
-        chunk(None, Payload::Transmittance(densities())),
-        chunk(None, Payload::SourceBasis(basis())),
-        chunk(Some(0), Payload::Source(other)),
-    ];
-    let unwritten = encode(&head, &chunks);
-    assert!(matches!(unwritten, Err(Error::Invalid { .. })));
-    // Added later, the source is seen alone.
-    let file = encode(&head, &chunks[..2]).unwrap();
-    let model = Model::from_bytes(extend(&file, &chunks[2..]).unwrap()).unwrap();
-    let refused = model.haze(&conditions(10.0));
-    assert!(matches!(refused, Err(Error::Invalid { .. })));
+    let air = chunk(None, Payload::Transmittance(densities()));
+    let shared = chunk(None, Payload::SourceBasis(basis()));
+    let misfit = chunk(Some(0), Payload::Source(other));
+    let all = [air.clone(), shared.clone(), misfit.clone()];
+    let refused = |outcome| matches!(outcome, Err(Error::Invalid { .. }));
+    assert!(refused(encode(&head, &all)));
+    let file = encode(&head, &all[..2]).unwrap();
+    assert!(refused(extend(&file, &all[2..])));
+    let good = chunk(Some(0), Payload::Source(source(&head, 0.0)));
+    let good = extend(&file, &[good]).unwrap();
+    // A basis of other ranks does not fit the source that is there.
+    let mut wider = basis();
+    wider.ranks[2] = 2;
+    wider.factors[2] = wider.factors[2].repeat(2);
+    let wider = chunk(None, Payload::SourceBasis(wider));
+    assert!(refused(extend(&good, std::slice::from_ref(&wider))));
+    // Where no writer stood in the way, the reader does.
+    let other = encode(&head, &[air, wider, misfit]).unwrap();
+    let entry = &welkin::format::parse(&other).unwrap().directory[2];
+    let stored = &other[entry.offset..entry.offset + entry.length];
+    let model = Model::from_bytes(common::with_chunk(&good, 2, stored)).unwrap();
+    let haze = model.haze(&conditions(10.0));
+    assert!(matches!(haze, Err(Error::Invalid { .. })));
 }
 
 #[test]

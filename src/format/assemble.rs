@@ -7,6 +7,7 @@ use super::encoding::{check_chunk, decode};
 use super::head::Kind;
 use super::layout::*;
 use super::parse::{Contents, head_crc, parse};
+use super::verify::check_sources;
 use super::write::{Chunk, encode_chunk};
 use crate::error::{Error, Result};
 
@@ -72,7 +73,8 @@ pub fn recode(file: &[u8], encoding: u32) -> Result<Vec<u8>> {
 /// The same file with `chunks` added, in place of chunks of the same kind and nodes. All others are kept as they are.
 ///
 /// # Errors
-/// As [`parse`] for `file`, as [`encode`](super::encode()) for `chunks`.
+/// As [`parse`] for `file`, as [`encode`](super::encode()) for `chunks`; [`Error::Invalid`] if sources, old and new, fit neither their
+/// basis nor each other.
 pub fn extend(file: &[u8], chunks: &[Chunk]) -> Result<Vec<u8>> {
     let contents = parse(file)?;
     let (header, arrays, raw_entries) = parts(file, &contents)?;
@@ -91,7 +93,11 @@ pub fn extend(file: &[u8], chunks: &[Chunk]) -> Result<Vec<u8>> {
         }
     }
     all.extend(new);
-    assemble(header, arrays, all)
+    let extended = assemble(header, arrays, all)?;
+    let misfit = check_sources(&parse(&extended)?, &extended)
+        .into_iter()
+        .next();
+    misfit.map_or(Ok(extended), |problem| Err(problem.error))
 }
 
 /// Header, head arrays and directory of a parsed file.

@@ -46,7 +46,7 @@ pub fn verify(file: &[u8]) -> Vec<Problem> {
 }
 
 /// Source chunks that are sound by themselves, but do not fit their basis or the first of them.
-fn check_sources(contents: &Contents, file: &[u8]) -> Vec<Problem> {
+pub(super) fn check_sources(contents: &Contents, file: &[u8]) -> Vec<Problem> {
     let wavelengths = contents.head.wavelengths.len();
     let payloads = |kind: Kind| {
         let entries = contents.directory.iter().enumerate();

@@ -4,13 +4,14 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use welkin::Haze;
 use welkin::format::replace_file;
-use welkin::{Conditions, Haze, Model};
 
 use crate::Source;
 use crate::camera::{Camera, Lens};
 use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
+use crate::scene::Scene;
 
 /// First bytes of a raw volume.
 const MAGIC: &[u8; 8] = b"WLKFROXL";
@@ -23,22 +24,8 @@ pub struct Options {
     source: Source,
     #[command(flatten)]
     lens: Lens,
-    /// Solar elevation, degrees.
-    #[arg(
-        long,
-        default_value_t = 20.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    sun_elevation: f64,
-    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    sun_azimuth: f64,
+    #[command(flatten)]
+    scene: Scene,
     /// Azimuth of the camera's axis, degrees.
     #[arg(
         long,
@@ -47,12 +34,6 @@ pub struct Options {
         value_name = "DEG"
     )]
     view_azimuth: f64,
-    /// Visibility (meteorological range) at the ground, km.
-    #[arg(long, default_value_t = 59.4, value_name = "KM")]
-    visibility: f64,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, default_value_t = 0.2, value_name = "SHARE")]
-    albedo: f64,
     /// Altitude of the camera above the ground, m.
     #[arg(long, default_value_t = 2.0, value_name = "M")]
     altitude: f64,
@@ -96,7 +77,7 @@ pub fn run(options: &Options) -> Result<()> {
         ));
     }
     let model = options.source.open()?;
-    let haze = options.haze(&model)?;
+    let haze = model.haze(&options.scene.conditions(options.altitude))?;
     let [width, height, _] = options.size;
     let azimuth = options.view_azimuth.to_radians();
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
@@ -122,16 +103,6 @@ pub fn run(options: &Options) -> Result<()> {
 }
 
 impl Options {
-    fn haze(&self, model: &Model) -> Result<Haze> {
-        Ok(model.haze(&Conditions {
-            solar_elevation: self.sun_elevation.to_radians(),
-            solar_azimuth: self.sun_azimuth.to_radians(),
-            visibility: 1e3 * self.visibility,
-            albedo: self.albedo,
-            altitude: self.altitude,
-        })?)
-    }
-
     /// Depth of a slice along the axis: by equal factors from near to far.
     fn depth(&self, slice: usize) -> f64 {
         let share = slice as f64 / (self.size[2] - 1).max(1) as f64;

@@ -13,6 +13,7 @@ mod polarised;
 mod projection;
 mod query;
 mod render;
+mod scene;
 mod sheet;
 mod subset;
 mod terrain;

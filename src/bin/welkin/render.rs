@@ -13,6 +13,7 @@ use crate::landscape::{self, Landscape};
 use crate::picture::{Picture, View, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
+use crate::scene::Scene;
 
 /// Luminance of display white over the mean luminance of the sky (a geometric mean), for the automatic exposure.
 const WHITE_OVER_MEAN: f64 = 3.5;
@@ -23,22 +24,8 @@ const WHITE_AT_EV_0: f64 = 1.2;
 pub struct Options {
     #[command(flatten)]
     source: Source,
-    /// Solar elevation, degrees.
-    #[arg(
-        long,
-        default_value_t = 20.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    sun_elevation: f64,
-    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    sun_azimuth: f64,
+    #[command(flatten)]
+    scene: Scene,
     /// Azimuth at the top of the up fish-eye or in the middle of the others, degrees.
     #[arg(
         long,
@@ -47,17 +34,6 @@ pub struct Options {
         value_name = "DEG"
     )]
     view_azimuth: f64,
-    /// Visibility (meteorological range) at the ground, km.
-    #[arg(
-        long,
-        default_value_t = 59.4,
-        allow_negative_numbers = true,
-        value_name = "KM"
-    )]
-    visibility: f64,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, default_value_t = 0.2, allow_negative_numbers = true)]
-    albedo: f64,
     /// Altitude of the observer above the ground, m.
     #[arg(
         long,
@@ -109,13 +85,7 @@ fn exposure(text: &str) -> std::result::Result<f64, String> {
 
 impl Options {
     fn conditions(&self, model: &Model) -> Result<Conditions> {
-        let conditions = Conditions {
-            solar_elevation: self.sun_elevation.to_radians(),
-            solar_azimuth: self.sun_azimuth.to_radians(),
-            visibility: self.visibility * 1e3,
-            albedo: self.albedo,
-            altitude: self.altitude,
-        };
+        let conditions = self.scene.conditions(self.altitude);
         if self.clamp {
             return Ok(conditions.clamped(model)?);
         }

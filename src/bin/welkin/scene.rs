@@ -1,0 +1,52 @@
+//! Sun, air and ground of a picture or a volume, as arguments.
+
+use welkin::Conditions;
+
+#[derive(clap::Args)]
+pub struct Scene {
+    /// Solar elevation, degrees.
+    #[arg(
+        long,
+        default_value_t = 20.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_elevation: f64,
+    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    sun_azimuth: f64,
+    /// Visibility (meteorological range) at the ground, km.
+    #[arg(
+        long,
+        default_value_t = 59.4,
+        allow_negative_numbers = true,
+        value_name = "KM"
+    )]
+    visibility: f64,
+    /// Albedo of the ground, 0 to 1.
+    #[arg(
+        long,
+        default_value_t = 0.2,
+        allow_negative_numbers = true,
+        value_name = "SHARE"
+    )]
+    albedo: f64,
+}
+
+impl Scene {
+    /// For an observer at an altitude, m.
+    pub fn conditions(&self, altitude: f64) -> Conditions {
+        Conditions {
+            solar_elevation: self.sun_elevation.to_radians(),
+            solar_azimuth: self.sun_azimuth.to_radians(),
+            visibility: 1e3 * self.visibility,
+            albedo: self.albedo,
+            altitude,
+        }
+    }
+}
