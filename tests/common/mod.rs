@@ -18,17 +18,22 @@ pub const RANK: usize = 5;
 
 /// The same `cases` of a property test in every run: what has passed does not fail by chance where nothing has changed.
 ///
-/// `WELKIN_CASES=N` takes N times as many from new seeds. What fails is printed and becomes a test of its own.
+/// `WELKIN_CASES=N` takes N times as many from new seeds, `PROPTEST_CASES=N` just N. What fails is printed and becomes a test of
+/// its own.
 pub fn cases(cases: u32) -> Config {
     let factor = std::env::var("WELKIN_CASES").ok();
     let factor: Option<u32> = factor.map(|n| n.parse().expect("WELKIN_CASES is a number"));
-    let cases = cases * factor.unwrap_or(1);
+    let default = Config::default();
+    let cases = match std::env::var_os("PROPTEST_CASES") {
+        Some(_) => default.cases,
+        None => cases * factor.unwrap_or(1),
+    };
     Config {
         cases,
         max_global_rejects: 4 * cases,
         rng_seed: factor.map_or(RngSeed::Fixed(0), |_| RngSeed::Random),
         failure_persistence: None,
-        ..Config::default()
+        ..default
     }
 }
 

@@ -26,14 +26,6 @@ pub struct Options {
     lens: Lens,
     #[command(flatten)]
     scene: Scene,
-    /// Azimuth of the camera's axis, degrees.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    view_azimuth: f64,
     /// Altitude of the camera above the ground, m.
     #[arg(long, default_value_t = 2.0, value_name = "M")]
     altitude: f64,
@@ -79,7 +71,7 @@ pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let haze = model.haze(&options.scene.conditions(options.altitude))?;
     let [width, height, _] = options.size;
-    let azimuth = options.view_azimuth.to_radians();
+    let azimuth = options.scene.view_azimuth()?;
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
     let start = Instant::now();
     let volume = fill(options, &haze, &camera)?;

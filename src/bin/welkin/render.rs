@@ -26,14 +26,6 @@ pub struct Options {
     source: Source,
     #[command(flatten)]
     scene: Scene,
-    /// Azimuth at the top of the up fish-eye or in the middle of the others, degrees.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    view_azimuth: f64,
     /// Altitude of the observer above the ground, m.
     #[arg(
         long,
@@ -109,16 +101,12 @@ impl Options {
 }
 
 impl Options {
-    fn view(&self) -> Result<View> {
-        if !self.view_azimuth.is_finite() {
-            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
-            return Err(Failure::message(text));
-        }
-        Ok(View {
+    fn view(&self, azimuth: f64) -> View {
+        View {
             projection: self.projection,
             size: self.projection.dimensions(self.size.into()),
-            azimuth: self.view_azimuth.to_radians(),
-        })
+            azimuth,
+        }
     }
 
     /// The picture of a landscape and the number of its pixels.
@@ -171,7 +159,8 @@ pub fn run(options: &Options) -> Result<()> {
         None => model.sky(&conditions)?,
     };
     let prepared = start.elapsed();
-    let view = options.view()?;
+    let azimuth = options.scene.view_azimuth()?;
+    let view = options.view(azimuth);
     let rendering = Instant::now();
     let white = match options.exposure {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),
@@ -181,7 +170,6 @@ pub fn run(options: &Options) -> Result<()> {
         }
         None => automatic_white(&sky)?,
     };
-    let azimuth = options.view_azimuth.to_radians();
     let (picture, count) = match options.landscape.prepare(&model, &conditions, azimuth)? {
         Some(landscape) => options.scene(&landscape, white as f32)?,
         None => {

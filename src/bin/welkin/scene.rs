@@ -1,6 +1,8 @@
-//! Sun, air and ground of a picture or a volume, as arguments.
+//! Sun, air, ground and line of sight of a picture or a volume, as arguments.
 
 use welkin::Conditions;
+
+use crate::failure::{Failure, Result};
 
 #[derive(clap::Args)]
 pub struct Scene {
@@ -20,6 +22,14 @@ pub struct Scene {
         value_name = "DEG"
     )]
     sun_azimuth: f64,
+    /// Azimuth that is looked to, degrees: in the middle of the picture, or at the top of the up fish-eye.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    view_azimuth: f64,
     /// Visibility (meteorological range) at the ground, km.
     #[arg(
         long,
@@ -48,5 +58,14 @@ impl Scene {
             albedo: self.albedo,
             altitude,
         }
+    }
+
+    /// Azimuth that is looked to, rad.
+    pub fn view_azimuth(&self) -> Result<f64> {
+        if !self.view_azimuth.is_finite() {
+            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
+            return Err(Failure::message(text));
+        }
+        Ok(self.view_azimuth.to_radians())
     }
 }
