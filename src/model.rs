@@ -6,8 +6,8 @@ use std::path::Path;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    ColumnView, Contents, DensityView, Entry, Head, Kind, PolarisationBasisView, PolarisationView,
-    RadianceBasisView, RadianceView, SourceBasisView, SourceView,
+    BasisView, ColumnView, Contents, DensityView, Entry, FactorsView, Head, Kind, SourceBasisView,
+    SourceView,
 };
 use crate::sky::Sky;
 use crate::source::ReadAt;
@@ -196,20 +196,20 @@ impl Model {
         self.store.front()
     }
 
-    pub(crate) fn radiance_basis(&self) -> Result<RadianceBasisView<'_>> {
+    pub(crate) fn radiance_basis(&self) -> Result<BasisView<'_>> {
         let i = self.find(Kind::RadianceBasis, None, None)?;
         let rank = self.contents.directory[i].rank;
-        RadianceBasisView::new(self.chunk(i)?, &self.head().shape(), rank)
+        BasisView::radiance(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn radiance_chunk(
         &self,
         altitude: usize,
         visibility: usize,
-    ) -> Result<RadianceView<'_>> {
+    ) -> Result<FactorsView<'_>> {
         let i = self.find(Kind::Radiance, Some(altitude), Some(visibility))?;
         let rank = self.contents.directory[i].rank;
-        RadianceView::new(self.chunk(i)?, &self.head().shape(), rank)
+        FactorsView::radiance(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn column_chunk(&self, altitude: usize) -> Result<ColumnView<'_>> {
@@ -221,17 +221,16 @@ impl Model {
         &self,
         altitude: usize,
         visibility: usize,
-    ) -> Result<PolarisationView<'_>> {
+    ) -> Result<FactorsView<'_>> {
         let i = self.find(Kind::Polarisation, Some(altitude), Some(visibility))?;
         let rank = self.contents.directory[i].rank;
-        PolarisationView::new(self.chunk(i)?, &self.head().shape(), rank)
+        FactorsView::polarisation(self.chunk(i)?, &self.head().shape(), rank)
     }
 
-    pub(crate) fn polarisation_basis(&self) -> Result<PolarisationBasisView<'_>> {
+    pub(crate) fn polarisation_basis(&self) -> Result<BasisView<'_>> {
         let i = self.find(Kind::PolarisationBasis, None, None)?;
         let rank = self.contents.directory[i].rank;
-        let wavelengths = self.head().wavelengths.len();
-        PolarisationBasisView::new(self.chunk(i)?, &self.head().shape(), wavelengths, rank)
+        BasisView::polarisation(self.chunk(i)?, &self.head().shape(), rank)
     }
 
     pub(crate) fn density_chunk(&self) -> Result<DensityView<'_>> {

@@ -4,7 +4,7 @@ use crate::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{
-    Field, Head, Kind, Payload16, PhaseFunction, RadianceBasisView, RadianceView, altitude_node,
+    BasisView, FactorsView, Field, Head, Kind, Payload16, PhaseFunction, altitude_node,
     visibility_node, widen,
 };
 use crate::lanes::Lanes;
@@ -216,7 +216,7 @@ impl Baker<'_> {
     }
 
     /// Adds the chunk's share of ln S.
-    fn add_level(&self, chunk: &RadianceView, weight: f32, level: &mut [f32]) {
+    fn add_level(&self, chunk: &FactorsView, weight: f32, level: &mut [f32]) {
         let rows = self.elevation.index.iter().zip(self.elevation.weight);
         for (&i, tap) in rows {
             let row = &chunk.level[i * level.len()..][..level.len()];
@@ -227,7 +227,7 @@ impl Baker<'_> {
     }
 
     /// The shared factor matrices with the light between ground and sky folded in.
-    fn patterns(&self, basis: &RadianceBasisView) -> Patterns {
+    fn patterns(&self, basis: &BasisView) -> Patterns {
         let rank = basis.rank;
         let cells = self.groups.layout.cells();
         let mut channel = vec![Cell::ZERO; cells * rank];

@@ -5,8 +5,8 @@ mod common;
 use proptest::prelude::*;
 use welkin::Error;
 use welkin::format::{
-    ColumnView, Entry, Kind, Payload, PhaseFunction, RadianceBasisView, RadianceView,
-    VERSION_MAJOR, encode, parse, write,
+    BasisView, ColumnView, Entry, FactorsView, Kind, Payload, PhaseFunction, VERSION_MAJOR, encode,
+    parse, write,
 };
 
 fn payload<'a>(bytes: &'a [u8], entry: &Entry) -> &'a [u8] {
@@ -35,7 +35,7 @@ fn head_and_chunks_survive_a_round_trip() {
                 unreachable!("not asked for")
             }
             Payload::Radiance(factors) => {
-                let view = RadianceView::new(bytes, &head.shape(), entry.rank).unwrap();
+                let view = FactorsView::radiance(bytes, &head.shape(), entry.rank).unwrap();
                 assert_eq!(view.rank, factors.rank);
                 let row = view.stride;
                 for (i, &expected) in factors.elevation.iter().enumerate() {
@@ -48,7 +48,7 @@ fn head_and_chunks_survive_a_round_trip() {
                 }
             }
             Payload::RadianceBasis(basis) => {
-                let view = RadianceBasisView::new(bytes, &head.shape(), entry.rank).unwrap();
+                let view = BasisView::radiance(bytes, &head.shape(), entry.rank).unwrap();
                 assert_eq!((view.rank, view.stride), (basis.rank, 16));
                 for (i, &expected) in basis.channel.iter().enumerate() {
                     let channels = head.shape().channels;

@@ -11,11 +11,11 @@ use crate::error::{Error, Result};
 /// Bits of half-precision numbers, little-endian in the file.
 pub type Payload16 = [U16];
 
-/// Factors of the radiance at one altitude and visibility.
+/// Factors of the radiance (kind 1) or of the polarisation (kind 6) at one altitude and visibility.
 ///
 /// Matrices are row-major and `stride` wide, of which the first `rank` columns count, except `level`.
 #[derive(Clone, Copy, Debug)]
-pub struct RadianceView<'a> {
+pub struct FactorsView<'a> {
     /// Number of components.
     pub rank: usize,
     /// `rank` rounded up to a multiple of 16.
@@ -28,17 +28,30 @@ pub struct RadianceView<'a> {
     pub alpha_down: &'a Payload16,
     /// `[elevation][stride]`.
     pub elevation: &'a Payload16,
-    /// Spline coefficients of ln S, `[elevation][wavelengths]`.
+    /// Spline coefficients of ln S, `[elevation][wavelengths]`; empty for polarisation.
     pub level: &'a Payload16,
 }
 
-impl<'a> RadianceView<'a> {
+impl<'a> FactorsView<'a> {
     /// Divides the bytes of a raw radiance chunk into its tables.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the bytes are not as many as shape and rank say.
-    pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+    pub fn radiance(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance chunk", bytes, shape.radiance_bytes(rank))?;
+        Self::divide(bytes, shape, rank, shape.elevation * shape.wavelengths)
+    }
+
+    /// Divides the bytes of a raw polarisation chunk into its tables.
+    ///
+    /// # Errors
+    /// As [`FactorsView::radiance`].
+    pub fn polarisation(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+        check_length("polarisation chunk", bytes, shape.polarisation_bytes(rank))?;
+        Self::divide(bytes, shape, rank, 0)
+    }
+
+    fn divide(bytes: &'a [u8], shape: &Shape, rank: usize, levels: usize) -> Result<Self> {
         let stride = ceil16(rank);
         let mut rest = bytes;
         Ok(Self {
@@ -48,7 +61,7 @@ impl<'a> RadianceView<'a> {
             alpha_up: take(&mut rest, shape.up * stride)?,
             alpha_down: take(&mut rest, shape.down * stride)?,
             elevation: take(&mut rest, shape.elevation * stride)?,
-            level: take(&mut rest, shape.elevation * shape.wavelengths)?,
+            level: take(&mut rest, levels)?,
         })
     }
 
@@ -59,13 +72,15 @@ impl<'a> RadianceView<'a> {
     }
 }
 
-/// Factor matrices that all radiance chunks share.
+/// Factor matrices that all radiance chunks (kind 3) or all polarisation chunks (kind 7) share.
 #[derive(Clone, Copy, Debug)]
-pub struct RadianceBasisView<'a> {
+pub struct BasisView<'a> {
     /// Number of components.
     pub rank: usize,
-    /// `rank` rounded up to a multiple of 16.
+    /// `rank` rounded up to a multiple of 16: the width of `phi`.
     pub stride: usize,
+    /// Number of channels: those of the radiance, or part · wavelengths + wavelength for the polarisation.
+    pub channels: usize,
     /// `channels` rounded up to a multiple of 16: the width of `channel`.
     pub channel_stride: usize,
     /// `[phi][stride]`, of which the first `rank` columns count.
@@ -74,20 +89,35 @@ pub struct RadianceBasisView<'a> {
     pub channel: &'a Payload16,
 }
 
-impl<'a> RadianceBasisView<'a> {
+impl<'a> BasisView<'a> {
     /// Divides the bytes of a raw radiance basis into its tables.
     ///
     /// # Errors
     /// [`Error::Invalid`] if the bytes are not as many as shape and rank say.
-    pub fn new(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+    pub fn radiance(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance basis", bytes, shape.basis_bytes(rank))?;
-        let (stride, channel_stride) = (ceil16(rank), ceil16(shape.channels));
+        Self::divide(bytes, shape.phi, shape.channels, rank)
+    }
+
+    /// Divides the bytes of a raw polarisation basis into its tables.
+    ///
+    /// # Errors
+    /// As [`BasisView::radiance`].
+    pub fn polarisation(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
+        let expected = shape.polarisation_basis_bytes(rank);
+        check_length("polarisation basis", bytes, expected)?;
+        Self::divide(bytes, shape.phi, shape.polarisation_channels(), rank)
+    }
+
+    fn divide(bytes: &'a [u8], phi: usize, channels: usize, rank: usize) -> Result<Self> {
+        let (stride, channel_stride) = (ceil16(rank), ceil16(channels));
         let mut rest = bytes;
         Ok(Self {
             rank,
             stride,
+            channels,
             channel_stride,
-            phi: take(&mut rest, shape.phi * stride)?,
+            phi: take(&mut rest, phi * stride)?,
             channel: take(&mut rest, stride * channel_stride)?,
         })
     }

@@ -2,15 +2,13 @@
 
 use zerocopy::little_endian::U16;
 
-use super::chunk::{ColumnView, RadianceBasisView, RadianceView, widen};
+use super::chunk::{BasisView, ColumnView, FactorsView, widen};
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
+use super::layout::POLARISATION_PARTS;
 use super::parse::parse;
-use super::polarisation::{
-    POLARISATION_PARTS, PolarisationBasis, PolarisationBasisView, PolarisationFactors,
-    PolarisationView,
-};
+use super::polarisation::{PolarisationBasis, PolarisationFactors};
 use super::source::{SourceBasis, SourceBasisView, SourceCore, SourceView};
 use super::write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors};
 use crate::error::{Error, Result};
@@ -53,23 +51,23 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
         let payload = match entry.kind {
             Kind::Unknown(_) => continue,
             Kind::Radiance => {
-                let view = RadianceView::new(&payload, &shape, entry.rank)?;
+                let view = FactorsView::radiance(&payload, &shape, entry.rank)?;
                 Payload::Radiance(radiance(&view))
             }
             Kind::RadianceBasis => {
-                let view = RadianceBasisView::new(&payload, &shape, entry.rank)?;
-                Payload::RadianceBasis(radiance_basis(&view, shape.channels))
+                let view = BasisView::radiance(&payload, &shape, entry.rank)?;
+                Payload::RadianceBasis(radiance_basis(&view))
             }
             Kind::Column => Payload::Column(ColumnTable {
                 values: narrow(ColumnView::new(&payload, &shape)?.values),
             }),
             Kind::Polarisation => {
-                let view = PolarisationView::new(&payload, &shape, entry.rank)?;
+                let view = FactorsView::polarisation(&payload, &shape, entry.rank)?;
                 Payload::Polarisation(polarisation(&view))
             }
             Kind::PolarisationBasis => {
-                let view = PolarisationBasisView::new(&payload, &shape, nw, entry.rank)?;
-                Payload::PolarisationBasis(polarisation_basis(&view, POLARISATION_PARTS * nw))
+                let view = BasisView::polarisation(&payload, &shape, entry.rank)?;
+                Payload::PolarisationBasis(polarisation_basis(&view))
             }
             Kind::Transmittance => {
                 let view = DensityView::new(&payload, nk, contents.head.planet.top)?;
@@ -194,7 +192,7 @@ pub(super) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) ->
     rows.flat_map(|row| pick(row, indices)).collect()
 }
 
-fn radiance(view: &RadianceView) -> RadianceFactors {
+fn radiance(view: &FactorsView) -> RadianceFactors {
     let rank = view.rank;
     let rows = |table: &[U16]| unpadded(table, view.stride, rank);
     RadianceFactors {
@@ -207,16 +205,7 @@ fn radiance(view: &RadianceView) -> RadianceFactors {
     }
 }
 
-fn radiance_basis(view: &RadianceBasisView, channels: usize) -> RadianceBasis {
-    let channel = &view.channel[..view.rank * view.channel_stride];
-    RadianceBasis {
-        rank: view.rank,
-        phi: unpadded(view.phi, view.stride, view.rank),
-        channel: unpadded(channel, view.channel_stride, channels),
-    }
-}
-
-fn polarisation(view: &PolarisationView) -> PolarisationFactors {
+fn polarisation(view: &FactorsView) -> PolarisationFactors {
     let rows = |table: &[U16]| unpadded(table, view.stride, view.rank);
     PolarisationFactors {
         rank: view.rank,
@@ -227,13 +216,30 @@ fn polarisation(view: &PolarisationView) -> PolarisationFactors {
     }
 }
 
-fn polarisation_basis(view: &PolarisationBasisView, channels: usize) -> PolarisationBasis {
-    let channel = &view.channel[..view.rank * view.channel_stride];
+fn radiance_basis(view: &BasisView) -> RadianceBasis {
+    let (phi, channel) = matrices(view);
+    RadianceBasis {
+        rank: view.rank,
+        phi,
+        channel,
+    }
+}
+
+fn polarisation_basis(view: &BasisView) -> PolarisationBasis {
+    let (phi, channel) = matrices(view);
     PolarisationBasis {
         rank: view.rank,
-        phi: unpadded(view.phi, view.stride, view.rank),
-        channel: unpadded(channel, view.channel_stride, channels),
+        phi,
+        channel,
     }
+}
+
+fn matrices(view: &BasisView) -> (Vec<f32>, Vec<f32>) {
+    let channel = &view.channel[..view.rank * view.channel_stride];
+    (
+        unpadded(view.phi, view.stride, view.rank),
+        unpadded(channel, view.channel_stride, view.channels),
+    )
 }
 
 fn unpadded(table: &[U16], stride: usize, width: usize) -> Vec<f32> {

@@ -2,13 +2,12 @@
 
 use std::borrow::Cow;
 
-use super::chunk::{ColumnView, RadianceBasisView, RadianceView};
+use super::chunk::{BasisView, ColumnView, FactorsView};
 use super::density::DensityView;
 use super::head::{Entry, Head, Kind};
 use super::layout::ENCODING_RAW;
 #[cfg(feature = "zstd")]
 use super::layout::ENCODING_ZSTD;
-use super::polarisation::{PolarisationBasisView, PolarisationView};
 use super::source::{SourceBasisView, SourceView};
 use crate::error::{Error, Result};
 
@@ -38,18 +37,18 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
     let (constituents, wavelengths) = (head.constituents, head.wavelengths.len());
     let finite = match entry.kind {
         Kind::Unknown(_) => return Ok(()),
-        Kind::Radiance => RadianceView::new(payload, &shape, entry.rank)?.is_finite(),
+        Kind::Radiance => FactorsView::radiance(payload, &shape, entry.rank)?.is_finite(),
         Kind::Column => ColumnView::new(payload, &shape)?.is_finite(),
-        Kind::Polarisation => PolarisationView::new(payload, &shape, entry.rank)?.is_finite(),
+        Kind::Polarisation => FactorsView::polarisation(payload, &shape, entry.rank)?.is_finite(),
         Kind::PolarisationBasis => {
-            PolarisationBasisView::new(payload, &shape, wavelengths, entry.rank)?.is_finite()
+            BasisView::polarisation(payload, &shape, entry.rank)?.is_finite()
         }
         Kind::Transmittance => {
             return DensityView::new(payload, constituents, head.planet.top).map(drop);
         }
         Kind::Source => return SourceView::new(payload, constituents, wavelengths).map(drop),
         Kind::SourceBasis => return SourceBasisView::new(payload, wavelengths).map(drop),
-        Kind::RadianceBasis => RadianceBasisView::new(payload, &shape, entry.rank)?.is_finite(),
+        Kind::RadianceBasis => BasisView::radiance(payload, &shape, entry.rank)?.is_finite(),
     };
     if finite {
         return Ok(());

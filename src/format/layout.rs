@@ -128,6 +128,9 @@ pub struct Shape {
     pub constituents: usize,
 }
 
+/// Parts of the polarisation: Q and U/sin φ of light over black ground, Q and U/sin φ of light from the ground.
+pub const POLARISATION_PARTS: usize = 4;
+
 impl Shape {
     /// Raw bytes of a radiance chunk of the given rank.
     pub fn radiance_bytes(&self, rank: usize) -> usize {
@@ -138,6 +141,21 @@ impl Shape {
     /// Raw bytes of a radiance basis of the given rank.
     pub fn basis_bytes(&self, rank: usize) -> usize {
         2 * ceil16(rank) * (self.phi + ceil16(self.channels))
+    }
+
+    /// Raw bytes of a polarisation chunk of the given rank.
+    pub fn polarisation_bytes(&self, rank: usize) -> usize {
+        ceil16(rank) * (4 + 2 * (self.up + self.down + self.elevation))
+    }
+
+    /// Raw bytes of a polarisation basis of the given rank.
+    pub fn polarisation_basis_bytes(&self, rank: usize) -> usize {
+        2 * ceil16(rank) * (self.phi + ceil16(self.polarisation_channels()))
+    }
+
+    /// Parts of the polarisation × wavelengths.
+    pub fn polarisation_channels(&self) -> usize {
+        POLARISATION_PARTS * self.wavelengths
     }
 
     /// Raw bytes of a column chunk.

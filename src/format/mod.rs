@@ -40,7 +40,7 @@ pub(crate) use source::phase_function;
 
 #[cfg(feature = "std")]
 pub use assemble::{extend, recode};
-pub use chunk::{ColumnView, Payload16, RadianceBasisView, RadianceView};
+pub use chunk::{BasisView, ColumnView, FactorsView, Payload16};
 #[cfg(feature = "std")]
 pub use crop::{Selection, crop, unpack};
 #[cfg(feature = "std")]
@@ -50,16 +50,13 @@ pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 pub use layout::{
     CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_POLARISATION,
     KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS,
-    KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX, Shape, VERSION_MAJOR,
-    VERSION_MINOR, ceil16,
+    KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX, POLARISATION_PARTS,
+    Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
 #[cfg(feature = "std")]
 pub use parse::{Contents, parse};
 #[cfg(feature = "std")]
-pub use polarisation::{
-    POLARISATION_PARTS, PolarisationBasis, PolarisationBasisView, PolarisationFactors,
-    PolarisationView,
-};
+pub use polarisation::{PolarisationBasis, PolarisationFactors};
 #[cfg(feature = "std")]
 pub use replace::replace_file;
 #[cfg(feature = "std")]

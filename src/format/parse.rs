@@ -7,7 +7,6 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 use super::layout::*;
-use super::polarisation::{polarisation_basis_bytes, polarisation_bytes};
 use crate::axis::ElevationAxis;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
@@ -406,10 +405,8 @@ fn check_chunk_length(
         Kind::Radiance => head.shape().radiance_bytes(entry.rank) as u64,
         Kind::RadianceBasis => head.shape().basis_bytes(entry.rank) as u64,
         Kind::Column => head.shape().column_bytes() as u64,
-        Kind::Polarisation => polarisation_bytes(&head.shape(), entry.rank) as u64,
-        Kind::PolarisationBasis => {
-            polarisation_basis_bytes(&head.shape(), head.wavelengths.len(), entry.rank) as u64
-        }
+        Kind::Polarisation => head.shape().polarisation_bytes(entry.rank) as u64,
+        Kind::PolarisationBasis => head.shape().polarisation_basis_bytes(entry.rank) as u64,
         // The payload itself says how long it must be; that is checked at its first touch.
         _ => decoded,
     };

@@ -1,11 +1,10 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
-use super::chunk::{Payload16, RadianceBasisView, RadianceView};
+use super::chunk::{BasisView, FactorsView, Payload16};
 use super::encoding::{check_chunk, decode};
 use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
-use super::polarisation::{POLARISATION_PARTS, PolarisationBasisView, PolarisationView};
 use super::source::{SourceBasisView, SourceView};
 use crate::error::Error;
 
@@ -113,33 +112,14 @@ fn check_payload(contents: &Contents, file: &[u8], i: usize, entry: &Entry) -> R
 /// Columns beyond the rank and beyond the channels.
 fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error> {
     let (shape, rank) = (head.shape(), entry.rank);
-    let parts = POLARISATION_PARTS * head.wavelengths.len();
     let zero = match entry.kind {
-        Kind::Radiance => {
-            let view = RadianceView::new(payload, &shape, rank)?;
-            let scale = view.scale[rank..].iter().all(|s| s.get() == 0.0);
-            let matrices = [view.alpha_up, view.alpha_down, view.elevation];
-            scale && matrices.iter().all(|m| is_zero(m, view.stride, rank))
-        }
+        Kind::Radiance => factors_are_padded(&FactorsView::radiance(payload, &shape, rank)?),
         Kind::Polarisation => {
-            let view = PolarisationView::new(payload, &shape, rank)?;
-            let scale = view.scale[rank..].iter().all(|s| s.get() == 0.0);
-            let matrices = [view.alpha_up, view.alpha_down, view.elevation];
-            scale && matrices.iter().all(|m| is_zero(m, view.stride, rank))
+            factors_are_padded(&FactorsView::polarisation(payload, &shape, rank)?)
         }
-        Kind::RadianceBasis => {
-            let view = RadianceBasisView::new(payload, &shape, rank)?;
-            let (channel, rest) = view.channel.split_at(rank * view.channel_stride);
-            is_zero(view.phi, view.stride, rank)
-                && is_zero(channel, view.channel_stride, shape.channels)
-                && is_zero(rest, view.channel_stride, 0)
-        }
+        Kind::RadianceBasis => basis_is_padded(&BasisView::radiance(payload, &shape, rank)?),
         Kind::PolarisationBasis => {
-            let view = PolarisationBasisView::new(payload, &shape, head.wavelengths.len(), rank)?;
-            let (channel, rest) = view.channel.split_at(rank * view.channel_stride);
-            is_zero(view.phi, view.stride, rank)
-                && is_zero(channel, view.channel_stride, parts)
-                && is_zero(rest, view.channel_stride, 0)
+            basis_is_padded(&BasisView::polarisation(payload, &shape, rank)?)
         }
         _ => true,
     };
@@ -147,6 +127,19 @@ fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error
         return Ok(());
     }
     Err(Error::invalid("padding of a payload", "expected zeros"))
+}
+
+fn factors_are_padded(view: &FactorsView) -> bool {
+    let scale = view.scale[view.rank..].iter().all(|s| s.get() == 0.0);
+    let matrices = [view.alpha_up, view.alpha_down, view.elevation];
+    scale && matrices.iter().all(|m| is_zero(m, view.stride, view.rank))
+}
+
+fn basis_is_padded(view: &BasisView) -> bool {
+    let (channel, rest) = view.channel.split_at(view.rank * view.channel_stride);
+    is_zero(view.phi, view.stride, view.rank)
+        && is_zero(channel, view.channel_stride, view.channels)
+        && is_zero(rest, view.channel_stride, 0)
 }
 
 /// Whether the columns of a matrix from `width` on are zero.

@@ -247,7 +247,7 @@ fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
         Payload::Radiance(factors) => encode_radiance(shape, factors),
         Payload::Column(table) => encode_column(shape, table),
         Payload::Polarisation(factors) => factors.encode(shape),
-        Payload::PolarisationBasis(basis) => basis.encode(shape, wavelengths),
+        Payload::PolarisationBasis(basis) => basis.encode(shape),
         Payload::RadianceBasis(basis) => encode_basis(shape, basis),
         Payload::Transmittance(table) => table.encode(constituents, head.planet.top),
         Payload::Source(core) => core.encode(constituents, wavelengths),

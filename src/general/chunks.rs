@@ -3,8 +3,8 @@
 use super::head::HeadView;
 use crate::error::{Error, Result};
 use crate::format::{
-    ColumnView, ENCODING_RAW, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, RadianceBasisView,
-    RadianceView,
+    BasisView, ColumnView, ENCODING_RAW, FactorsView, KIND_COLUMN, KIND_RADIANCE,
+    KIND_RADIANCE_BASIS,
 };
 
 /// Most chunks of radiance, and most altitudes.
@@ -14,9 +14,9 @@ pub(super) const MOST_ALTITUDES: usize = 64;
 /// Chunks by altitude and visibility.
 pub(crate) struct Chunks<'a> {
     visibilities: usize,
-    radiance: [Option<RadianceView<'a>>; MOST_CHUNKS],
+    radiance: [Option<FactorsView<'a>>; MOST_CHUNKS],
     column: [Option<ColumnView<'a>>; MOST_ALTITUDES],
-    basis: Option<RadianceBasisView<'a>>,
+    basis: Option<BasisView<'a>>,
 }
 
 impl<'a> Chunks<'a> {
@@ -74,19 +74,19 @@ impl<'a> Chunks<'a> {
                 let known = altitude < head.altitudes.len() && visibility < self.visibilities;
                 let place = altitude * self.visibilities + visibility;
                 let slot = self.radiance.get_mut(place).filter(|_| known);
-                *slot.ok_or_else(outside)? = Some(RadianceView::new(payload, shape, rank)?);
+                *slot.ok_or_else(outside)? = Some(FactorsView::radiance(payload, shape, rank)?);
             }
             KIND_COLUMN => {
                 let slot = self.column.get_mut(altitude).ok_or_else(outside)?;
                 *slot = Some(ColumnView::new(payload, shape)?);
             }
-            _ => self.basis = Some(RadianceBasisView::new(payload, shape, rank)?),
+            _ => self.basis = Some(BasisView::radiance(payload, shape, rank)?),
         }
         Ok(())
     }
 
     #[inline(always)]
-    pub fn radiance(&self, altitude: usize, visibility: usize) -> Option<&RadianceView<'a>> {
+    pub fn radiance(&self, altitude: usize, visibility: usize) -> Option<&FactorsView<'a>> {
         self.radiance[altitude * self.visibilities + visibility].as_ref()
     }
 
@@ -95,7 +95,7 @@ impl<'a> Chunks<'a> {
         self.column[altitude].as_ref()
     }
 
-    pub fn basis(&self) -> Option<&RadianceBasisView<'a>> {
+    pub fn basis(&self) -> Option<&BasisView<'a>> {
         self.basis.as_ref()
     }
 }

@@ -7,7 +7,7 @@ use zerocopy::little_endian::{F32, U16};
 
 use super::WAVELENGTH_BLOCKS;
 use crate::axis::Taps;
-use crate::format::{RadianceBasisView, RadianceView, widen};
+use crate::format::{BasisView, FactorsView, widen};
 use crate::lanes::Lanes;
 use crate::simd::Instructions;
 
@@ -64,7 +64,7 @@ impl<'a, const N: usize> Rows<'a, N> {
 #[inline(always)]
 pub(super) fn fetch_chunk<const N: usize, I: Instructions>(
     instructions: I,
-    chunk: &RadianceView,
+    chunk: &FactorsView,
     heights: &[U16],
     [alpha, elevation]: &[Taps<N>; 2],
 ) {
@@ -79,7 +79,7 @@ pub(super) fn fetch_chunk<const N: usize, I: Instructions>(
 #[inline(always)]
 pub(super) fn fetch_level<I: Instructions>(
     instructions: I,
-    chunk: &RadianceView,
+    chunk: &FactorsView,
     wavelengths: usize,
     elevation: &Taps,
 ) {
@@ -90,7 +90,7 @@ pub(super) fn fetch_level<I: Instructions>(
 #[inline(always)]
 pub(super) fn add_chunk<const N: usize, I: Instructions>(
     instructions: I,
-    chunk: &RadianceView,
+    chunk: &FactorsView,
     heights: &[U16],
     [alpha, elevation]: &[Taps<N>; 2],
     weight: f32,
@@ -109,7 +109,7 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
 #[inline(always)]
 pub(super) fn add_level<I: Instructions>(
     instructions: I,
-    chunk: &RadianceView,
+    chunk: &FactorsView,
     wavelengths: usize,
     elevation: &Taps,
     weight: f32,
@@ -143,7 +143,7 @@ pub(super) fn level(rows: &LevelRows, wavelengths: usize, elevation: &Taps) -> S
 #[inline(always)]
 pub(super) fn turn<I: Instructions>(
     instructions: I,
-    basis: &RadianceBasisView,
+    basis: &BasisView,
     phi: &Taps,
     sum: &mut Components,
 ) {
@@ -157,7 +157,7 @@ pub(super) fn turn<I: Instructions>(
 #[inline(always)]
 pub(super) fn project<I: Instructions>(
     instructions: I,
-    basis: &RadianceBasisView,
+    basis: &BasisView,
     components: &Components,
     channels: &mut Channels,
 ) {

@@ -8,7 +8,7 @@ use super::place::{Place, Question};
 use super::{General, MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::format::{ColumnView, RadianceView};
+use crate::format::{ColumnView, FactorsView};
 use crate::geometry::Side;
 use crate::lanes::Lanes;
 use crate::simd::{Instructions, Kernel};
@@ -51,7 +51,7 @@ struct Query<'a, 'b> {
     model: &'b General<'a>,
     place: &'b Place,
     columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
-    chunks: [Option<(&'b RadianceView<'a>, Share)>; MOST_AROUND],
+    chunks: [Option<(&'b FactorsView<'a>, Share)>; MOST_AROUND],
 }
 
 impl<'a, 'b> Query<'a, 'b> {
@@ -132,7 +132,7 @@ impl<'a, 'b> Query<'a, 'b> {
 
     /// The factor matrix on the ray's side of the horizon.
     #[inline(always)]
-    fn heights(&self, chunk: &RadianceView<'a>) -> &'a [U16] {
+    fn heights(&self, chunk: &FactorsView<'a>) -> &'a [U16] {
         match self.place.ray.side {
             Side::Up => chunk.alpha_up,
             Side::Down => chunk.alpha_down,

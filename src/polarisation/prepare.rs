@@ -3,7 +3,7 @@
 use super::table::{Pair, Polarisation};
 use crate::axis::{Ends, spline};
 use crate::error::{Error, Result};
-use crate::format::{PolarisationBasisView, widen};
+use crate::format::{BasisView, widen};
 use crate::math::LANES;
 use crate::model::Model;
 use crate::prepare::{Own, Place, widen_rows};
@@ -62,7 +62,7 @@ struct Basis<'a> {
 
 impl<'a> Basis<'a> {
     /// `ground` is what the light from the ground is multiplied with at each wavelength.
-    fn new(view: &PolarisationBasisView, ground: &[f32], layout: &'a Layout) -> Self {
+    fn new(view: &BasisView, ground: &[f32], layout: &'a Layout) -> Self {
         let (rank, nw) = (view.rank, ground.len());
         let mut channel = vec![Pair::ZERO; layout.blocks() * rank];
         for r in 0..rank {
