@@ -84,6 +84,12 @@ impl<const N: usize> Lanes<N> {
         self.map(math::one_minus_exp_neg)
     }
 
+    /// See [`math::asin`].
+    #[inline(always)]
+    pub fn asin(self) -> Self {
+        self.map(math::asin)
+    }
+
     /// See [`math::log2`].
     #[inline(always)]
     pub fn log2(self) -> Self {
@@ -123,6 +129,34 @@ impl Lanes<8> {
     #[inline(always)]
     pub fn pair(low: f32, high: f32) -> Self {
         Self(core::array::from_fn(|i| if i < 4 { low } else { high }))
+    }
+
+    /// Number `k` of each half, four times.
+    #[inline(always)]
+    pub fn spread(self, k: usize) -> Self {
+        Self(core::array::from_fn(|i| self.0[(i & 4) + k]))
+    }
+
+    /// Two halves.
+    #[inline(always)]
+    pub fn join(low: [f32; 4], high: [f32; 4]) -> Self {
+        Self(core::array::from_fn(|i| {
+            if i < 4 { low[i] } else { high[i - 4] }
+        }))
+    }
+
+    /// Eight numbers from `first` on.
+    #[inline(always)]
+    pub fn load(values: &[f32], first: usize) -> Self {
+        let mut lanes = [0.0; 8];
+        lanes.copy_from_slice(&values[first..first + 8]);
+        Self(lanes)
+    }
+
+    /// Puts the numbers from `first` on.
+    #[inline(always)]
+    pub fn store(self, values: &mut [f32], first: usize) {
+        values[first..first + 8].copy_from_slice(&self.0);
     }
 
     #[inline(always)]

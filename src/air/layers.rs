@@ -10,7 +10,7 @@ use crate::lanes::Lanes;
 use crate::math::LANES;
 
 /// Vectors of constituents.
-const QUADS: usize = 4;
+pub(crate) const QUADS: usize = 4;
 
 /// One number per constituent: densities, or columns in metres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,8 +58,9 @@ impl Piece {
     /// Mean of the polynomial with these coefficients.
     #[inline(always)]
     pub fn mean(&self, [a, b, c]: [f32; 3]) -> f32 {
+        let mean = a + b * self.mean + c * self.square;
         // Rounding must not make a density negative.
-        (a + b * self.mean + c * self.square).max(0.0)
+        if mean > 0.0 { mean } else { 0.0 }
     }
 }
 
@@ -78,13 +79,20 @@ struct Layer {
 #[derive(Clone, Debug)]
 pub(crate) struct Layers {
     planet: Planet,
+    diameter: f64,
+    per_diameter: f64,
     /// Edges in `w`, m: −∞, that of the ground, …
     edges: Vec<f64>,
     /// The first lies below the ground.
     layers: Vec<Layer>,
+    /// The layer at the bottom of each of [`BINS`] bins of `w`, so that none is searched for.
+    bins: Vec<u16>,
+    bins_per_metre: f64,
     pub quads: usize,
-    pub constituents: usize,
 }
+
+/// A few hundred metres each.
+const BINS: usize = 256;
 
 impl Layers {
     pub fn new(view: &DensityView, planet: Planet, constituents: usize) -> Self {
@@ -119,12 +127,20 @@ impl Layers {
         layers.extend(above);
         // Below the ground the density stays what it is there.
         layers[0].polynomial[0] = layers[1].polynomial[0];
+        let (bottom, top) = (edges[1], edges[layers.len()]);
+        let bin = |i: usize| {
+            let w = bottom + (top - bottom) * (i as f64 / BINS as f64);
+            edges[1..layers.len()].partition_point(|&edge| edge <= w) as u16
+        };
         Self {
             planet,
+            diameter: 2.0 * planet.radius,
+            per_diameter: 0.5 / planet.radius,
+            bins: (0..BINS).map(bin).collect(),
+            bins_per_metre: BINS as f64 / (top - bottom),
             edges,
             layers,
             quads: constituents.div_ceil(LANES),
-            constituents,
         }
     }
 
@@ -134,43 +150,33 @@ impl Layers {
 
     /// Bytes on the heap.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.edges.as_slice()) + size_of_val(self.layers.as_slice())
+        size_of_val(self.edges.as_slice())
+            + size_of_val(self.layers.as_slice())
+            + size_of_val(self.bins.as_slice())
     }
 
     /// Columns on `line` between the distances `from < to` from its tangent point (negative before it), m.
     #[inline(always)]
     pub fn columns(&self, line: Line, from: f64, to: f64) -> Amounts {
-        match self.quads {
-            // The usual case: the sums stay in a register.
-            1 => self.sums::<1>(line, from, to),
-            _ => self.sums::<QUADS>(line, from, to),
-        }
+        let mut amounts = Amounts::default();
+        self.enter(line, from).columns(to, &mut amounts);
+        amounts
     }
 
+    /// Starts on `line` at the distance `from` from its tangent point (negative before it).
     #[inline(always)]
-    fn sums<const N: usize>(&self, line: Line, from: f64, to: f64) -> Amounts {
-        let mut sums = [Lanes::splat(0.0); N];
-        self.walk(
+    pub fn enter(&self, line: Line, from: f64) -> Walker<'_> {
+        let top = self.reach(line, self.layers.len());
+        let s = match from < 0.0 && from * from > top {
+            true => entry(top),
+            false => from,
+        };
+        Walker {
+            layers: self,
             line,
-            from,
-            to,
-            #[inline(always)]
-            |piece| {
-                let [a, b, c] = &self.layers[piece.layer].polynomial;
-                let length = piece.length();
-                for (q, sum) in sums.iter_mut().enumerate() {
-                    let [a, b, c] = [a, b, c].map(|amounts| Lanes(amounts.0[q]));
-                    let mean = a + b * piece.mean + c * piece.square;
-                    // Rounding must not make a density negative.
-                    *sum = *sum + mean.max(Lanes::splat(0.0)) * length;
-                }
-            },
-        );
-        let mut amounts = Amounts::default();
-        for (out, sum) in amounts.0.iter_mut().zip(sums) {
-            *out = sum.0;
+            s,
+            layer: self.find(line.lowest + s * s * self.per_diameter),
         }
-        amounts
     }
 
     /// Densities weighted by `weight` and summed: the polynomial of each layer.
@@ -185,33 +191,10 @@ impl Layers {
         piece.length() * piece.mean(weighted[piece.layer])
     }
 
-    /// Visits what the line crosses of each layer between the distances `from < to`, in this order.
+    /// Square of the distance from the tangent point at which the line is at an edge.
     #[inline(always)]
-    pub fn walk(&self, line: Line, from: f64, to: f64, mut visit: impl FnMut(Piece)) {
-        let diameter = 2.0 * self.planet.radius;
-        // Square of the distance at which the line is at the edge.
-        let reach = |edge: f64| (edge - line.lowest) * diameter;
-        let mut s = from;
-        let top = reach(self.edges[self.layers.len()]).max(0.0);
-        if s < 0.0 && s * s > top {
-            s = -top.sqrt();
-        }
-        let mut i = self.find(line.lowest + s * s / diameter);
-        while s < to && i < self.layers.len() {
-            let below = reach(self.edges[i]);
-            // Inwards through the lower edge, or over the tangent point and outwards through the upper one.
-            let inwards = s < 0.0 && below > 0.0;
-            let stop = match inwards {
-                true => -below.sqrt(),
-                false => reach(self.edges[i + 1]).max(0.0).sqrt(),
-            };
-            // Beyond an edge only by rounding: nothing is crossed.
-            let stop = stop.max(s).min(to);
-            visit(self.piece(line, i, s, stop));
-            s = stop;
-            // The line that leaves the lowest layer inwards does not exist: it reaches down to −∞.
-            i = if inwards { i - 1 } else { i + 1 };
-        }
+    fn reach(&self, line: Line, edge: usize) -> f64 {
+        (self.edges[edge] - line.lowest) * self.diameter
     }
 
     /// Part of a piece.
@@ -239,7 +222,106 @@ impl Layers {
 
     #[inline(always)]
     fn find(&self, w: f64) -> usize {
-        let inner = &self.edges[1..self.layers.len()];
-        inner.partition_point(|&edge| edge <= w)
+        if w < self.edges[1] {
+            return 0;
+        }
+        let bin = ((w - self.edges[1]) * self.bins_per_metre) as usize;
+        let mut i = usize::from(self.bins[bin.min(BINS - 1)]);
+        while i + 1 < self.layers.len() && self.edges[i + 1] <= w {
+            i += 1;
+        }
+        i
+    }
+}
+
+/// Where a line from beyond the air comes into it, by the square of that distance.
+#[cold]
+fn entry(top: f64) -> f64 {
+    -top.max(0.0).sqrt()
+}
+
+/// One instruction where neither is NaN.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Somewhere on a line, on the way through the layers.
+pub(crate) struct Walker<'a> {
+    layers: &'a Layers,
+    line: Line,
+    /// Distance from the tangent point, m.
+    s: f64,
+    layer: usize,
+}
+
+impl Walker<'_> {
+    /// From the tangent point, m.
+    #[inline(always)]
+    pub fn distance(&self) -> f64 {
+        self.s
+    }
+
+    /// Goes on to the distance `to` from the tangent point and visits what is crossed of each layer.
+    #[inline(always)]
+    pub fn go(&mut self, to: f64, mut visit: impl FnMut(Piece)) {
+        let (layers, line) = (self.layers, self.line);
+        // Inwards through lower edges; that of the lowest layer lies at −∞, where no line comes.
+        while self.s < 0.0 {
+            let below = layers.reach(line, self.layer);
+            let edge = -larger(below, 0.0).sqrt();
+            if edge >= to || below <= 0.0 {
+                break;
+            }
+            // Beyond an edge only by rounding: nothing is crossed.
+            let stop = larger(edge, self.s);
+            visit(layers.piece(line, self.layer, self.s, stop));
+            (self.s, self.layer) = (stop, self.layer - 1);
+        }
+        // Over the tangent point and outwards through upper ones.
+        while self.s < to && self.layer < layers.layers.len() {
+            let edge = larger(layers.reach(line, self.layer + 1), 0.0).sqrt();
+            let stop = larger(edge, self.s);
+            let stop = if stop < to { stop } else { to };
+            visit(layers.piece(line, self.layer, self.s, stop));
+            self.s = stop;
+            if edge > to {
+                break;
+            }
+            self.layer += 1;
+        }
+    }
+
+    /// Goes on to the distance `to` and hands the columns on the way, m.
+    #[inline(always)]
+    pub fn columns(&mut self, to: f64, out: &mut Amounts) {
+        match self.layers.quads {
+            // The usual case: the sums stay in a register.
+            1 => self.sums::<1>(to, out),
+            _ => self.sums::<QUADS>(to, out),
+        }
+    }
+
+    #[inline(always)]
+    fn sums<const N: usize>(&mut self, to: f64, out: &mut Amounts) {
+        let layers = self.layers;
+        let mut sums = [Lanes::splat(0.0); N];
+        self.go(
+            to,
+            #[inline(always)]
+            |piece| {
+                let [a, b, c] = &layers.layers[piece.layer].polynomial;
+                let length = piece.length();
+                for (q, sum) in sums.iter_mut().enumerate() {
+                    let [a, b, c] = [a, b, c].map(|amounts| Lanes(amounts.0[q]));
+                    let mean = a + b * piece.mean + c * piece.square;
+                    // Rounding must not make a density negative.
+                    *sum = *sum + mean.max(Lanes::splat(0.0)) * length;
+                }
+            },
+        );
+        for (out, sum) in out.0.iter_mut().zip(sums) {
+            *out = sum.0;
+        }
     }
 }

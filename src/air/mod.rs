@@ -3,7 +3,7 @@
 mod layers;
 mod segment;
 
-pub(crate) use layers::{Amounts, Layers, Line, Piece};
+pub(crate) use layers::{Amounts, Layers, Line, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
 use crate::axis::linear;
@@ -11,8 +11,9 @@ use crate::error::{Error, Result};
 use crate::format::{Head, visibility_node};
 use crate::geometry::Planet;
 use crate::lanes::Lanes;
-use crate::math::{LANES, exp};
+use crate::math::LANES;
 use crate::model::Model;
+use crate::simd::{Instructions, Kernel, dispatch};
 
 /// The air at one visibility: transmittance along straight lines, without refraction.
 ///
@@ -29,7 +30,8 @@ pub struct Air {
     wavelengths: Vec<f64>,
 }
 
-/// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`.
+/// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`, with constituents of none up to a full
+/// vector.
 #[derive(Clone, Debug)]
 pub(crate) struct Extinction {
     blocks: usize,
@@ -47,13 +49,15 @@ impl Extinction {
             }
         }
         let lane = |block: &[f64], i: usize| block.get(i).map_or(0.0, |&k| k as f32);
-        let blocks = row.chunks(nw).flat_map(|row| row.chunks(LANES));
-        Self {
-            blocks: nw.div_ceil(LANES),
-            table: blocks
-                .map(|b| core::array::from_fn(|i| lane(b, i)))
-                .collect(),
-        }
+        let rows = row.chunks(nw).flat_map(|row| row.chunks(LANES));
+        let rows = rows.map(|b| core::array::from_fn(|i| lane(b, i)));
+        let blocks = nw.div_ceil(LANES);
+        let mut table: Vec<_> = rows.collect();
+        table.resize(
+            head.constituents.next_multiple_of(LANES) * blocks,
+            [0.0; LANES],
+        );
+        Self { blocks, table }
     }
 
     /// Extinction coefficients of constituent `k` in a block of wavelengths.
@@ -134,8 +138,13 @@ impl Air {
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Length`] unless `out` has one
     /// element per wavelength.
     pub fn transmittance(&self, from: [f64; 3], to: [f64; 3], out: &mut [f32]) -> Result<()> {
-        self.optical_depth(from, to, out)?;
-        attenuate(out);
+        self.check_output(out)?;
+        let segment = Segment::between(&self.planet(), from, to)?;
+        dispatch(Depths::<true> {
+            air: self,
+            segment: &segment,
+            out,
+        });
         Ok(())
     }
 
@@ -146,7 +155,11 @@ impl Air {
     pub fn optical_depth(&self, from: [f64; 3], to: [f64; 3], out: &mut [f32]) -> Result<()> {
         self.check_output(out)?;
         let segment = Segment::between(&self.planet(), from, to)?;
-        self.depths(&segment, out);
+        dispatch(Depths::<false> {
+            air: self,
+            segment: &segment,
+            out,
+        });
         Ok(())
     }
 
@@ -166,23 +179,12 @@ impl Air {
             out.fill(0.0);
             return Ok(());
         }
-        self.depths(&segment, out);
-        attenuate(out);
+        dispatch(Depths::<true> {
+            air: self,
+            segment: &segment,
+            out,
+        });
         Ok(())
-    }
-
-    fn depths(&self, segment: &Segment, out: &mut [f32]) {
-        let columns = self
-            .layers
-            .columns(segment.line, segment.from, segment.to());
-        let (whole, rest) = out.as_chunks_mut();
-        for (block, out) in whole.iter_mut().enumerate() {
-            *out = self.extinction.depth(&columns, block);
-        }
-        if !rest.is_empty() {
-            let depth = self.extinction.depth(&columns, whole.len());
-            rest.copy_from_slice(&depth[..rest.len()]);
-        }
     }
 
     fn check_output(&self, out: &[f32]) -> Result<()> {
@@ -197,12 +199,44 @@ impl Air {
     }
 }
 
-fn attenuate(out: &mut [f32]) {
-    let (blocks, rest) = out.as_chunks_mut::<LANES>();
-    for block in blocks {
-        *block = (-Lanes(*block)).exp().0;
+/// Optical depths of a segment, or what they leave of light.
+struct Depths<'a, const ATTENUATE: bool> {
+    air: &'a Air,
+    segment: &'a Segment,
+    out: &'a mut [f32],
+}
+
+impl<const ATTENUATE: bool> Depths<'_, ATTENUATE> {
+    #[inline(always)]
+    fn block(air: &Air, columns: &Amounts, block: usize) -> [f32; LANES] {
+        let depth = air.extinction.depth(columns, block);
+        match ATTENUATE {
+            true => (-Lanes(depth)).exp().0,
+            false => depth,
+        }
     }
-    for value in rest {
-        *value = exp(-*value);
+}
+
+impl<const ATTENUATE: bool> Kernel for Depths<'_, ATTENUATE> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) {
+        let (air, segment) = (self.air, self.segment);
+        let (line, from, to) = (segment.line, segment.from, segment.to());
+        // The same both ways: outwards where it can be, so that branches are alike.
+        let (from, to) = match from + to < 0.0 {
+            true => (-to, -from),
+            false => (from, to),
+        };
+        let columns = air.layers.columns(line, from, to);
+        let (whole, rest) = self.out.as_chunks_mut();
+        for (block, out) in whole.iter_mut().enumerate() {
+            *out = Self::block(air, &columns, block);
+        }
+        if !rest.is_empty() {
+            let last = Self::block(air, &columns, whole.len());
+            rest.copy_from_slice(&last[..rest.len()]);
+        }
     }
 }

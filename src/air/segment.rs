@@ -21,13 +21,15 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
+    #[inline(always)]
     pub fn between(planet: &Planet, a: Point, b: Point) -> Result<Self> {
         let a = checked(a)?;
         let b = checked(b)?;
         let way: [f64; 3] = core::array::from_fn(|i| b[i] - a[i]);
         let length = dot(way, way).sqrt();
         let direction = if length > 0.0 {
-            way.map(|v| v / length)
+            let per_metre = 1.0 / length;
+            way.map(|v| v * per_metre)
         } else {
             [0.0, 0.0, 1.0]
         };
@@ -57,14 +59,15 @@ impl Segment {
         Ok((Self::along(planet, a, unit, length), false))
     }
 
+    #[inline(always)]
     fn along(planet: &Planet, a: Point, direction: [f64; 3], length: f64) -> Self {
         let start = [a[0], a[1], a[2] + planet.radius];
         let from = dot(start, direction);
-        let diameter = 2.0 * planet.radius;
+        let per_diameter = 0.5 / planet.radius;
         // r² − R² over the diameter, without the cancellation of the squares.
-        let w = (dot(a, a) / diameter) + a[2];
+        let w = dot(a, a) * per_diameter + a[2];
         let line = Line {
-            lowest: w - from * from / diameter,
+            lowest: w - from * from * per_diameter,
         };
         Self {
             line,
@@ -73,14 +76,6 @@ impl Segment {
             direction,
             start,
         }
-    }
-
-    /// Sine of the elevation of a far-away direction at the distance `s` from the tangent point and `radius` from the centre.
-    #[inline(always)]
-    pub fn sine_of(&self, direction: [f64; 3], s: f64, radius: f64) -> f64 {
-        let way = s - self.from;
-        let along = dot(self.start, direction) + way * dot(self.direction, direction);
-        (along / radius).clamp(-1.0, 1.0)
     }
 
     /// Unit vector away from the planet's centre at the start.
@@ -97,6 +92,7 @@ impl Segment {
     }
 }
 
+#[inline(always)]
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
@@ -104,6 +100,7 @@ pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// Farther out there is nothing, and squares stay exact enough.
 const FARTHEST: f64 = 1e9;
 
+#[inline(always)]
 fn checked(point: Point) -> Result<Point> {
     if point.iter().all(|v| v.abs() <= FARTHEST) {
         return Ok(point);

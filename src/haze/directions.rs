@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use super::harmonics::orders;
 use crate::format::{MAX_MOMENTS, SourceBasisView, TENSOR};
 use crate::lanes::Lanes;
+use crate::math::asin;
 
 /// Components in a vector.
 pub(crate) const WIDE: usize = 8;
@@ -137,7 +138,8 @@ impl Directions {
 
     #[inline(always)]
     fn particles(&self, local: &Local) -> Components {
-        let u = (local.view.clamp(-1.0, 1.0).acos() * (ANGLES as f64 / PI)) as f32;
+        let zenith = core::f32::consts::FRAC_PI_2 - asin(local.view as f32);
+        let u = zenith * (ANGLES as f32 / core::f32::consts::PI);
         let i = (u as usize).min(ANGLES - 1);
         let t = u - i as f32;
         let stride = (self.orders + 1) * self.vectors;

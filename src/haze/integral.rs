@@ -6,12 +6,14 @@
 
 use super::Haze;
 use super::directions::{Components, Local, MOST_VECTORS};
+use super::disc::mean_shares;
 use super::marks::Heaven;
-use super::panels::{MOST_PANELS, Panels};
+use super::panels::{MOST_PANELS, MOST_PLACES, Panels};
+use super::places::{BATCH, Places};
 use super::source::Spot;
 use super::stations::MOST_STATIONS;
-use super::sunlight::{Sunlight, mean_share};
-use crate::air::{Amounts, Segment, dot};
+use super::sunlight::Two;
+use crate::air::{QUADS, Segment, dot};
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::phase::SunAngle;
@@ -19,7 +21,7 @@ use crate::polarisation::Plane;
 use crate::simd::{Instructions, Kernel};
 
 /// Most constituents that a file can have.
-const MOST_CONSTITUENTS: usize = 16;
+const MOST_CONSTITUENTS: usize = QUADS * LANES;
 /// Where the sun stands lower than this (rad), panels crowd where it shines.
 const LOW_SUN: f64 = 0.14;
 
@@ -61,31 +63,27 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
             low: haze.conditions.solar_elevation < LOW_SUN,
         };
         let panels = Panels::place(layers, segment, &haze.grey, &sky);
-        let mut sunlight = [Sunlight::default(); MOST_PANELS + 2];
-        for (at, sunlight) in panels.ends[..=panels.count].iter().zip(&mut sunlight) {
-            let place = Place::new(haze, segment, *at);
-            *sunlight = haze.beam.at(layers, place.altitude, place.sun);
+        let pairs = panels.count.div_ceil(2);
+        let stations = panels.stations;
+        let mut places = [Places::default(); MOST_PLACES / BATCH];
+        let used = panels.count + 1 + stations.shares.len();
+        let (at, _) = panels.places.as_chunks();
+        for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
+            *places = Places::new(&layers.planet(), segment, haze.sun, at);
         }
-        let mut shares = [Pair::splat(0.0); MOST_PANELS / 2];
-        for i in 0..panels.count {
-            let share = mean_share(sunlight[i].rise, sunlight[i + 1].rise);
-            shares[i / 2].0[4 * (i % 2)..][..4].fill(share);
-        }
-        let mut views = [const { None }; MOST_STATIONS];
-        let stations = &panels.stations;
-        for (view, at) in views.iter_mut().zip(&stations.at[..stations.shares.len()]) {
-            *view = Some(View::new(
-                haze,
-                segment,
-                &self.plane,
-                &Place::new(haze, segment, *at),
-            ));
+        let sunlight = Sunlight::new(haze, &places, panels.count);
+        let mut views = [View::<M>::default(); MOST_STATIONS];
+        let views = &mut views[..stations.shares.len()];
+        let between = dot(segment.direction, haze.sun);
+        for (i, view) in views.iter_mut().enumerate() {
+            let i = panels.count + 1 + i;
+            view.look(haze, &self.plane, between, &places[i / BATCH], i % BATCH);
         }
         let angle = SunAngle::between(segment.direction, haze.sun);
         let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
-        let sunlit = &mut sunlit[..layers.constituents];
+        let sunlit = &mut sunlit[..layers.quads * LANES];
         let mut dipoles = [[0.0; LANES]; MOST_CONSTITUENTS];
-        let dipoles = &mut dipoles[..layers.constituents];
+        let dipoles = &mut dipoles[..layers.quads * LANES];
         let single = self.plane.single().map(|part| part as f32);
         for block in 0..haze.irradiance.len() {
             haze.species.sunlit(block, angle, sunlit);
@@ -93,13 +91,13 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                 haze.species.dipoles(block, dipoles);
             }
             let mut diffuse = [[Pair::splat(0.0); M]; MOST_STATIONS];
-            for (out, view) in diffuse.iter_mut().zip(views.iter().flatten()) {
+            for (out, view) in diffuse.iter_mut().zip(views.iter()) {
                 let source = haze.source.scattered(&view.spot, &view.seen, block);
                 *out = source.map(|half| Pair::twice(&half));
             }
             let mut walk = Walk::start();
-            let pairs = (0..panels.count).step_by(2);
-            for ((i, share), weights) in pairs.zip(&shares).zip(&stations.weights) {
+            let mut near = Beams::new(haze, block, &sunlight.columns[0]);
+            for (i, weights) in stations.weights.iter().enumerate().take(pairs) {
                 let mut light = [Pair::splat(0.0); M];
                 for (at, weight) in diffuse.iter().zip(weights) {
                     for (light, at) in light.iter_mut().zip(at) {
@@ -109,12 +107,15 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                 for light in &mut light[..2] {
                     *light = light.max(Pair::splat(0.0));
                 }
-                let two = Two {
-                    columns: [&panels.columns[i], &panels.columns[i + 1]],
-                    sunlight: [&sunlight[i], &sunlight[i + 1], &sunlight[i + 2]],
-                    share: *share,
+                let far = Beams::new(haze, block, &sunlight.columns[i + 1]);
+                let sun = Sun {
+                    start: near,
+                    end: near.shift(&far),
+                    share: sunlight.shares[i],
                 };
-                walk.step::<M>(two.scatter(haze, block, (sunlit, dipoles), single, &light));
+                let air = Air::new::<M>(haze, block, &panels.columns[i], sunlit, dipoles);
+                walk.step::<M>(air.scatter(&sun, single, &light));
+                near = far;
             }
             (self.emit)(
                 block,
@@ -128,13 +129,110 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     }
 }
 
-/// Two panels in a row.
-struct Two<'a> {
-    columns: [&'a Amounts; 2],
-    /// At their ends.
-    sunlight: [&'a Sunlight; 3],
-    /// Mean share of the sun's disc that is visible.
+/// Sunlight along a segment.
+struct Sunlight {
+    /// Columns towards the sun at the ends of panels, two at a time.
+    columns: [Two; MOST_PANELS / 2 + 1],
+    /// Mean share of the sun's disc that is visible, two panels at a time.
+    shares: [Pair; MOST_PANELS / 2],
+}
+
+impl Sunlight {
+    #[inline(always)]
+    fn new(haze: &Haze, places: &[Places], panels: usize) -> Self {
+        const PAIRS: usize = BATCH / 2;
+        let mut out = Self {
+            columns: [[Pair::splat(0.0); QUADS]; MOST_PANELS / 2 + 1],
+            shares: [Pair::splat(0.0); MOST_PANELS / 2],
+        };
+        let pairs = (panels + 1).div_ceil(2);
+        let mut rise = [0.0; MOST_PLACES + BATCH];
+        for (i, columns) in out.columns.chunks_mut(PAIRS).enumerate() {
+            let pairs = pairs.saturating_sub(i * PAIRS);
+            if pairs > 0 {
+                let heights = haze.beam.at(&haze.air.layers, &places[i], pairs, columns);
+                rise[i * BATCH..][..BATCH].copy_from_slice(&heights.0);
+            }
+        }
+        for (i, shares) in out.shares.chunks_mut(PAIRS).enumerate() {
+            if i * BATCH < panels {
+                let [a, b] = [0, 1].map(|end| Lanes::load(&rise, i * BATCH + end));
+                let means = mean_shares(a, b).0;
+                for (share, mean) in shares.iter_mut().zip(means.chunks_exact(2)) {
+                    *share = Pair::pair(mean[0], mean[1]);
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Sunlight at two ends of panels, for a block of wavelengths.
+#[derive(Clone, Copy)]
+struct Beams {
+    depth: Pair,
+    through: Pair,
+}
+
+impl Beams {
+    #[inline(always)]
+    fn new(haze: &Haze, block: usize, columns: &Two) -> Self {
+        let mut depth = Pair::splat(0.0);
+        for (q, columns) in columns.iter().enumerate().take(haze.air.layers.quads) {
+            for k in 0..LANES {
+                let extinction = haze.air.extinction.row(q * LANES + k, block);
+                depth = depth + columns.spread(k) * Pair::twice(extinction);
+            }
+        }
+        Self {
+            depth,
+            through: (-depth).exp(),
+        }
+    }
+
+    /// At the second of these ends and the first of the `next` two.
+    #[inline(always)]
+    fn shift(&self, next: &Self) -> Self {
+        let join = |a: Pair, b: Pair| Pair::join(a.halves()[1], b.halves()[0]);
+        Self {
+            depth: join(self.depth, next.depth),
+            through: join(self.through, next.through),
+        }
+    }
+}
+
+/// Sunlight at the ends of two panels.
+struct Sun {
+    start: Beams,
+    end: Beams,
+    /// Mean share of the disc that is visible.
     share: Pair,
+}
+
+impl Sun {
+    /// Mean of what is left of sunlight at the start of a panel when it gets there by way of a point of the panel.
+    #[inline(always)]
+    fn mean(&self, depth: Pair, through: Pair) -> Pair {
+        /// Differences of thinner panels lose their digits.
+        const THIN: f32 = 0.1;
+        let far = self.end.through * through;
+        let step = self.end.depth + depth - self.start.depth;
+        let size = step.abs();
+        let mean = (self.start.through - far).abs() / size.max(Pair::splat(THIN));
+        let series = step.map(|x| 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))));
+        size.at_least(THIN, mean, self.start.through * series) * self.share
+    }
+}
+
+/// What is in two panels, for a block of wavelengths.
+struct Air {
+    depth: Pair,
+    /// What it scatters of sunlight.
+    direct: Pair,
+    /// Scattering by molecules and by particles.
+    diffuse: [Pair; 2],
+    /// Polarised by molecules.
+    dipole: Pair,
 }
 
 /// What two panels do to light.
@@ -144,59 +242,69 @@ struct Scattered {
     /// Its Q and U.
     linear: [Pair; 2],
     depth: Pair,
-    /// 1 − transmittance.
-    absorbed: Pair,
+    through: Pair,
 }
 
-impl Two<'_> {
-    /// `sunlit` and dipoles of each constituent, what Q and U of `single` scattering are per dipole, and the `diffuse` source of
-    /// molecules, of particles and of Q and U.
+impl Air {
+    /// From columns, and `sunlit` and dipoles of each constituent.
+    #[inline(always)]
+    fn new<const M: usize>(
+        haze: &Haze,
+        block: usize,
+        columns: &Two,
+        sunlit: &[[f32; LANES]],
+        dipoles: &[[f32; LANES]],
+    ) -> Self {
+        let zero = Pair::splat(0.0);
+        let mut out = Self {
+            depth: zero,
+            direct: zero,
+            diffuse: [zero; 2],
+            dipole: zero,
+        };
+        for (q, columns) in columns.iter().enumerate().take(haze.air.layers.quads) {
+            for lane in 0..LANES {
+                let (k, column) = (q * LANES + lane, columns.spread(lane));
+                out.depth = out.depth + column * Pair::twice(haze.air.extinction.row(k, block));
+                out.direct = out.direct + column * Pair::twice(&sunlit[k]);
+                for (sum, total) in out.diffuse.iter_mut().zip(haze.species.totals(k, block)) {
+                    if let Some(total) = total {
+                        *sum = *sum + column * Pair::twice(total);
+                    }
+                }
+                if M == POLARISED {
+                    out.dipole = out.dipole + column * Pair::twice(&dipoles[k]);
+                }
+            }
+        }
+        out
+    }
+
+    /// `single` is what Q and U of scattering once are per dipole; `diffuse` the source of molecules, of particles and of Q and U.
     #[inline(always)]
     fn scatter<const M: usize>(
         &self,
-        haze: &Haze,
-        block: usize,
-        (sunlit, dipoles): (&[[f32; LANES]], &[[f32; LANES]]),
+        sun: &Sun,
         single: [f32; 2],
         diffuse: &[Pair; M],
     ) -> Scattered {
-        let zero = Pair::splat(0.0);
-        let (mut depth, mut start, mut end) = (zero, zero, zero);
-        let (mut direct, mut molecules, mut particles) = (zero, zero, zero);
-        let mut dipole = zero;
-        for (k, (sunlit, polarised)) in sunlit.iter().zip(dipoles).enumerate() {
-            let [a, b, c] = self.sunlight.map(|light| light.columns.get(k));
-            let column = Pair::pair(self.columns[0].get(k), self.columns[1].get(k));
-            let extinction = Pair::twice(haze.air.extinction.row(k, block));
-            let [m, p] = haze.species.totals(k, block).map(Pair::twice);
-            depth = depth + column * extinction;
-            start = start + Pair::pair(a, b) * extinction;
-            end = end + Pair::pair(b, c) * extinction;
-            direct = direct + column * Pair::twice(sunlit);
-            molecules = molecules + column * m;
-            particles = particles + column * p;
-            if M == POLARISED {
-                dipole = dipole + column * Pair::twice(polarised);
-            }
-        }
-        // The way to the sun and back to the start of the panel, from its start and from its end.
-        let end = end + depth;
-        let sun = between(start, end) * self.share;
-        let absorbed = depth.one_minus_exp_neg();
-        let mean = mean_transmittance(depth, absorbed);
-        let mut linear = [zero; 2];
+        let absorbed = self.depth.one_minus_exp_neg();
+        let through = Pair::splat(1.0) - absorbed;
+        let sun = sun.mean(self.depth, through);
+        let mean = mean_transmittance(self.depth, absorbed);
+        let [molecules, particles] = self.diffuse;
+        let mut linear = [Pair::splat(0.0); 2];
         if M == POLARISED {
             for (part, linear) in linear.iter_mut().enumerate() {
-                *linear = dipole * sun * single[part] + molecules * diffuse[2 + part] * mean;
+                *linear = self.dipole * sun * single[part] + molecules * diffuse[2 + part] * mean;
             }
         }
         let diffuse = molecules * diffuse[0] + particles * diffuse[1];
-        let light = direct * sun + diffuse * mean;
         Scattered {
-            light,
+            light: self.direct * sun + diffuse * mean,
             linear,
-            depth,
-            absorbed,
+            depth: self.depth,
+            through,
         }
     }
 }
@@ -224,7 +332,7 @@ impl Walk {
     /// Goes on through two panels.
     #[inline(always)]
     fn step<const M: usize>(&mut self, two: Scattered) {
-        let pass = (Pair::splat(1.0) - two.absorbed).halves();
+        let pass = two.through.halves();
         let (light, depth) = (two.light.halves(), two.depth.halves());
         let linear = two.linear.map(Pair::halves);
         for i in 0..2 {
@@ -240,13 +348,6 @@ impl Walk {
     }
 }
 
-/// Mean transmittance of what begins and ends with these optical depths.
-#[inline(always)]
-fn between(a: Pair, b: Pair) -> Pair {
-    let span = (a - b).abs();
-    (-a.min(b)).exp() * mean_transmittance(span, span.one_minus_exp_neg())
-}
-
 /// Mean transmittance of what has this optical depth and takes away this share.
 #[inline(always)]
 fn mean_transmittance(depth: Pair, absorbed: Pair) -> Pair {
@@ -256,54 +357,35 @@ fn mean_transmittance(depth: Pair, absorbed: Pair) -> Pair {
     depth.at_least(THIN, absorbed / depth.max(Pair::splat(THIN)), thin)
 }
 
-/// A point of a segment.
-struct Place {
-    /// m.
-    altitude: f64,
-    /// Cosine of the zenith angle of the segment there.
-    zenith: f64,
-    /// Sine of the sun's elevation there.
-    sun: f64,
-}
-
-impl Place {
-    #[inline(always)]
-    fn new(haze: &Haze, segment: &Segment, s: f64) -> Self {
-        let radius = haze.air.planet().radius;
-        let w = segment.line.lowest + s * s / (2.0 * radius);
-        let altitude = 2.0 * w / (1.0 + (1.0 + 2.0 * w / radius).max(0.0).sqrt());
-        let zenith = (s / (radius + altitude)).clamp(-1.0, 1.0);
-        let sun = segment.sine_of(haze.sun, s, radius + altitude);
-        Self {
-            altitude,
-            zenith,
-            sun,
-        }
-    }
-}
-
 /// A place in the source and how its components look from there.
+#[derive(Clone, Copy)]
 struct View<const M: usize> {
     spot: Spot,
     seen: [Components; M],
 }
 
-impl<const M: usize> View<M> {
-    #[inline(always)]
-    fn new(haze: &Haze, segment: &Segment, plane: &Plane, place: &Place) -> Self {
-        let between = dot(segment.direction, haze.sun);
-        let local = Local::new(place.zenith, place.sun, between);
-        let directions = &haze.source.directions;
-        let mut seen = [[Lanes::splat(0.0); MOST_VECTORS]; M];
-        seen[..2].copy_from_slice(&directions.at(&local));
-        if M == POLARISED {
-            let level = (1.0 - place.sun * place.sun).max(1e-18).sqrt();
-            let sine = (plane.sun[1] / level).clamp(-1.0, 1.0);
-            seen[2..].copy_from_slice(&directions.polarised(&local, sine));
-        }
+impl<const M: usize> Default for View<M> {
+    fn default() -> Self {
         Self {
-            spot: haze.source.spot(place.altitude as f32, place.sun as f32),
-            seen,
+            spot: Spot::default(),
+            seen: [[Lanes::splat(0.0); MOST_VECTORS]; M],
         }
+    }
+}
+
+impl<const M: usize> View<M> {
+    /// Looks along a segment from one of its places; `between` is the cosine of the angle between its direction and the sun.
+    #[inline(always)]
+    fn look(&mut self, haze: &Haze, plane: &Plane, between: f64, places: &Places, i: usize) {
+        let [zenith, sun] = [places.zenith, places.sun].map(|lanes| f64::from(lanes.0[i]));
+        let local = Local::new(zenith, sun, between);
+        let directions = &haze.source.directions;
+        self.seen[..2].copy_from_slice(&directions.at(&local));
+        if M == POLARISED {
+            let level = (1.0 - sun * sun).max(1e-18).sqrt();
+            let sine = (plane.sun[1] / level).clamp(-1.0, 1.0);
+            self.seen[2..].copy_from_slice(&directions.polarised(&local, sine));
+        }
+        self.spot = haze.source.spot(places.altitude.0[i], places.sun.0[i]);
     }
 }

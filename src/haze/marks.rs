@@ -1,10 +1,17 @@
 //! What can be seen of a segment up to a distance, and how much light is there: roughly, to place panels by.
 
+use super::panels::MOST_PLACES;
+use super::places::BATCH;
 use crate::air::{Layers, Piece, Segment, dot};
-use crate::math::{exp, log2, one_minus_exp_neg};
+use crate::lanes::Lanes;
+use crate::math::{bound, log2, one_minus_exp_neg};
+
+type Batch = Lanes<BATCH>;
 
 /// Most pieces of a segment in layers that are told apart.
 const MOST_PIECES: usize = 112;
+/// Room for them in whole batches, and for the start.
+const ROOM: usize = MOST_PIECES + BATCH;
 /// Length (m) up to which pieces are not divided.
 const PART: f64 = 12e3;
 
@@ -21,7 +28,7 @@ struct Glance {
     /// Distance towards the sun from the plane through the planet's centre: at the tangent point, and per metre.
     towards: [f64; 2],
     lowest: f64,
-    diameter: f64,
+    per_diameter: f64,
 }
 
 impl Glance {
@@ -33,31 +40,37 @@ impl Glance {
                 per_metre,
             ],
             lowest: segment.line.lowest,
-            diameter: 2.0 * layers.planet().radius,
+            per_diameter: 0.5 / layers.planet().radius,
         }
     }
 
     /// Density of the air, roughly, relative to that at the ground.
     #[inline(always)]
-    fn density(&self, s: f64) -> f32 {
-        exp(-(self.lowest + s * s / self.diameter) as f32 * (1.0 / 8e3))
+    fn density(&self, distance: &[f64; BATCH]) -> Batch {
+        let mut w = Batch::splat(0.0);
+        for (w, s) in w.0.iter_mut().zip(distance) {
+            *w = (self.lowest + s * s * self.per_diameter) as f32;
+        }
+        (w * (-1.0 / 8e3)).exp()
     }
 
-    /// Visible and ultraviolet light at the distance `s` from the tangent point: between the glow of a dark sky and the light of day.
+    /// Visible and ultraviolet light between these distances: between the glow of a dark sky and the light of day.
     #[inline(always)]
-    fn light(&self, s: f64) -> [f32; 2] {
+    fn light(&self, start: &[f64; BATCH], end: &[f64; BATCH]) -> [Batch; 2] {
         const GLOW: f32 = 0.1;
-        let w = self.lowest + s * s / self.diameter;
-        let towards = self.towards[0] + s * self.towards[1];
-        // How high above the ground the sunlight of this point passes.
-        let clearance = match towards < 0.0 {
-            true => w - towards * towards / self.diameter,
-            false => w + 0.03 * towards,
-        };
-        let clearance = clearance as f32;
+        // How high above the ground the sunlight of these points passes.
+        let mut clearance = Batch::splat(0.0);
+        for (i, clearance) in clearance.0.iter_mut().enumerate() {
+            let s = 0.5 * (start[i] + end[i]);
+            let w = self.lowest + s * s * self.per_diameter;
+            let towards = self.towards[0] + s * self.towards[1];
+            let behind = w - towards * towards * self.per_diameter;
+            let ahead = w + 0.03 * towards;
+            *clearance = if towards < 0.0 { behind } else { ahead } as f32;
+        }
         [
-            GLOW + (clearance * (1.0 / 10e3)).clamp(0.0, 1.0),
-            ((clearance - 20e3) * (1.0 / 30e3)).clamp(0.0, 1.0),
+            clearance.map(|c| GLOW + bound(c * (1.0 / 10e3), 0.0, 1.0)),
+            clearance.map(|c| bound((c - 20e3) * (1.0 / 30e3), 0.0, 1.0)),
         ]
     }
 }
@@ -70,128 +83,169 @@ const SHARES: [f32; KINDS] = [0.7, 0.1, 0.2];
 /// As much of a kind, in all of a segment, as gets its full share.
 const NOTICED: f32 = 0.01;
 
-/// What has been seen of a segment up to a distance.
-#[derive(Clone, Copy, Default)]
-struct Mark {
-    distance: f64,
-    depth: f32,
-    seen: f32,
+/// What has been seen of a segment up to some distances: its start and the ends of its pieces; after the last, the last once more.
+pub(crate) struct Marks {
+    len: usize,
+    /// From the tangent point, m.
+    distance: [f64; ROOM],
+    /// Optical depth from the start.
+    depth: [f32; ROOM],
+    seen: [f32; ROOM],
 }
 
-/// Marks along a segment.
-pub(crate) struct Marks {
-    marks: [Mark; MOST_PIECES],
-    len: usize,
+impl Default for Marks {
+    fn default() -> Self {
+        Self {
+            len: 0,
+            distance: [0.0; ROOM],
+            depth: [0.0; ROOM],
+            seen: [0.0; ROOM],
+        }
+    }
 }
 
 impl Marks {
-    /// Marks at the ends of the pieces; `seen` ends at 1.
+    /// Marks a segment.
     #[inline(always)]
-    pub fn new(layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &Heaven) -> Self {
-        let mut out = Self {
-            marks: [Mark::default(); MOST_PIECES],
-            len: 1,
-        };
-        out.marks[0].distance = segment.from;
+    pub fn fill(&mut self, layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &Heaven) {
+        let mut walker = layers.enter(segment.line, segment.from);
         let mut depth = 0.0;
-        layers.walk(segment.line, segment.from, segment.to(), |piece: Piece| {
+        self.len = 1;
+        self.distance[0] = walker.distance();
+        walker.go(segment.to(), |piece: Piece| {
             // Along a level line air and light change within a piece.
             let length = piece.end - piece.start;
+            if length < PART {
+                depth += layers.column_of(grey, &piece);
+                self.push(piece.end, depth);
+                return;
+            }
             let parts = (length / PART).min(12.0) as usize + 1;
             let mut start = piece.start;
             for part in 1..=parts {
                 let end = piece.start + length * (part as f64 / parts as f64);
-                let part = match parts {
-                    1 => piece,
-                    _ => layers.part(segment.line, &piece, start, end),
-                };
+                let part = layers.part(segment.line, &piece, start, end);
                 depth += layers.column_of(grey, &part);
                 start = end;
-                out.len = (out.len + 1).min(MOST_PIECES);
-                out.marks[out.len - 1] = Mark {
-                    distance: end,
-                    depth,
-                    seen: 0.0,
-                };
+                self.push(end, depth);
             }
         });
-        let marks = &mut out.marks[..out.len];
+        let last = self.len - 1;
+        let (distance, depth) = (self.distance[last], self.depth[last]);
+        self.distance[self.len..][..BATCH].fill(distance);
+        self.depth[self.len..][..BATCH].fill(depth);
         match sky.low {
-            true => see_low(marks, &Glance::new(layers, segment, sky)),
-            false => see(marks),
+            true => self.see_low(&Glance::new(layers, segment, sky)),
+            false => self.see(),
         }
-        out
     }
 
-    /// The distance at which a share has been seen; `piece` only grows.
     #[inline(always)]
-    pub fn distance(&self, share: f32, piece: &mut usize) -> f64 {
-        while *piece + 1 < self.len && self.marks[*piece].seen < share {
-            *piece += 1;
+    fn push(&mut self, distance: f64, depth: f32) {
+        // Many pieces more than there is room for are one.
+        self.len = (self.len + 1).min(MOST_PIECES);
+        self.distance[self.len - 1] = distance;
+        self.depth[self.len - 1] = depth;
+    }
+
+    /// What has been seen where the sun shines on all of the segment.
+    #[inline(always)]
+    fn see(&mut self) {
+        for first in (0..self.len).step_by(BATCH) {
+            let depth = Batch::load(&self.depth, first);
+            depth.one_minus_exp_neg().store(&mut self.seen, first);
         }
-        let (a, b) = (self.marks[*piece - 1], self.marks[*piece]);
-        let t = (share - a.seen) / (b.seen - a.seen).max(f32::MIN_POSITIVE);
-        let t = t.clamp(0.0, 1.0);
-        let depth = b.depth - a.depth;
-        // Within a piece what is seen goes as 1 − T.
-        const THICK: f32 = 0.03;
-        let t = match depth > THICK {
-            true => {
-                let through = (1.0 - t * one_minus_exp_neg(depth)).max(f32::MIN_POSITIVE);
-                -log2(through) * core::f32::consts::LN_2 / depth
+    }
+
+    /// The same where it may not.
+    #[inline(always)]
+    fn see_low(&mut self, glance: &Glance) {
+        let [mut opacity, mut density] = [[0.0; ROOM]; 2];
+        for first in (0..self.len + BATCH - 1).step_by(BATCH) {
+            let depth = Batch::load(&self.depth, first);
+            depth.one_minus_exp_neg().store(&mut opacity, first);
+            let distance = batch(&self.distance, first);
+            glance.density(distance).store(&mut density, first);
+        }
+        let mut light = [[0.0; ROOM]; KINDS];
+        let mut total = [Batch::splat(0.0); KINDS];
+        for first in (1..self.len).step_by(BATCH) {
+            let load = |values: &[f32; ROOM]| [first - 1, first].map(|i| Batch::load(values, i));
+            let [start, end] = [first - 1, first].map(|i| batch(&self.distance, i));
+            let ([before, now], [thick, thin]) = (load(&opacity), load(&density));
+            let [visible, ultraviolet] = glance.light(start, end);
+            // Behind thick air nothing is seen, so a change of density there hardly counts.
+            let through = Batch::splat(1.0) - (before + now) * 0.5;
+            let kinds = [
+                visible * (now - before),
+                ultraviolet * (now - before),
+                (thick - thin).abs() * through.sqrt().sqrt(),
+            ];
+            for ((total, light), kind) in total.iter_mut().zip(&mut light).zip(kinds) {
+                *total = *total + kind;
+                kind.store(light, first);
             }
-            false => t,
-        };
-        a.distance + f64::from(t.clamp(0.0, 1.0)) * (b.distance - a.distance)
-    }
-}
-
-/// What has been seen where the sun shines on all of the segment.
-#[inline(always)]
-fn see(marks: &mut [Mark]) {
-    let total = marks
-        .last()
-        .map_or(1.0, |last| one_minus_exp_neg(last.depth));
-    let factor = 1.0 / total.max(f32::MIN_POSITIVE);
-    for mark in marks {
-        mark.seen = one_minus_exp_neg(mark.depth) * factor;
-    }
-}
-
-/// The same where it may not.
-#[inline(always)]
-fn see_low(marks: &mut [Mark], glance: &Glance) {
-    let mut light = [[0.0; KINDS]; MOST_PIECES];
-    let mut total = [0.0; KINDS];
-    let mut before = (0.0, glance.density(marks[0].distance));
-    for i in 1..marks.len() {
-        let [start, end] = [marks[i - 1], marks[i]].map(|mark| mark.distance);
-        let now = (one_minus_exp_neg(marks[i].depth), glance.density(end));
-        let [visible, ultraviolet] = glance.light(0.5 * (start + end));
-        let share = now.0 - before.0;
-        // Behind thick air nothing is seen, so a change of density there hardly counts.
-        let through = (1.0 - 0.5 * (now.0 + before.0)).sqrt().sqrt();
-        light[i] = [
-            visible * share,
-            ultraviolet * share,
-            (now.1 - before.1).abs() * through,
-        ];
-        before = now;
-        for (total, light) in total.iter_mut().zip(light[i]) {
-            *total += light;
+        }
+        let total = total.map(|lanes| lanes.0.iter().sum::<f32>());
+        // What is hardly there gets no panels of its own.
+        let factor: [f32; KINDS] = core::array::from_fn(|k| {
+            let share = SHARES[k] * (total[k] / NOTICED).min(1.0);
+            share / total[k].max(f32::MIN_POSITIVE)
+        });
+        for i in 1..self.len {
+            let more: f32 = (0..KINDS).map(|k| light[k][i] * factor[k]).sum();
+            self.seen[i] = self.seen[i - 1] + more;
         }
     }
-    // What is hardly there gets no panels of its own.
-    let share = |k: usize| SHARES[k] * (total[k] / NOTICED).min(1.0);
-    let used: f32 = (0..KINDS).map(share).sum();
-    let factor: [f32; KINDS] =
-        core::array::from_fn(|k| share(k) / (used * total[k]).max(f32::MIN_POSITIVE));
-    for i in 1..marks.len() {
-        let more: f32 = light[i]
-            .iter()
-            .zip(factor)
-            .map(|(light, factor)| light * factor)
-            .sum();
-        marks[i].seen = marks[i - 1].seen + more;
+
+    /// The distances at which these shares of all have been seen.
+    #[inline(always)]
+    pub fn distances(&self, shares: &[f32], out: &mut [f64; MOST_PLACES]) {
+        let total = self.seen[self.len - 1];
+        let mut targets = [total; MOST_PLACES];
+        for (target, share) in targets.iter_mut().zip(shares) {
+            *target = share * total;
+        }
+        // As many marks as are passed before; without branches, which nobody could predict.
+        let mut pieces = [1; MOST_PLACES];
+        for seen in &self.seen[1..self.len.max(2) - 1] {
+            for (piece, target) in pieces.iter_mut().zip(&targets) {
+                *piece += u32::from(seen < target);
+            }
+        }
+        for first in (0..shares.len()).step_by(BATCH) {
+            let [mut t, mut depth] = [Batch::splat(0.0); 2];
+            let (mut start, mut length) = ([0.0; BATCH], [0.0; BATCH]);
+            for i in 0..BATCH {
+                let piece = pieces[first + i] as usize;
+                let (before, after) = (self.seen[piece - 1], self.seen[piece]);
+                t.0[i] = (targets[first + i] - before) / (after - before).max(f32::MIN_POSITIVE);
+                depth.0[i] = self.depth[piece] - self.depth[piece - 1];
+                start[i] = self.distance[piece - 1];
+                length[i] = self.distance[piece] - start[i];
+            }
+            for i in 0..BATCH {
+                t.0[i] = within(bound(t.0[i], 0.0, 1.0), depth.0[i]);
+            }
+            for i in 0..BATCH {
+                out[first + i] = start[i] + f64::from(t.0[i]) * length[i];
+            }
+        }
     }
+}
+
+#[inline(always)]
+fn batch(values: &[f64; ROOM], first: usize) -> &[f64; BATCH] {
+    // There is room for whole batches.
+    values[first..].first_chunk().unwrap_or(&[0.0; BATCH])
+}
+
+/// Within a piece what is seen goes as 1 − T: the share of a piece of this depth in which a share `t` of that is seen.
+#[inline(always)]
+fn within(t: f32, depth: f32) -> f32 {
+    /// Of thinner pieces the logarithm would lose its digits.
+    const THICK: f32 = 0.03;
+    let through = (1.0 - t * one_minus_exp_neg(depth)).max(f32::MIN_POSITIVE);
+    let share = log2(through) * -core::f32::consts::LN_2 / depth.max(THICK);
+    if depth > THICK { share.min(1.0) } else { t }
 }

@@ -1,10 +1,12 @@
 //! Haze: the light that the air between two points scatters towards the first. Format specification, section 7.7.
 
 mod directions;
+mod disc;
 mod harmonics;
 mod integral;
 mod marks;
 mod panels;
+mod places;
 mod polarised;
 mod source;
 mod species;

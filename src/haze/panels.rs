@@ -5,52 +5,63 @@
 //! at a few stations.
 
 use super::marks::{Heaven, Marks};
-use super::stations::Stations;
-use crate::air::{Amounts, Layers, Segment};
+use super::stations::{MOST_STATIONS, Stations};
+use super::sunlight::Two;
+use crate::air::{Amounts, Layers, QUADS, Segment};
+use crate::lanes::Lanes;
 
 /// Most panels of a segment; even.
 pub(crate) const MOST_PANELS: usize = 12;
+/// Most places of a segment: ends of panels, and stations.
+pub(crate) const MOST_PLACES: usize = MOST_PANELS + 1 + MOST_STATIONS;
 
 /// The panels of a segment.
 pub(crate) struct Panels {
     pub count: usize,
-    /// Distances of the ends from the tangent point, m.
-    pub ends: [f64; MOST_PANELS + 1],
-    /// Columns in each panel, m.
-    pub columns: [Amounts; MOST_PANELS],
-    pub stations: Stations,
+    /// Distances from the tangent point, m: of the ends, then of the stations, then that of the last end.
+    pub places: [f64; MOST_PLACES],
+    /// Columns in each panel, m; two panels at a time.
+    pub columns: [Two; MOST_PANELS / 2],
+    pub stations: &'static Stations,
 }
 
 impl Panels {
     #[inline(always)]
     pub fn place(layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &Heaven) -> Self {
         let count = count(layers, segment, sky);
-        let (line, from, to) = (segment.line, segment.from, segment.to());
+        let stations = Stations::of(count);
+        let (from, to) = (segment.from, segment.to());
         let mut out = Self {
             count,
-            ends: [to; MOST_PANELS + 1],
-            columns: [Amounts::default(); MOST_PANELS],
-            stations: Stations::of(count),
+            places: [to; MOST_PLACES],
+            columns: [[Lanes::splat(0.0); QUADS]; MOST_PANELS / 2],
+            stations,
         };
-        out.ends[0] = from;
+        out.places[0] = from;
         if count == 1 {
-            out.columns[0] = layers.columns(line, from, to);
-            out.stations.at[0] = from + 0.5 * segment.length;
-            return out;
-        }
-        let marks = Marks::new(layers, segment, grey, sky);
-        let mut piece = 1;
-        for (at, share) in out.stations.at.iter_mut().zip(out.stations.shares) {
-            *at = marks.distance(*share, &mut piece);
-        }
-        let mut piece = 1;
-        for i in 0..count {
-            let start = out.ends[i];
-            if i + 1 < count {
-                let share = (i + 1) as f32 / count as f32;
-                out.ends[i + 1] = marks.distance(share, &mut piece).clamp(start, to);
+            out.places[2] = from + 0.5 * segment.length;
+        } else {
+            let mut shares = [1.0; MOST_PLACES];
+            for (i, share) in shares[..count].iter_mut().enumerate() {
+                *share = i as f32 / count as f32;
             }
-            out.columns[i] = layers.columns(line, start, out.ends[i + 1]);
+            let stations = stations.shares;
+            shares[count + 1..][..stations.len()].copy_from_slice(stations);
+            let places = count + 1 + stations.len();
+            let mut marks = Marks::default();
+            marks.fill(layers, segment, grey, sky);
+            marks.distances(&shares[..places], &mut out.places);
+            out.places[0] = from;
+            out.places[count] = to;
+        }
+        let mut walker = layers.enter(segment.line, from);
+        let mut columns = Amounts::default();
+        for i in 0..count {
+            walker.columns(out.places[i + 1], &mut columns);
+            let quads = columns.0.iter().take(layers.quads);
+            for (two, quad) in out.columns[i / 2].iter_mut().zip(quads) {
+                two.0[4 * (i % 2)..][..4].copy_from_slice(quad);
+            }
         }
         out
     }

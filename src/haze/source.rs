@@ -94,7 +94,7 @@ impl SourceTable {
     }
 
     /// Finds a place.
-    #[inline]
+    #[inline(always)]
     pub fn spot(&self, altitude: f32, sun: f32) -> Spot {
         let (a, t) = locate(&self.altitude, altitude);
         let (s, u) = locate(&self.sun, sun);
@@ -154,7 +154,9 @@ fn pair(seen: &Components, r: usize) -> Lanes<8> {
 /// Interval and position in it; clamped to the ends.
 #[inline(always)]
 fn locate(nodes: &[f32], x: f32) -> (usize, f32) {
-    let i = nodes[1..nodes.len() - 1].partition_point(|&node| node <= x);
+    // Counted, not searched: there are few, and no branch goes wrong.
+    let inner = &nodes[1..nodes.len() - 1];
+    let i = inner.iter().map(|&node| u32::from(node <= x)).sum::<u32>() as usize;
     let t = (x - nodes[i]) / (nodes[i + 1] - nodes[i]);
     (i, t.clamp(0.0, 1.0))
 }

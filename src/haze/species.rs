@@ -13,8 +13,37 @@ const PER_SPHERE: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
 #[derive(Clone, Debug)]
 struct Scatterer {
     phase: PhaseTable,
-    /// `[constituent][block]`, m⁻¹ where the profile is 1.
+    /// Constituents that it is part of.
+    constituents: Vec<usize>,
+    /// `[one of these][block]`, m⁻¹ where the profile is 1.
     scattering: Vec<[f32; LANES]>,
+}
+
+impl Scatterer {
+    /// From `[constituent][block]`.
+    fn new(phase: PhaseTable, all: &[[f32; LANES]], blocks: usize) -> Self {
+        let rows = all.chunks(blocks).enumerate();
+        let (constituents, rows): (Vec<_>, Vec<_>) = rows.filter(|(_, row)| scatters(row)).unzip();
+        Self {
+            phase,
+            constituents,
+            scattering: rows.concat(),
+        }
+    }
+
+    /// Adds a block of wavelengths, scaled by what `phase` is there.
+    #[inline(always)]
+    fn add(&self, block: usize, blocks: usize, phase: [f32; LANES], out: &mut [[f32; LANES]]) {
+        let rows = self.scattering.chunks_exact(blocks);
+        for (&constituent, row) in self.constituents.iter().zip(rows) {
+            let (sum, k) = (&mut out[constituent], &row[block]);
+            *sum = core::array::from_fn(|i| sum[i] + PER_SPHERE * phase[i] * k[i]);
+        }
+    }
+}
+
+fn scatters(row: &[[f32; LANES]]) -> bool {
+    row.as_flattened().iter().any(|&k| k != 0.0)
 }
 
 /// All scatterers at one visibility.
@@ -24,6 +53,8 @@ pub(crate) struct Species {
     scatterers: Vec<Scatterer>,
     /// Sums over molecules and over particles, `[constituent][block]`.
     totals: [Vec<[f32; LANES]>; 2],
+    /// Whether there are any in a constituent.
+    present: [Vec<bool>; 2],
 }
 
 impl Species {
@@ -40,7 +71,8 @@ impl Species {
             .min()
             .unwrap_or(0);
         let block_count = nw.div_ceil(LANES);
-        let zero = || vec![[0.0; LANES]; head.constituents * block_count];
+        let padded = head.constituents.next_multiple_of(LANES);
+        let zero = || vec![[0.0; LANES]; padded * block_count];
         let mut totals = [zero(), zero()];
         let scatterers = (0..count)
             .map(|s| {
@@ -65,15 +97,14 @@ impl Species {
                     ground: false,
                     parameter,
                 };
-                Scatterer {
-                    phase: PhaseTable::new(&field),
-                    scattering,
-                }
+                Scatterer::new(PhaseTable::new(&field), &scattering, block_count)
             })
             .collect();
+        let rows = |total: &Vec<[f32; LANES]>| total.chunks(block_count).map(scatters).collect();
         Self {
             blocks: block_count,
             scatterers,
+            present: totals.each_ref().map(rows),
             totals,
         }
     }
@@ -90,11 +121,7 @@ impl Species {
         out.fill([0.0; LANES]);
         for scatterer in &self.scatterers {
             let phase = scatterer.phase.evaluate(block, angle);
-            let rows = scatterer.scattering.chunks_exact(self.blocks);
-            for (sum, row) in out.iter_mut().zip(rows) {
-                let k = &row[block];
-                *sum = core::array::from_fn(|i| sum[i] + PER_SPHERE * phase[i] * k[i]);
-            }
+            scatterer.add(block, self.blocks, phase, out);
         }
     }
 
@@ -103,21 +130,16 @@ impl Species {
     pub fn dipoles(&self, block: usize, out: &mut [[f32; LANES]]) {
         out.fill([0.0; LANES]);
         for scatterer in &self.scatterers {
-            let Some(strength) = scatterer.phase.polarising(block) else {
-                continue;
-            };
-            let rows = scatterer.scattering.chunks_exact(self.blocks);
-            for (sum, row) in out.iter_mut().zip(rows) {
-                let k = &row[block];
-                *sum = core::array::from_fn(|i| sum[i] + PER_SPHERE * strength[i] * k[i]);
+            if let Some(strength) = scatterer.phase.polarising(block) {
+                scatterer.add(block, self.blocks, strength, out);
             }
         }
     }
 
-    /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths.
+    /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths; `None` where there are none.
     #[inline(always)]
-    pub fn totals(&self, k: usize, block: usize) -> [&[f32; LANES]; 2] {
+    pub fn totals(&self, k: usize, block: usize) -> [Option<&[f32; LANES]>; 2] {
         let row = k * self.blocks + block;
-        [&self.totals[0][row], &self.totals[1][row]]
+        [0, 1].map(|i| self.present[i][k].then(|| &self.totals[i][row]))
     }
 }

@@ -1,22 +1,18 @@
-//! Sunlight at a point: how high the disc stands above the planet's edge, and the air that it crosses.
+//! Sunlight at points: how high the disc stands above the planet's edge, and the air that it crosses.
 
-use core::f32::consts::PI;
-
-use crate::air::{Amounts, Layers, Line};
+use super::disc::visible_rise;
+use super::places::{BATCH, Places};
+use crate::air::{Amounts, Layers, Line, QUADS};
 use crate::geometry::Planet;
-use crate::math::{LANES, exp};
+use crate::lanes::Lanes;
+use crate::math::{LANES, bound, sqrt};
+
+type Heights = Lanes<BATCH>;
+/// Columns at two places: four constituents at the one, then at the other.
+pub(crate) type Two = [Lanes<8>; QUADS];
 
 /// Angular radius of the sun, rad: 0.2667°.
 const SUN_RADIUS: f64 = 0.004_654_793;
-
-/// Sunlight at a point.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sunlight {
-    /// How many radii the sun's centre stands above the geometric horizon.
-    pub rise: f32,
-    /// Columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
-    pub columns: Amounts,
-}
 
 /// Columns towards the sun, tabulated around where it stands.
 #[derive(Clone, Debug)]
@@ -66,65 +62,95 @@ impl Beam {
         size_of_val(self.columns.as_slice())
     }
 
-    /// Sunlight at altitude `h` (m) of a sun whose centre stands `sine` above the horizontal plane.
+    /// How many radii the sun's centre stands above the geometric horizon of each place; for the first `pairs` pairs of places, the
+    /// columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
     #[inline(always)]
-    pub fn at(&self, layers: &Layers, h: f64, sine: f64) -> Sunlight {
+    pub fn at(&self, layers: &Layers, places: &Places, pairs: usize, out: &mut [Two]) -> Heights {
         let planet = layers.planet();
-        let dip = dip(&planet, h.max(0.0));
-        let rise = ((sine.asin() + dip) / SUN_RADIUS) as f32;
-        let angle = f64::from(visible_rise(rise)) * SUN_RADIUS;
-        let tabulated = h <= self.top && (self.range[0]..=self.range[1]).contains(&angle);
-        let columns = match tabulated {
-            true => self.columns(h, angle),
-            false => towards(layers, h, (angle - dip).sin()),
-        };
-        Sunlight { rise, columns }
-    }
-
-    #[inline(always)]
-    fn columns(&self, h: f64, angle: f64) -> Amounts {
-        let [low, high] = self.range;
-        let u = (h.max(0.0) / self.top).sqrt() as f32 * (ALTITUDES - 1) as f32;
-        let v = ((angle - low) / (high - low)).sqrt() as f32 * (ANGLES - 1) as f32;
-        let (i, j) = (
-            (u as usize).min(ALTITUDES - 2),
-            (v as usize).min(ANGLES - 2),
-        );
-        let (t, s) = (u - i as f32, v - j as f32);
-        let node =
-            |i: usize, j: usize| &self.columns[(i * ANGLES + j) * self.quads..][..self.quads];
-        let corners = [
-            node(i, j),
-            node(i, j + 1),
-            node(i + 1, j),
-            node(i + 1, j + 1),
-        ];
-        let weights = [(1.0 - t) * (1.0 - s), (1.0 - t) * s, t * (1.0 - s), t * s];
-        let mut columns = Amounts::default();
-        for (q, column) in columns.0[..self.quads].iter_mut().enumerate() {
-            for (corner, weight) in corners.iter().zip(weights) {
-                for (column, corner) in column.iter_mut().zip(&corner[q]) {
-                    *column += weight * corner;
+        let dip = dips(&planet, places.altitude.max(Heights::splat(0.0)));
+        let rise = (places.sun.asin() + dip) * (1.0 / SUN_RADIUS) as f32;
+        let angle = visible_rise(rise) * SUN_RADIUS as f32;
+        let spots = self.spots(places.altitude, angle);
+        for (p, out) in out.iter_mut().enumerate().take(pairs) {
+            let two = [2 * p, 2 * p + 1];
+            if two.into_iter().all(|i| spots.tabulated[i]) {
+                self.look_up(&spots, two, out);
+                continue;
+            }
+            for (half, i) in two.into_iter().enumerate() {
+                let sine = f64::from(angle.0[i] - dip.0[i]).sin();
+                let columns = towards(layers, f64::from(places.altitude.0[i]), sine);
+                for (out, quad) in out.iter_mut().zip(&columns.0) {
+                    out.0[4 * half..][..4].copy_from_slice(quad);
                 }
             }
-            for column in column.iter_mut() {
-                *column = exp(*column);
-            }
         }
-        columns
+        rise
+    }
+
+    /// Where in the table these altitudes (m) and angles above the horizon are.
+    #[inline(always)]
+    fn spots(&self, altitude: Heights, angle: Heights) -> Spots {
+        let [low, high] = self.range.map(|v| v as f32);
+        let top = self.top as f32;
+        let cell = |share: Heights, count: usize| {
+            let u = share.map(|share| sqrt(bound(share, 0.0, 1.0))) * (count - 1) as f32;
+            let (cell, index) = u.round_down(Heights::splat((count - 2) as f32));
+            (u - cell, index)
+        };
+        let (t, i) = cell(altitude * (1.0 / top), ALTITUDES);
+        let (s, j) = cell((angle - Heights::splat(low)) * (1.0 / (high - low)), ANGLES);
+        let one = Heights::splat(1.0);
+        Spots {
+            node: core::array::from_fn(|k| (i[k] as usize * ANGLES + j[k] as usize) * self.quads),
+            weight: [(one - t) * (one - s), (one - t) * s, t * (one - s), t * s],
+            tabulated: core::array::from_fn(|k| {
+                altitude.0[k] <= top && (low..=high).contains(&angle.0[k])
+            }),
+        }
+    }
+
+    /// Interpolates the logarithms of two places between four nodes each.
+    #[inline(always)]
+    fn look_up(&self, spots: &Spots, [a, b]: [usize; 2], out: &mut Two) {
+        let steps = [0, 1, ANGLES, ANGLES + 1].map(|step| step * self.quads);
+        let rows = &self.columns;
+        for (q, out) in out.iter_mut().enumerate().take(self.quads) {
+            let mut sum = Lanes::splat(0.0);
+            for (step, weight) in steps.iter().zip(&spots.weight) {
+                let node = [a, b].map(|i| rows[spots.node[i] + step + q]);
+                sum = sum + Lanes::join(node[0], node[1]) * Lanes::pair(weight.0[a], weight.0[b]);
+            }
+            *out = sum.exp();
+        }
     }
 }
 
-/// Angle of the geometric horizon below the horizontal, rad, to 1e-8 up to 200 km.
+/// Cells of the table and places in them.
+struct Spots {
+    node: [usize; BATCH],
+    weight: [Heights; 4],
+    tabulated: [bool; BATCH],
+}
+
+/// Angles of the geometric horizon below the horizontal at these altitudes (m), rad.
 #[inline(always)]
-fn dip(planet: &Planet, h: f64) -> f64 {
-    let square = h * (2.0 * planet.radius + h) / (planet.radius * planet.radius);
-    if square > 0.06 {
-        return planet.dip(h);
-    }
+fn dips(planet: &Planet, altitude: Heights) -> Heights {
+    /// Up to which the series holds to 1e-8: some 200 km above the Earth.
+    const LIMIT: f32 = 0.06;
+    let per_radius = (1.0 / planet.radius) as f32;
+    let square = altitude.map(|h| h * per_radius * (h * per_radius + 2.0));
     // The series of the arc tangent.
-    let series = 1.0 - square * (1.0 / 3.0 - square * (0.2 - square * (1.0 / 7.0 - square / 9.0)));
-    square.sqrt() * series
+    let mut dips = square.map(|q| {
+        let series = 1.0 - q * (1.0 / 3.0 - q * (0.2 - q * (1.0 / 7.0 - q * (1.0 / 9.0))));
+        sqrt(q) * series
+    });
+    for i in 0..BATCH {
+        if square.0[i] > LIMIT {
+            dips.0[i] = planet.dip(f64::from(altitude.0[i])) as f32;
+        }
+    }
+    dips
 }
 
 fn share(i: usize, count: usize) -> f64 {
@@ -142,77 +168,4 @@ fn towards(layers: &Layers, h: f64, sine: f64) -> Amounts {
     let top = (planet.squared_altitude(planet.top) - line.lowest) * diameter;
     let to = top.max(0.0).sqrt();
     layers.columns(line, from, to.max(from))
-}
-
-/// How many radii the centroid of what is seen of the disc stands above a straight edge.
-#[inline(always)]
-fn visible_rise(rise: f32) -> f32 {
-    if rise >= 1.0 {
-        return rise;
-    }
-    let chord = (1.0 - rise * rise).max(0.0);
-    let share = visible_share(rise);
-    if rise <= -0.999 {
-        return 0.0;
-    }
-    rise + 2.0 / 3.0 * chord * chord.sqrt() / (PI * share)
-}
-
-/// Share of a disc above a straight edge, for a centre `rise` radii above the edge.
-fn visible_share(rise: f32) -> f32 {
-    let rise = rise.clamp(-1.0, 1.0);
-    0.5 + (rise * (1.0 - rise * rise).sqrt() + rise.asin()) / PI
-}
-
-/// Integral of the visible share up to `rise`.
-fn accumulated_share(rise: f32) -> f32 {
-    let x = rise.clamp(-1.0, 1.0);
-    let root = (1.0 - x * x).sqrt();
-    let inside = 0.5 * x + (root - root * root * root / 3.0 + x * x.asin()) / PI;
-    inside + (rise - 1.0).max(0.0)
-}
-
-/// Mean share of the disc that is visible between two places.
-#[inline(always)]
-pub(crate) fn mean_share(a: f32, b: f32) -> f32 {
-    if a.min(b) >= 1.0 {
-        return 1.0;
-    }
-    if a.max(b) <= -1.0 {
-        return 0.0;
-    }
-    let step = b - a;
-    match step.abs() < 1e-2 {
-        true => visible_share(0.5 * (a + b)),
-        false => ((accumulated_share(b) - accumulated_share(a)) / step).clamp(0.0, 1.0),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn half_the_disc_has_its_centroid_at_four_thirds_over_pi() {
-        assert!((visible_share(0.0) - 0.5).abs() < 1e-6);
-        assert!((visible_rise(0.0) - 4.0 / (3.0 * PI)).abs() < 1e-6);
-        assert!(visible_share(0.999_999) > 0.999 && visible_share(-0.999_999) < 1e-3);
-        assert!((visible_rise(-0.9985)).abs() < 2e-3);
-    }
-
-    #[test]
-    fn mean_shares_are_means() {
-        for (a, b) in [
-            (-3.0, 0.5),
-            (2.0, -0.2),
-            (-0.3, 0.4),
-            (-5.0, 9.0),
-            (0.1, 0.105),
-        ] {
-            let n = 10_000;
-            let at = |i: i32| visible_share(a + (b - a) * (i as f32 + 0.5) / n as f32);
-            let mean = (0..n).map(at).sum::<f32>() / n as f32;
-            assert!((mean_share(a, b) - mean).abs() < 1e-3, "{a} {b}");
-        }
-    }
 }
