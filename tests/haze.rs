@@ -7,6 +7,7 @@ use welkin::format::{
     Chunk, DensityTable, Head, Payload, PhaseFunction, SOURCE_FIELDS, SourceBasis, SourceCore,
     encode, extend, harmonics,
 };
+use welkin::geometry::Side;
 use welkin::{Conditions, Error, Haze, Model};
 
 const SUNS: usize = 5;
@@ -474,25 +475,8 @@ fn to_the_limb_the_haze_is_the_sky() {
     let model = Model::default_model().unwrap();
     let n = model.wavelengths().len();
     let mut differences: [Vec<f64>; 4] = Default::default();
-    for i in 0..400 {
-        let u = |step: f64| (f64::from(i + 1) * step).fract();
+    for (i, (place, direction)) in views(400).enumerate() {
         let [night, steep] = [i % 2 == 1, i / 2 % 2 == 1];
-        let t = 2.0 * u(0.618_034) - 1.0;
-        let sun = match night {
-            true => -4.2 * u(0.754_878).powf(1.5),
-            false => 60.0 * u(0.754_878).powi(2),
-        };
-        let place = Conditions {
-            solar_elevation: sun.to_radians(),
-            solar_azimuth: 0.0,
-            visibility: 20e3 + 111.8e3 * u(0.569_84).powi(2),
-            albedo: u(0.430_16),
-            altitude: 15e3 * u(0.324_7).powi(2),
-        };
-        let elevation = if steep { t.asin() } else { 0.035 * t.powi(3) };
-        let azimuth = std::f64::consts::PI * u(0.245_1);
-        let ((z, r), (y, x)) = (elevation.sin_cos(), azimuth.sin_cos());
-        let direction = [r * x, r * y, z];
         let [mut sky, mut haze, mut through] = [(); 3].map(|()| vec![0.0; n]);
         let fitted = model.sky(&place).unwrap();
         fitted
@@ -524,4 +508,150 @@ fn to_the_limb_the_haze_is_the_sky() {
             "{name}: {median} {p95}"
         );
     }
+}
+
+/// Conditions and directions all over the model, half of them near the horizon, half of the suns below it.
+fn views(count: usize) -> impl Iterator<Item = (Conditions, [f64; 3])> {
+    (0..count).map(|i| {
+        let u = |step: f64| ((i + 1) as f64 * step).fract();
+        let sun = match i % 2 {
+            0 => 60.0 * u(0.754_878).powi(2),
+            _ => -4.2 * u(0.754_878).powf(1.5),
+        };
+        let place = Conditions {
+            solar_elevation: sun.to_radians(),
+            solar_azimuth: 0.0,
+            visibility: 20e3 + 111.8e3 * u(0.569_84).powi(2),
+            albedo: u(0.430_16),
+            altitude: 15e3 * u(0.324_7).powi(2),
+        };
+        let t = 2.0 * u(0.618_034) - 1.0;
+        let elevation = if i / 2 % 2 == 0 {
+            0.035 * t.powi(3)
+        } else {
+            t.asin()
+        };
+        let ((z, r), (y, x)) = (
+            elevation.sin_cos(),
+            (std::f64::consts::PI * u(0.245_1)).sin_cos(),
+        );
+        (place, [r * x, r * y, z])
+    })
+}
+
+#[test]
+fn before_its_sky_every_way_ends_in_it_without_a_step() {
+    let model = Model::default_model().unwrap();
+    let n = model.wavelengths().len();
+    let (mut worst_step, mut worst_end) = (0f32, 0f32);
+    for (place, direction) in views(60) {
+        let (haze, sky) = (model.haze(&place).unwrap(), model.sky(&place).unwrap());
+        let front = haze.before(&sky).unwrap();
+        let from = front.camera();
+        let planet = haze.air().planet();
+        let way = planet.ray(place.altitude, direction[2].asin());
+        let (whole, open) = (way.length, way.side == Side::Up);
+        let mut seen = vec![0.0; n];
+        sky.radiance(direction.map(|v| v as f32), &mut seen)
+            .unwrap();
+        let mut before: Option<[Vec<f32>; 2]> = None;
+        let away = (-100..=0).map(|step| 0.5 * 1.02f64.powi(step));
+        let closer = (1..=350).map(|step| 1.0 - 0.5 * 0.96f64.powi(step));
+        for share in away.chain(closer).chain([1.0]) {
+            let distance = whole * share;
+            let to = std::array::from_fn(|k| from[k] + distance * direction[k]);
+            let [mut joined, mut own, mut through] = [(); 3].map(|()| vec![0.0; n]);
+            front.in_scatter(to, &mut joined, &mut through).unwrap();
+            haze.in_scatter(from, to, &mut own, &mut through).unwrap();
+            assert!(joined.iter().all(|l| *l >= 0.0 && l.is_finite()));
+            if let Some([joined_before, own_before]) = before {
+                for w in 0..n {
+                    let step = (joined[w] - joined_before[w]).abs();
+                    let own_step = (own[w] - own_before[w]).abs();
+                    let apart = (seen[w] - own[w]).abs().max(1e-3 * seen[w]);
+                    worst_step = worst_step.max((step - own_step) / apart);
+                }
+            }
+            if share == 1.0 && open {
+                let ends = joined.iter().zip(&seen);
+                worst_end = ends.fold(worst_end, |e, (a, b)| e.max((a / b - 1.0).abs()));
+            }
+            before = Some([joined, own]);
+        }
+    }
+    // A step of 2 % of the way, or of 4 % of the rest, goes no farther than the haze does and a part of what is left to the sky.
+    println!("steps towards the sky: {worst_step}; the end from the sky: {worst_end}");
+    assert!(worst_step < 0.15 && worst_end < 1e-5);
+}
+
+#[test]
+fn well_inside_the_sky_adds_nothing() {
+    let model = Model::default_model().unwrap();
+    let n = model.wavelengths().len();
+    let place = Conditions::default();
+    let (haze, sky) = (model.haze(&place).unwrap(), model.sky(&place).unwrap());
+    let front = haze.before(&sky).unwrap();
+    let points = [
+        [900.0, 20.0, 30.0],
+        [7000.0, 3000.0, 2000.0],
+        [0.0, -3000.0, 3000.0],
+    ];
+    let [mut joined, mut own, mut through] = [(); 3].map(|()| vec![0.0; points.len() * n]);
+    front
+        .aerial_perspective(&points, &mut joined, &mut through)
+        .unwrap();
+    let same = through.clone();
+    haze.aerial_perspective(front.camera(), &points, &mut own, &mut through)
+        .unwrap();
+    assert_eq!((joined, same), (own, through));
+    for point in points {
+        let [a, b] = [
+            front.linear_srgb(point),
+            haze.linear_srgb(front.camera(), point),
+        ];
+        assert_eq!(a.unwrap(), b.unwrap());
+    }
+}
+
+#[test]
+fn only_a_sky_of_the_same_scene_is_taken() {
+    let model = Model::default_model().unwrap();
+    let place = Conditions::default();
+    let haze = model.haze(&place).unwrap();
+    let higher = Conditions {
+        altitude: 3000.0,
+        ..place
+    };
+    assert!(haze.before(&model.sky(&higher).unwrap()).is_ok());
+    for other in [
+        Conditions {
+            solar_elevation: 0.1,
+            ..place
+        },
+        Conditions {
+            solar_azimuth: 0.1,
+            ..place
+        },
+        Conditions {
+            visibility: 30e3,
+            ..place
+        },
+        Conditions {
+            albedo: 0.7,
+            ..place
+        },
+    ] {
+        let sky = model.sky(&other).unwrap();
+        let refused = haze.before(&sky);
+        assert!(
+            matches!(refused, Err(Error::OutOfRange { .. })),
+            "{other:?}"
+        );
+    }
+    let front_sky = model.sky(&place).unwrap();
+    let front = haze.before(&front_sky).unwrap();
+    let (mut short, mut through) = ([0.0; 2], [0.0; 2]);
+    let wrong = front.in_scatter([1.0; 3], &mut short, &mut through);
+    assert!(matches!(wrong, Err(Error::Length { .. })));
+    assert!(matches!(front.xyz([f64::NAN; 3]), Err(Error::Point { .. })));
 }

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use welkin::Result;
+use welkin::{Conditions, Haze, Result};
 
 use crate::clock;
 use crate::paper::Paper;
@@ -12,6 +12,9 @@ use crate::{QUERIES, SLOW, Scene, cell, span, unwrapped};
 
 /// Segments of one round.
 const ROUND: usize = 128;
+
+/// Room for all wavelengths of a model.
+const MOST: usize = 256;
 
 type Ends = [[f64; 3]; 2];
 
@@ -68,6 +71,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             }
         },
     );
+    let low_sun = low_sun(scene, &haze, &segments)?;
     let row = |name, peer, ns, bytes| Row {
         name,
         peer,
@@ -83,6 +87,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             haze.bytes(),
         ),
         row("segment", "paper's Eq. 2, all random", random, haze.bytes()),
+        row("segment_low_sun", "the same by day", low_sun, haze.bytes()),
         row(
             "transmittance",
             "paper's scheme, one radiance",
@@ -90,6 +95,31 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             haze.air().bytes(),
         ),
     ])
+}
+
+/// Times of segments at sunset, where shadows cross them, and by day.
+fn low_sun(scene: &Scene, day: &Haze, segments: &[Ends]) -> Result<[f64; 2]> {
+    let sunset = scene.model.haze(&Conditions {
+        solar_elevation: 0.0,
+        ..scene.conditions
+    })?;
+    let n = day.wavelengths().len();
+    let run = |haze, round| -> Result<()> {
+        let haze: &Haze = haze;
+        let [mut light, mut through] = [[0.0; MOST]; 2];
+        for &ends in &segments[span(round, ROUND)] {
+            let [from, to] = black_box(ends);
+            haze.in_scatter(from, to, &mut light[..n], &mut through[..n])?;
+            black_box(&light);
+        }
+        Ok(())
+    };
+    let ours = unwrapped(|round| run(&sunset, round));
+    Ok(clock::duel(
+        [ROUND; 2],
+        ours,
+        unwrapped(|round| run(day, round)),
+    ))
 }
 
 /// Up to 100 km long, all between 0 and 14 km.

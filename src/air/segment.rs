@@ -46,11 +46,10 @@ impl Segment {
         }
         let unit = direction.map(|v| v / square.sqrt());
         let endless = Self::along(planet, a, unit, 0.0);
-        let diameter = 2.0 * planet.radius;
-        let reach = |w: f64| (w - endless.line.lowest) * diameter;
+        let lowest = endless.line.lowest;
+        let reach = |w: f64| (w - lowest) * (2.0 * planet.radius);
         let ground = reach(0.0);
-        if endless.line.lowest < 0.0 && endless.from < 0.0 && endless.from * endless.from >= ground
-        {
+        if lowest < 0.0 && endless.from < 0.0 && endless.from * endless.from >= ground {
             let length = -endless.from - ground.sqrt();
             return Ok((Self::along(planet, a, unit, length), true));
         }

@@ -13,7 +13,7 @@ use super::places::{BATCH, Places};
 use super::source::Spot;
 use super::stations::MOST_STATIONS;
 use super::sunlight::Two;
-use crate::air::{QUADS, Segment, dot};
+use crate::air::{Amounts, QUADS, Segment, dot};
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::phase::SunAngle;
@@ -35,6 +35,9 @@ pub(crate) struct Block {
     /// Q and U of that light in the vertical frame of the segment; zero unless they are asked for.
     pub linear: [[f32; LANES]; 2],
     pub depth: [f32; LANES],
+    /// Light that the air beyond the segment would send to its start if nothing stood between that air and the sun, and no ground in
+    /// the way; zero unless it is asked for.
+    pub beyond: [f32; LANES],
 }
 
 /// Light alone: the source of molecules and that of particles.
@@ -48,6 +51,8 @@ pub(crate) struct Integral<'a, const M: usize, F> {
     pub segment: &'a Segment,
     /// Counts where Q and U are asked for.
     pub plane: Plane,
+    /// Whether light from beyond the segment counts.
+    pub beyond: bool,
     pub emit: F,
 }
 
@@ -79,6 +84,9 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
             let i = panels.count + 1 + i;
             view.look(haze, &self.plane, between, &places[i / BATCH], i % BATCH);
         }
+        let beyond = self
+            .beyond
+            .then(|| layers.columns(segment.line, segment.to(), f64::INFINITY));
         let angle = SunAngle::between(segment.direction, haze.sun);
         let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
         let sunlit = &mut sunlit[..layers.quads * LANES];
@@ -117,12 +125,16 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                 walk.step::<M>(air.scatter(&sun, single, &light));
                 near = far;
             }
+            let beyond = beyond
+                .as_ref()
+                .map(|columns| sunlit_beyond(haze, block, columns, sunlit, walk.depth));
             (self.emit)(
                 block,
                 Block {
                     scattered: walk.scattered.0,
                     linear: walk.linear.map(|part| part.0),
                     depth: walk.depth.0,
+                    beyond: beyond.unwrap_or_default(),
                 },
             );
         }
@@ -348,13 +360,31 @@ impl Walk {
     }
 }
 
+/// What air with these columns sends through this depth where all of it is in the sun.
+#[inline(always)]
+fn sunlit_beyond(
+    haze: &Haze,
+    block: usize,
+    columns: &Amounts,
+    sunlit: &[[f32; LANES]],
+    before: Lanes<LANES>,
+) -> [f32; LANES] {
+    let depth = Lanes(haze.air.extinction.depth(columns, block));
+    let mut light = Lanes::splat(0.0);
+    for (k, sunlit) in sunlit.iter().enumerate() {
+        light = light + Lanes(*sunlit) * columns.get(k);
+    }
+    let mean = mean_transmittance(depth, depth.one_minus_exp_neg());
+    (light * mean * (-before).exp()).0
+}
+
 /// Mean transmittance of what has this optical depth and takes away this share.
 #[inline(always)]
-fn mean_transmittance(depth: Pair, absorbed: Pair) -> Pair {
+fn mean_transmittance<const N: usize>(depth: Lanes<N>, absorbed: Lanes<N>) -> Lanes<N> {
     // The limit is reached before the quotient loses its digits.
     const THIN: f32 = 1e-3;
-    let thin = Pair::splat(1.0) - depth * 0.5;
-    depth.at_least(THIN, absorbed / depth.max(Pair::splat(THIN)), thin)
+    let thin = Lanes::splat(1.0) - depth * 0.5;
+    depth.at_least(THIN, absorbed / depth.max(Lanes::splat(THIN)), thin)
 }
 
 /// A place in the source and how its components look from there.

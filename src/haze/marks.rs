@@ -192,9 +192,13 @@ impl Marks {
             let share = SHARES[k] * (total[k] / NOTICED).min(1.0);
             share / total[k].max(f32::MIN_POSITIVE)
         });
-        for i in 1..self.len {
-            let more: f32 = (0..KINDS).map(|k| light[k][i] * factor[k]).sum();
-            self.seen[i] = self.seen[i - 1] + more;
+        let (mut seen, [visible, ultraviolet, change]) = (0.0, &light);
+        let kinds = visible.iter().zip(ultraviolet).zip(change);
+        for (out, ((visible, ultraviolet), change)) in
+            self.seen.iter_mut().zip(kinds).take(self.len)
+        {
+            seen += visible * factor[0] + ultraviolet * factor[1] + change * factor[2];
+            *out = seen;
         }
     }
 

@@ -1,7 +1,9 @@
 //! Haze: the light that the air between two points scatters towards the first. Format specification, section 7.7.
 
+mod colours;
 mod directions;
 mod disc;
+mod foreground;
 mod harmonics;
 mod integral;
 mod marks;
@@ -22,6 +24,8 @@ use crate::math::{LANES, bound};
 use crate::model::Model;
 use crate::polarisation::Plane;
 use crate::simd::dispatch;
+use colours::Colours;
+pub use foreground::Foreground;
 use integral::{Block, Integral, UNPOLARISED};
 use source::{SourceTable, blocks, ground_factor};
 use species::Species;
@@ -207,20 +211,11 @@ impl Haze {
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m.
     pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
         let segment = Segment::between(&self.air.planet(), from, to)?;
-        let mut sums = [[[0f32; LANES]; 3]; 2];
+        let mut colours = Colours::default();
         self.integrate(&segment, |block, result| {
-            let through = attenuated(&result.depth);
-            for (c, weight) in self.xyz[block].iter().enumerate() {
-                for i in 0..LANES {
-                    sums[0][c][i] += weight[i] * result.scattered[i];
-                    sums[1][c][i] += weight[i] * through[i];
-                }
-            }
+            colours.add(&self.xyz[block], &result);
         });
-        let [light, through] = sums.map(|sum| sum.map(|lanes| lanes.iter().sum::<f32>()));
-        let factor = |c: usize| bound(through[c] / self.white[c], 0.0, 1.0);
-        let light = light.map(|v| bound(v, f32::MIN, f32::MAX));
-        Ok((light, core::array::from_fn(factor)))
+        Ok(colours.finish(&self.white))
     }
 
     /// In-scattered light in linear sRGB (cd m⁻², not clipped), and the factors by which the air changes red, green and blue
@@ -243,16 +238,22 @@ impl Haze {
 
     fn spectral(&self, segment: &Segment, in_scatter: &mut [f32], transmittance: &mut [f32]) {
         self.integrate(segment, |block, result| {
-            let through = attenuated(&result.depth);
-            let sun = &self.irradiance[block];
-            let rows = in_scatter[block * LANES..]
-                .iter_mut()
-                .zip(&mut transmittance[block * LANES..]);
-            for (i, (light, t)) in rows.take(LANES).enumerate() {
-                *light = bound(result.scattered[i] * sun[i], 0.0, f32::MAX);
-                *t = through[i];
-            }
+            self.write(block, &result, in_scatter, transmittance);
         });
+    }
+
+    /// Writes a block of wavelengths, of which the last may be cut short.
+    #[inline(always)]
+    fn write(&self, block: usize, result: &Block, in_scatter: &mut [f32], through: &mut [f32]) {
+        let transmittance = attenuated(&result.depth);
+        let sun = &self.irradiance[block];
+        let rows = in_scatter[block * LANES..]
+            .iter_mut()
+            .zip(&mut through[block * LANES..]);
+        for (i, (light, t)) in rows.take(LANES).enumerate() {
+            *light = bound(result.scattered[i] * sun[i], 0.0, f32::MAX);
+            *t = transmittance[i];
+        }
     }
 
     /// Hands what the segment does to `emit` block by block.
@@ -261,6 +262,7 @@ impl Haze {
             haze: self,
             segment,
             plane: Plane::default(),
+            beyond: false,
             emit,
         });
     }

@@ -75,7 +75,7 @@ fn count(layers: &Layers, segment: &Segment, sky: &Heaven) -> usize {
     let rise = (squared(segment.from) - squared(segment.to())).abs();
     let [step, stride] = if sky.low { LOW } else { HIGH };
     match rise / step + segment.length / stride {
-        change if change < 0.25 => 1,
+        change if change < 0.12 => 1,
         change if change < 2.0 => 2,
         change if change < 5.0 || (change < 10.0 && !sky.low) => 4,
         change if change < 10.0 => 6,

@@ -158,6 +158,7 @@ impl Haze {
             haze: self,
             segment: &segment,
             plane,
+            beyond: false,
             emit: |block, result: Block| {
                 let [q, u] = result.linear;
                 let q_turned = core::array::from_fn(|i| c * q[i] + s * u[i]);

@@ -94,9 +94,11 @@ fn study(args: &Args, model: &Model, solved: &[Solved]) -> Result<String> {
     let mut report = study::table(&rows);
     let polarised = study::polarised_rows(&methods, &cases, &truth)?;
     let _ = writeln!(report, "\n{}", study::polarised_table(&polarised));
+    let names = study::METHODS.map(study::Method::name).join(" | ");
+    let rule = "--- | ".repeat(study::METHODS.len());
     let _ = writeln!(
         report,
-        "\nLargest jump of the ratio to the exact light between pixels 0.02° apart, 560 nm:\n\n| scan | Eq. 2 | Eq. 2, blurred | source | blend |\n| --- | --- | --- | --- | --- |"
+        "\nLargest jump of the ratio to the exact light between pixels 0.02° apart, 560 nm:\n\n| scan | {names} |\n| --- | {rule}"
     );
     for scan in study::scans(&methods, solved, solved.len() / 2, args.highest)? {
         let cells =

@@ -92,7 +92,6 @@ impl Options {
         let Some(terrain) = &self.terrain else {
             return Ok(None);
         };
-        let sky = model.sky(conditions)?;
         let camera = self.lens.camera(azimuth, ASPECT)?;
         let terrain = self.read(terrain)?;
         let place = [
@@ -101,6 +100,12 @@ impl Options {
             conditions.altitude.max(terrain.height(0.0, 0.0)) + 2.0,
         ];
         let haze = model.haze(conditions)?;
+        // The sky of the place, so that what is far away vanishes in it.
+        let [lowest, highest] = model.altitude_range();
+        let sky = model.sky(&Conditions {
+            altitude: place[2].clamp(lowest, highest),
+            ..*conditions
+        })?;
         Ok(Some(Landscape {
             difference: Difference::new(model, &haze, self.haze)?,
             haze,
@@ -184,7 +189,7 @@ impl Landscape<'_> {
         let point = std::array::from_fn(|k| self.place[k] + distance.min(FARTHEST) * direction[k]);
         let surface = self.surface(radius, point)?;
         let Some(polariser) = &self.polariser else {
-            let (mut light, through) = self.haze.linear_srgb(self.place, point)?;
+            let (mut light, through) = self.air(point)?;
             if let Some(difference) = &self.difference {
                 light = difference.light(&self.haze, self.place, point)?;
             }
@@ -197,6 +202,16 @@ impl Landscape<'_> {
         Ok(std::array::from_fn(|c| {
             HALF * surface[c] * through[c] + light[c]
         }))
+    }
+
+    /// Light that the air before a point adds, and what it leaves of that from there.
+    fn air(&self, point: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let front = self.haze.before(&self.sky)?;
+        Ok(match front.camera() == self.place {
+            true => front.linear_srgb(point)?,
+            // Higher than any sky of the model.
+            false => self.haze.linear_srgb(self.place, point)?,
+        })
     }
 
     fn background(&self, direction: [f32; 3]) -> Result<[f32; 3]> {

@@ -1,10 +1,11 @@
-//! Four ways to the light of a finite segment.
+//! Ways to the light of a finite segment.
 
 use super::case::Case;
 use crate::orders::{NW, Spectrum};
 use crate::units::Solved;
 use anyhow::Result;
-use welkin::{Air, Conditions, Haze, Model};
+use std::sync::{Arc, Mutex, PoisonError};
+use welkin::{Air, Conditions, Haze, Model, Sky};
 
 /// A way to the light of a finite segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,17 +16,23 @@ pub enum Method {
     Blurred,
     /// Quadrature of the stored source function: what `Haze` does.
     Quadrature,
+    /// The same up to where the sky takes over: what `Foreground` does.
+    Joined,
     /// `Difference` and `Quadrature`, weighted by the inverse of their expected variances.
     Blend,
 }
 
 /// All methods.
-pub const METHODS: [Method; 4] = [
+pub const METHODS: [Method; 5] = [
     Method::Difference,
     Method::Blurred,
     Method::Quadrature,
+    Method::Joined,
     Method::Blend,
 ];
+
+/// Results of all methods, in the order of [`METHODS`].
+pub type Lights = [Option<Spectrum>; METHODS.len()];
 
 impl Method {
     /// For tables.
@@ -34,6 +41,7 @@ impl Method {
             Method::Difference => "Eq. 2",
             Method::Blurred => "Eq. 2, blurred",
             Method::Quadrature => "source",
+            Method::Joined => "source, then sky",
             Method::Blend => "blend",
         }
     }
@@ -43,6 +51,29 @@ impl Method {
 pub struct Methods<'a> {
     model: &'a Model,
     solved: &'a [Solved],
+    hazes: Last<Haze>,
+    /// Of observers.
+    skies: Last<Sky>,
+}
+
+/// What was prepared last: all pixels of a picture want the same.
+struct Last<T>(Mutex<Option<(Conditions, Arc<T>)>>);
+
+impl<T> Last<T> {
+    fn get(
+        &self,
+        wanted: Conditions,
+        prepare: impl FnOnce(&Conditions) -> welkin::Result<T>,
+    ) -> Result<Arc<T>> {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = lock().clone();
+        if let Some((_, one)) = kept.filter(|(at, _)| *at == wanted) {
+            return Ok(one);
+        }
+        let one = Arc::new(prepare(&wanted)?);
+        *lock() = Some((wanted, one.clone()));
+        Ok(one)
+    }
 }
 
 /// Expected relative errors of the radiance of the sky and of the quadrature.
@@ -69,7 +100,12 @@ impl Terms {
 impl<'a> Methods<'a> {
     /// `solved` has the visibilities of the cases.
     pub fn new(model: &'a Model, solved: &'a [Solved]) -> Self {
-        Self { model, solved }
+        Self {
+            model,
+            solved,
+            hazes: Last(Mutex::new(None)),
+            skies: Last(Mutex::new(None)),
+        }
     }
 
     /// Light before it is kept from being negative, per unit of solar irradiance; `None` where Eq. 2 would need a sky from
@@ -78,6 +114,9 @@ impl<'a> Methods<'a> {
         let narrow = |values: [f64; NW]| Some(values.map(|v| v as f32));
         if method == Method::Quadrature {
             return Ok(narrow(self.quadrature(case)?));
+        }
+        if method == Method::Joined {
+            return Ok(narrow(self.joined(case)?));
         }
         let Some(terms) = self.terms(case)? else {
             return Ok(None);
@@ -89,9 +128,15 @@ impl<'a> Methods<'a> {
         })
     }
 
-    /// What [`Methods::light`] needs, prepared anew for every case: the haze of its conditions.
-    pub fn haze(&self, case: &Case) -> Result<Haze> {
-        Ok(self.model.haze(&self.conditions(case, 0.0, case.sun))?)
+    /// What [`Methods::light`] needs: the haze of the conditions of a case.
+    pub fn haze(&self, case: &Case) -> Result<Arc<Haze>> {
+        let conditions = self.conditions(case, 0.0, case.sun);
+        self.hazes.get(conditions, |c| self.model.haze(c))
+    }
+
+    /// The sky of an observer.
+    fn observed(&self, conditions: Conditions) -> Result<Arc<Sky>> {
+        self.skies.get(conditions, |c| self.model.sky(c))
     }
 
     fn quadrature(&self, case: &Case) -> Result<[f64; NW]> {
@@ -99,9 +144,25 @@ impl<'a> Methods<'a> {
         let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
         self.haze(case)?
             .in_scatter(from, to, &mut light, &mut through)?;
+        Ok(self.relative(&light))
+    }
+
+    fn joined(&self, case: &Case) -> Result<[f64; NW]> {
+        let haze = self.haze(case)?;
+        let sky = self
+            .model
+            .sky(&self.conditions(case, case.altitude, case.sun))?;
+        let [_, to] = case.ends();
+        let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
+        haze.before(&sky)?
+            .in_scatter(to, &mut light, &mut through)?;
+        Ok(self.relative(&light))
+    }
+
+    fn relative(&self, light: &[f32; NW]) -> [f64; NW] {
         let head = self.model.head();
         let irradiance = |w: usize| head.solar_irradiance_at(head.wavelengths[w]);
-        Ok(std::array::from_fn(|w| f64::from(light[w]) / irradiance(w)))
+        std::array::from_fn(|w| f64::from(light[w]) / irradiance(w))
     }
 
     fn conditions(&self, case: &Case, altitude: f64, sun: f64) -> Conditions {
@@ -161,7 +222,11 @@ impl<'a> Methods<'a> {
             return Ok(None);
         }
         let sun = sine.asin().clamp(suns[0], suns[1]);
-        let sky = self.model.sky(&self.conditions(case, altitude, sun))?;
+        let conditions = self.conditions(case, altitude, sun);
+        let sky = match place == case.ends()[0] {
+            true => self.observed(conditions)?,
+            false => Arc::new(self.model.sky(&conditions)?),
+        };
         let local = [ahead, left, up].map(|axis| dot(direction, axis) as f32);
         let mut out = [0.0; NW];
         sky.relative_radiance(local, &mut out)?;

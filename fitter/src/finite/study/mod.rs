@@ -8,7 +8,7 @@ mod scan;
 mod towers;
 
 pub use case::{Case, cases};
-pub use method::{METHODS, Method, Methods};
+pub use method::{Lights, METHODS, Method, Methods};
 pub use polarisation::{PolarisedRow, polarised_rows, polarised_table};
 pub use report::{Row, csv, rows, table};
 pub use scan::{Scan, all, jumps, scans};

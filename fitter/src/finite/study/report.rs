@@ -1,9 +1,8 @@
 //! Quantiles of the errors of each method, by kind of segment.
 
 use super::case::Case;
-use super::method::{METHODS, Method};
+use super::method::{Lights, METHODS, Method};
 use crate::assess::Quantiles;
-use crate::orders::Spectrum;
 use crate::orders::source::Stokes;
 use std::fmt::Write;
 
@@ -37,7 +36,7 @@ pub(super) const CLASSES: [(&str, Belongs); 4] = [
 ];
 
 /// Rows of all methods. `light` holds the results of every method per case, in the order of [`METHODS`].
-pub fn rows(cases: &[Case], truth: &[Stokes], light: &[[Option<Spectrum>; 4]]) -> Vec<Row> {
+pub fn rows(cases: &[Case], truth: &[Stokes], light: &[Lights]) -> Vec<Row> {
     let mut out = vec![];
     for (class, belongs) in CLASSES {
         for (m, method) in METHODS.into_iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Columns of neighbouring pixels across the horizon: stripes show as jumps.
 
 use super::case::Case;
-use super::method::{METHODS, Methods};
+use super::method::{Lights, METHODS, Methods};
 use crate::orders::Spectrum;
 use crate::units::Solved;
 use anyhow::Result;
@@ -17,7 +17,7 @@ pub struct Scan {
     /// Exact light.
     pub truth: Vec<Spectrum>,
     /// Results of every method, in the order of [`METHODS`].
-    pub light: Vec<[Option<Spectrum>; 4]>,
+    pub light: Vec<Lights>,
 }
 
 /// Angle between pixels, rad.
@@ -66,9 +66,9 @@ pub fn scans(
 }
 
 /// Every method for every case.
-pub fn all(methods: &Methods, cases: &[Case]) -> Result<Vec<[Option<Spectrum>; 4]>> {
+pub fn all(methods: &Methods, cases: &[Case]) -> Result<Vec<Lights>> {
     let one = |case: &Case| {
-        let mut out = [None; 4];
+        let mut out = [None; METHODS.len()];
         for (out, method) in out.iter_mut().zip(METHODS) {
             *out = methods.light(method, case)?;
         }
@@ -78,7 +78,7 @@ pub fn all(methods: &Methods, cases: &[Case]) -> Result<Vec<[Option<Spectrum>; 4
 }
 
 /// The largest change of a method's ratio to the truth from one pixel to the next, per scan and method.
-pub fn jumps(scan: &Scan) -> [Option<f64>; 4] {
+pub fn jumps(scan: &Scan) -> [Option<f64>; METHODS.len()] {
     std::array::from_fn(|m| {
         let ratio = |i: usize| {
             let light = scan.light[i][m]?[GREEN].max(0.0);

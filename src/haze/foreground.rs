@@ -1,0 +1,177 @@
+//! Segments that end in the observer's sky.
+//!
+//! The source of a segment and the sky are two fits of the same light. The sky's is the better one, and what is farther than the air
+//! should vanish in it without a seam: so where hardly any light can come from beyond a segment, the sky takes over.
+
+use super::Haze;
+use super::colours::Colours;
+use super::integral::{Block, Integral, UNPOLARISED};
+use crate::air::Segment;
+use crate::colour::xyz_to_linear_srgb;
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::math::LANES;
+use crate::polarisation::Plane;
+use crate::simd::dispatch;
+use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
+
+/// The share of light from beyond a segment below which the sky begins to take over.
+const REST: f32 = 0.04;
+
+/// The air between an observer and things before the observer's sky; see [`Haze::before`].
+///
+/// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that of
+/// [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air, be it before the sky or
+/// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond; shorter segments,
+/// and those that end on ground that is seen, are those of the haze.
+#[derive(Clone, Copy, Debug)]
+pub struct Foreground<'a> {
+    haze: &'a Haze,
+    sky: &'a Sky,
+}
+
+impl Haze {
+    /// What is seen before a sky of the same conditions, but for the altitude, which the sky says.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the sky has another sun, visibility or albedo; [`Error::Length`] if it has other wavelengths.
+    pub fn before<'a>(&'a self, sky: &'a Sky) -> Result<Foreground<'a>> {
+        let (own, other) = (self.conditions(), sky.conditions());
+        type Parameter = (&'static str, &'static str, fn(&Conditions) -> f64);
+        const SAME: [Parameter; 4] = [
+            ("solar_elevation", "rad", |c| c.solar_elevation),
+            ("solar_azimuth", "rad", |c| c.solar_azimuth),
+            ("visibility", "m", |c| c.visibility),
+            ("albedo", "1", |c| c.albedo),
+        ];
+        for (parameter, unit, get) in SAME {
+            let (wanted, value) = (get(own), get(other));
+            if value != wanted {
+                return Err(Error::OutOfRange {
+                    parameter,
+                    value,
+                    min: wanted,
+                    max: wanted,
+                    unit,
+                });
+            }
+        }
+        let [own, other] = [self.wavelengths(), sky.wavelengths()];
+        if own != other {
+            return Err(Error::Length {
+                what: "wavelengths of the sky",
+                expected: own.len() as u64,
+                got: other.len() as u64,
+            });
+        }
+        Ok(Foreground { haze: self, sky })
+    }
+}
+
+impl Foreground<'_> {
+    /// Where the observer is, m.
+    pub fn camera(&self) -> [f64; 3] {
+        [0.0, 0.0, self.sky.conditions().altitude]
+    }
+
+    /// As [`Haze::in_scatter`] from the observer.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter`].
+    pub fn in_scatter(
+        &self,
+        to: [f64; 3],
+        in_scatter: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.aerial_perspective(&[to], in_scatter, transmittance)
+    }
+
+    /// As [`Haze::aerial_perspective`] from the observer.
+    ///
+    /// # Errors
+    /// As [`Haze::in_scatter`]. What precedes a bad point is written.
+    pub fn aerial_perspective(
+        &self,
+        points: &[[f64; 3]],
+        in_scatter: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        let n = self.haze.wavelengths().len();
+        for length in [in_scatter.len(), transmittance.len()] {
+            check_length(length, points.len().saturating_mul(n))?;
+        }
+        let rows = in_scatter
+            .chunks_exact_mut(n)
+            .zip(transmittance.chunks_exact_mut(n));
+        for (&point, (light, through)) in points.iter().zip(rows) {
+            self.integrate(point, |block, result| {
+                self.haze.write(block, &result, light, through);
+            })?;
+        }
+        Ok(())
+    }
+
+    /// As [`Haze::xyz`] from the observer.
+    ///
+    /// # Errors
+    /// As [`Haze::xyz`].
+    pub fn xyz(&self, to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let mut colours = Colours::default();
+        self.integrate(to, |block, result| {
+            colours.add(&self.haze.xyz[block], &result);
+        })?;
+        Ok(colours.finish(&self.haze.white))
+    }
+
+    /// As [`Haze::linear_srgb`] from the observer.
+    ///
+    /// # Errors
+    /// As [`Haze::xyz`].
+    pub fn linear_srgb(&self, to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let (light, through) = self.xyz(to)?;
+        Ok((xyz_to_linear_srgb(light), self.haze.srgb_factors(through)))
+    }
+
+    /// Hands what the segment does to `emit` block by block.
+    fn integrate(&self, to: [f64; 3], mut emit: impl FnMut(usize, Block)) -> Result<()> {
+        let planet = self.haze.air.planet();
+        let segment = Segment::between(&planet, self.camera(), to)?;
+        let direction = segment.direction.map(|v| v as f32);
+        let (mut whole, mut looked_up) = (None, Ok(()));
+        dispatch(Integral::<UNPOLARISED, _> {
+            haze: self.haze,
+            segment: &segment,
+            plane: Plane::default(),
+            beyond: true,
+            emit: |block, mut result: Block| {
+                let weights = sky_weights(&result);
+                if weights != [0.0; LANES] {
+                    // Most segments end well inside and need no sky.
+                    let whole = whole.get_or_insert_with(|| {
+                        let mut out = [0.0; MOST_WAVELENGTHS];
+                        let used = &mut out[..self.haze.wavelengths().len()];
+                        looked_up = self.sky.relative_radiance(direction, used);
+                        out
+                    });
+                    let light = result.scattered.iter_mut().zip(&whole[block * LANES..]);
+                    for ((light, whole), weight) in light.zip(weights) {
+                        *light += weight * (whole - *light);
+                    }
+                }
+                emit(block, result);
+            },
+        });
+        looked_up
+    }
+}
+
+/// How much the sky counts: all where no light can come from beyond, nothing from [`REST`] on.
+#[inline(always)]
+fn sky_weights(result: &Block) -> [f32; LANES] {
+    core::array::from_fn(|i| {
+        let all = (result.scattered[i] + result.beyond[i]).max(f32::MIN_POSITIVE);
+        let near = (1.0 - result.beyond[i] / all * (1.0 / REST)).max(0.0);
+        near * near
+    })
+}
