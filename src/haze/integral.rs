@@ -5,15 +5,15 @@
 //! taken to be constant. Whatever happens, a panel sends no less than nothing.
 
 use super::Haze;
+use super::beams::{Beams, Pair, Sun, Sunlight};
 use super::directions::{Components, Local, MOST_VECTORS};
-use super::disc::mean_shares;
 use super::marks::Heaven;
-use super::panels::{MOST_PANELS, MOST_PLACES, Panels};
+use super::panels::{MOST_PLACES, Panels};
 use super::places::{BATCH, Places};
+use super::scattering::{Air, Scattered, sunlit_beyond};
 use super::source::Spot;
 use super::stations::MOST_STATIONS;
-use super::sunlight::Two;
-use crate::air::{Amounts, QUADS, Segment, dot};
+use crate::air::{QUADS, Segment, dot};
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::phase::SunAngle;
@@ -24,9 +24,6 @@ use crate::simd::{Instructions, Kernel};
 const MOST_CONSTITUENTS: usize = QUADS * LANES;
 /// Where the sun stands lower than this (rad), panels crowd where it shines.
 const LOW_SUN: f64 = 0.14;
-
-/// Two panels, each for a block of wavelengths.
-type Pair = Lanes<8>;
 
 /// What a segment does to light, for one block of wavelengths.
 pub(crate) struct Block {
@@ -141,186 +138,6 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     }
 }
 
-/// Sunlight along a segment.
-struct Sunlight {
-    /// Columns towards the sun at the ends of panels, two at a time.
-    columns: [Two; MOST_PANELS / 2 + 1],
-    /// Mean share of the sun's disc that is visible, two panels at a time.
-    shares: [Pair; MOST_PANELS / 2],
-}
-
-impl Sunlight {
-    #[inline(always)]
-    fn new(haze: &Haze, places: &[Places], panels: usize) -> Self {
-        const PAIRS: usize = BATCH / 2;
-        let mut out = Self {
-            columns: [[Pair::splat(0.0); QUADS]; MOST_PANELS / 2 + 1],
-            shares: [Pair::splat(0.0); MOST_PANELS / 2],
-        };
-        let pairs = (panels + 1).div_ceil(2);
-        let mut rise = [0.0; MOST_PLACES + BATCH];
-        for (i, columns) in out.columns.chunks_mut(PAIRS).enumerate() {
-            let pairs = pairs.saturating_sub(i * PAIRS);
-            if pairs > 0 {
-                let heights = haze.beam.at(&haze.air.layers, &places[i], pairs, columns);
-                rise[i * BATCH..][..BATCH].copy_from_slice(&heights.0);
-            }
-        }
-        for (i, shares) in out.shares.chunks_mut(PAIRS).enumerate() {
-            if i * BATCH < panels {
-                let [a, b] = [0, 1].map(|end| Lanes::load(&rise, i * BATCH + end));
-                let means = mean_shares(a, b).0;
-                for (share, mean) in shares.iter_mut().zip(means.chunks_exact(2)) {
-                    *share = Pair::pair(mean[0], mean[1]);
-                }
-            }
-        }
-        out
-    }
-}
-
-/// Sunlight at two ends of panels, for a block of wavelengths.
-#[derive(Clone, Copy)]
-struct Beams {
-    depth: Pair,
-    through: Pair,
-}
-
-impl Beams {
-    #[inline(always)]
-    fn new(haze: &Haze, block: usize, columns: &Two) -> Self {
-        let mut depth = Pair::splat(0.0);
-        for (q, columns) in columns.iter().enumerate().take(haze.air.layers.quads) {
-            for k in 0..LANES {
-                let extinction = haze.air.extinction.row(q * LANES + k, block);
-                depth = depth + columns.spread(k) * Pair::twice(extinction);
-            }
-        }
-        Self {
-            depth,
-            through: (-depth).exp(),
-        }
-    }
-
-    /// At the second of these ends and the first of the `next` two.
-    #[inline(always)]
-    fn shift(&self, next: &Self) -> Self {
-        let join = |a: Pair, b: Pair| Pair::join(a.halves()[1], b.halves()[0]);
-        Self {
-            depth: join(self.depth, next.depth),
-            through: join(self.through, next.through),
-        }
-    }
-}
-
-/// Sunlight at the ends of two panels.
-struct Sun {
-    start: Beams,
-    end: Beams,
-    /// Mean share of the disc that is visible.
-    share: Pair,
-}
-
-impl Sun {
-    /// Mean of what is left of sunlight at the start of a panel when it gets there by way of a point of the panel.
-    #[inline(always)]
-    fn mean(&self, depth: Pair, through: Pair) -> Pair {
-        /// Differences of thinner panels lose their digits.
-        const THIN: f32 = 0.1;
-        let far = self.end.through * through;
-        let step = self.end.depth + depth - self.start.depth;
-        let size = step.abs();
-        let mean = (self.start.through - far).abs() / size.max(Pair::splat(THIN));
-        let series = step.map(|x| 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))));
-        size.at_least(THIN, mean, self.start.through * series) * self.share
-    }
-}
-
-/// What is in two panels, for a block of wavelengths.
-struct Air {
-    depth: Pair,
-    /// What it scatters of sunlight.
-    direct: Pair,
-    /// Scattering by molecules and by particles.
-    diffuse: [Pair; 2],
-    /// Polarised by molecules.
-    dipole: Pair,
-}
-
-/// What two panels do to light.
-struct Scattered {
-    /// Light that each sends to its start.
-    light: Pair,
-    /// Its Q and U.
-    linear: [Pair; 2],
-    depth: Pair,
-    through: Pair,
-}
-
-impl Air {
-    /// From columns, and `sunlit` and dipoles of each constituent.
-    #[inline(always)]
-    fn new<const M: usize>(
-        haze: &Haze,
-        block: usize,
-        columns: &Two,
-        sunlit: &[[f32; LANES]],
-        dipoles: &[[f32; LANES]],
-    ) -> Self {
-        let zero = Pair::splat(0.0);
-        let mut out = Self {
-            depth: zero,
-            direct: zero,
-            diffuse: [zero; 2],
-            dipole: zero,
-        };
-        for (q, columns) in columns.iter().enumerate().take(haze.air.layers.quads) {
-            for lane in 0..LANES {
-                let (k, column) = (q * LANES + lane, columns.spread(lane));
-                out.depth = out.depth + column * Pair::twice(haze.air.extinction.row(k, block));
-                out.direct = out.direct + column * Pair::twice(&sunlit[k]);
-                for (sum, total) in out.diffuse.iter_mut().zip(haze.species.totals(k, block)) {
-                    if let Some(total) = total {
-                        *sum = *sum + column * Pair::twice(total);
-                    }
-                }
-                if M == POLARISED {
-                    out.dipole = out.dipole + column * Pair::twice(&dipoles[k]);
-                }
-            }
-        }
-        out
-    }
-
-    /// `single` is what Q and U of scattering once are per dipole; `diffuse` the source of molecules, of particles and of Q and U.
-    #[inline(always)]
-    fn scatter<const M: usize>(
-        &self,
-        sun: &Sun,
-        single: [f32; 2],
-        diffuse: &[Pair; M],
-    ) -> Scattered {
-        let absorbed = self.depth.one_minus_exp_neg();
-        let through = Pair::splat(1.0) - absorbed;
-        let sun = sun.mean(self.depth, through);
-        let mean = mean_transmittance(self.depth, absorbed);
-        let [molecules, particles] = self.diffuse;
-        let mut linear = [Pair::splat(0.0); 2];
-        if M == POLARISED {
-            for (part, linear) in linear.iter_mut().enumerate() {
-                *linear = self.dipole * sun * single[part] + molecules * diffuse[2 + part] * mean;
-            }
-        }
-        let diffuse = molecules * diffuse[0] + particles * diffuse[1];
-        Scattered {
-            light: self.direct * sun + diffuse * mean,
-            linear,
-            depth: self.depth,
-            through,
-        }
-    }
-}
-
 /// Light and optical depth from the start of a segment to where one has got.
 struct Walk {
     scattered: Lanes<LANES>,
@@ -358,33 +175,6 @@ impl Walk {
             self.depth = self.depth + Lanes(depth[i]);
         }
     }
-}
-
-/// What air with these columns sends through this depth where all of it is in the sun.
-#[inline(always)]
-fn sunlit_beyond(
-    haze: &Haze,
-    block: usize,
-    columns: &Amounts,
-    sunlit: &[[f32; LANES]],
-    before: Lanes<LANES>,
-) -> [f32; LANES] {
-    let depth = Lanes(haze.air.extinction.depth(columns, block));
-    let mut light = Lanes::splat(0.0);
-    for (k, sunlit) in sunlit.iter().enumerate() {
-        light = light + Lanes(*sunlit) * columns.get(k);
-    }
-    let mean = mean_transmittance(depth, depth.one_minus_exp_neg());
-    (light * mean * (-before).exp()).0
-}
-
-/// Mean transmittance of what has this optical depth and takes away this share.
-#[inline(always)]
-fn mean_transmittance<const N: usize>(depth: Lanes<N>, absorbed: Lanes<N>) -> Lanes<N> {
-    // The limit is reached before the quotient loses its digits.
-    const THIN: f32 = 1e-3;
-    let thin = Lanes::splat(1.0) - depth * 0.5;
-    depth.at_least(THIN, absorbed / depth.max(Lanes::splat(THIN)), thin)
 }
 
 /// A place in the source and how its components look from there.

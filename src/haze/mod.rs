@@ -1,5 +1,6 @@
 //! Haze: the light that the air between two points scatters towards the first. Format specification, section 7.7.
 
+mod beams;
 mod colours;
 mod directions;
 mod disc;
@@ -10,6 +11,7 @@ mod marks;
 mod panels;
 mod places;
 mod polarised;
+mod scattering;
 mod source;
 mod species;
 mod stations;
