@@ -146,7 +146,7 @@ fn pictures(args: &Args, model: &Model, solved: &[Solved]) -> Result<String> {
             visibility,
             altitude,
             pitch,
-            size: [args.width, args.width * 3 / 2],
+            size: [args.width, args.width * 2 / 3],
             walks: args.walks,
         };
         let views = study::towers(&methods, &solved[visibility], &model.head().xyz, &view)?;
