@@ -125,6 +125,47 @@ fn the_whole_way_is_the_polarised_sky() {
 }
 
 #[test]
+fn before_its_sky_light_ends_in_it_polarised_as_it() {
+    for elevation in [-2.0, 1.0, 10.0, 50.0] {
+        let haze = haze(elevation);
+        let n = haze.wavelengths().len();
+        let sky = MODEL.polarised_sky(&conditions(elevation)).unwrap();
+        let front = haze.before_polarised(&sky).unwrap();
+        let plain = haze.before(sky.sky()).unwrap();
+        let mut truth = vec![Stokes::default(); n];
+        for k in 0..40 {
+            let direction = unit(0.001 + 0.035 * f64::from(k), 0.7 * f64::from(k));
+            let frame = [Frame::Vertical, Frame::Axis([0.3, -0.2, 0.9])][k as usize % 2];
+            sky.stokes(direction.map(|v| v as f32), frame, &mut truth)
+                .unwrap();
+            for length in [3e3, 3e4, 1e5, 2e5, 3e6] {
+                let [_, to] = along(front.camera(), direction, length);
+                let [mut i, mut q, mut u, mut through] = [(); 4].map(|()| vec![0.0; n]);
+                let out = StokesSpectra {
+                    i: &mut i,
+                    q: &mut q,
+                    u: &mut u,
+                };
+                front
+                    .aerial_perspective_stokes(&[to], frame, out, &mut through)
+                    .unwrap();
+                let mut alone = vec![0.0; n];
+                plain.in_scatter(to, &mut alone, &mut through).unwrap();
+                for w in 0..n {
+                    assert!((i[w] - alone[w]).abs() <= 1e-5 * alone[w], "{length} {w}");
+                    assert!(q[w].hypot(u[w]) <= i[w] * (1.0 + 1e-6));
+                    if length > 1e6 {
+                        let off = (q[w] - truth[w].q).hypot(u[w] - truth[w].u);
+                        let light = (i[w] - truth[w].i).abs();
+                        assert!(light.max(off) <= 1e-5 * truth[w].i, "{k} {w} {off}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn parts_add_up() {
     let haze = haze(12.0);
     let frame = Frame::Axis([0.1, 0.9, 0.4]);

@@ -168,7 +168,7 @@ impl Foreground<'_> {
 
 /// How much the sky counts: all where no light can come from beyond, nothing from [`REST`] on.
 #[inline(always)]
-fn sky_weights(result: &Block) -> [f32; LANES] {
+pub(super) fn sky_weights(result: &Block) -> [f32; LANES] {
     core::array::from_fn(|i| {
         let all = (result.scattered[i] + result.beyond[i]).max(f32::MIN_POSITIVE);
         let near = (1.0 - result.beyond[i] / all * (1.0 / REST)).max(0.0);

@@ -4,12 +4,13 @@
 //! polarise sunlight and, by the coherency tensor of the source, all other light; particles do not.
 
 use super::Haze;
+use super::foreground::sky_weights;
 use super::integral::{Block, Integral, POLARISED};
 use crate::air::Segment;
 use crate::colour::xyz_to_linear_srgb;
 use crate::error::Result;
 use crate::math::{LANES, bound};
-use crate::polarisation::{Frame, Plane, Stokes, StokesSpectra, between, limit};
+use crate::polarisation::{Frame, Plane, PolarisedSky, Stokes, StokesSpectra, between, limit};
 use crate::simd::dispatch;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use crate::spectrum::between_wavelengths;
@@ -43,11 +44,24 @@ impl Haze {
         in_scatter: StokesSpectra,
         transmittance: &mut [f32],
     ) -> Result<()> {
+        self.spectra(None, camera, points, frame, in_scatter, transmittance)
+    }
+
+    /// [`Haze::aerial_perspective_stokes`], before a sky if there is one.
+    pub(super) fn spectra(
+        &self,
+        sky: Option<&PolarisedSky>,
+        camera: [f64; 3],
+        points: &[[f64; 3]],
+        frame: Frame,
+        in_scatter: StokesSpectra,
+        transmittance: &mut [f32],
+    ) -> Result<()> {
         let n = self.wavelengths().len();
         in_scatter.check(points.len().saturating_mul(n))?;
         check_length(transmittance.len(), points.len().saturating_mul(n))?;
         for (k, &point) in points.iter().enumerate() {
-            self.stokes(camera, point, frame, |block, light, through| {
+            self.stokes(sky, camera, point, frame, |block, light, through| {
                 let first = k * n + block * LANES;
                 let sun = &self.irradiance[block];
                 for i in 0..LANES.min(n - block * LANES) {
@@ -76,7 +90,7 @@ impl Haze {
         let nodes = self.wavelengths();
         let mut lights = [Stokes::default(); MOST_WAVELENGTHS];
         let mut relative = [0.0; MOST_WAVELENGTHS];
-        self.stokes(from, to, frame, |block, [i, q, u], _| {
+        self.stokes(None, from, to, frame, |block, [i, q, u], _| {
             for lane in 0..LANES.min(nodes.len() - block * LANES) {
                 let (i, q, u) = (i[lane], i[lane] * q[lane], i[lane] * u[lane]);
                 lights[block * LANES + lane] = Stokes { i, q, u };
@@ -98,9 +112,19 @@ impl Haze {
         to: [f64; 3],
         frame: Frame,
     ) -> Result<([Stokes; 3], [f32; 3])> {
+        self.polarised_xyz(None, from, to, frame)
+    }
+
+    fn polarised_xyz(
+        &self,
+        sky: Option<&PolarisedSky>,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+    ) -> Result<([Stokes; 3], [f32; 3])> {
         let mut light = [[0f32; 3]; 3];
         let mut seen = [0f32; 3];
-        self.stokes(from, to, frame, |block, parts, through| {
+        self.stokes(sky, from, to, frame, |block, parts, through| {
             for (c, weight) in self.xyz[block].iter().enumerate() {
                 for i in 0..LANES {
                     let total = weight[i] * parts[0][i];
@@ -130,7 +154,18 @@ impl Haze {
         to: [f64; 3],
         frame: Frame,
     ) -> Result<([Stokes; 3], [f32; 3])> {
-        let (light, through) = self.xyz_stokes(from, to, frame)?;
+        self.polarised_srgb(None, from, to, frame)
+    }
+
+    /// [`Haze::linear_srgb_stokes`], before a sky if there is one.
+    pub(super) fn polarised_srgb(
+        &self,
+        sky: Option<&PolarisedSky>,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: Frame,
+    ) -> Result<([Stokes; 3], [f32; 3])> {
+        let (light, through) = self.polarised_xyz(sky, from, to, frame)?;
         let part = |of: fn(&Stokes) -> f32| xyz_to_linear_srgb(light.each_ref().map(of));
         let [i, q, u] = [part(|s| s.i), part(|s| s.q), part(|s| s.u)];
         let stokes = |c: usize| Stokes {
@@ -142,9 +177,10 @@ impl Haze {
     }
 
     /// Hands blocks of light per unit of solar irradiance, of Q and U over it in the frame of the caller, and of transmittance to
-    /// `emit`.
+    /// `emit`; before a sky if there is one.
     fn stokes(
         &self,
+        sky: Option<&PolarisedSky>,
         from: [f64; 3],
         to: [f64; 3],
         frame: Frame,
@@ -154,20 +190,39 @@ impl Haze {
         let plane = Plane::new(segment.direction, segment.zenith(), self.sun);
         let (c, s) = plane.turn(frame)?;
         let (c, s) = (c as f32, s as f32);
+        let (mut whole, mut looked_up) = (None, Ok(()));
         dispatch(Integral::<POLARISED, _> {
             haze: self,
             segment: &segment,
             plane,
-            beyond: false,
+            beyond: sky.is_some(),
             emit: |block, result: Block| {
                 let [q, u] = result.linear;
-                let q_turned = core::array::from_fn(|i| c * q[i] + s * u[i]);
-                let u_turned = core::array::from_fn(|i| c * u[i] - s * q[i]);
-                let [q, u] = limit(result.scattered, q_turned, u_turned);
-                let through = super::attenuated(&result.depth);
-                emit(block, [result.scattered, q, u], through);
+                let mut light = [
+                    result.scattered,
+                    core::array::from_fn(|i| c * q[i] + s * u[i]),
+                    core::array::from_fn(|i| c * u[i] - s * q[i]),
+                ];
+                let weights = sky.map_or([0.0; LANES], |_| sky_weights(&result));
+                if let Some(sky) = sky.filter(|_| weights != [0.0; LANES]) {
+                    let whole = whole.get_or_insert_with(|| {
+                        let mut out = [Stokes::default(); MOST_WAVELENGTHS];
+                        let used = &mut out[..self.wavelengths().len()];
+                        let direction = segment.direction.map(|v| v as f32);
+                        looked_up = sky.relative_stokes(direction, frame, used);
+                        out
+                    });
+                    for (i, whole) in whole[block * LANES..][..LANES].iter().enumerate() {
+                        for (part, whole) in light.iter_mut().zip([whole.i, whole.q, whole.u]) {
+                            part[i] += weights[i] * (whole - part[i]);
+                        }
+                    }
+                }
+                let [total, q, u] = light;
+                let [q, u] = limit(total, q, u);
+                emit(block, [total, q, u], super::attenuated(&result.depth));
             },
         });
-        Ok(())
+        looked_up
     }
 }

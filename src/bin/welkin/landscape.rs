@@ -102,17 +102,18 @@ impl Options {
         let haze = model.haze(conditions)?;
         // The sky of the place, so that what is far away vanishes in it.
         let [lowest, highest] = model.altitude_range();
-        let sky = model.sky(&Conditions {
+        let there = Conditions {
             altitude: place[2].clamp(lowest, highest),
             ..*conditions
-        })?;
+        };
+        let sky = model.sky(&there)?;
         Ok(Some(Landscape {
             difference: Difference::new(model, &haze, self.haze)?,
             haze,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
             terrain,
-            polariser: self.filter(model, conditions, &camera)?,
+            polariser: self.filter(model, &there, &camera)?,
             camera,
             place,
             sky,
@@ -195,9 +196,13 @@ impl Landscape<'_> {
             }
             return Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]));
         };
-        let haze = self
-            .haze
-            .linear_srgb_stokes(self.place, point, polariser.frame)?;
+        let front = self.haze.before_polarised(&polariser.sky)?;
+        let haze = match front.camera() == self.place {
+            true => front.linear_srgb_stokes(point, polariser.frame)?,
+            false => self
+                .haze
+                .linear_srgb_stokes(self.place, point, polariser.frame)?,
+        };
         let (light, through) = (polariser.pass(&haze.0), haze.1);
         Ok(std::array::from_fn(|c| {
             HALF * surface[c] * through[c] + light[c]
