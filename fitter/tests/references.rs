@@ -2,8 +2,9 @@
 //! this check can fail.
 //!
 //! The walks depend on the seed alone, so that every run and every machine judges the same sample (but for a walk in which a last
-//! bit decides). The limits are those of the references; of samples as small as these, chance takes about one in five beyond one of
-//! them. A change that draws other walks may need another seed; whether it broke something, `welkin-fit validate` tells.
+//! bit decides). The limits are those of the references; samples as small as these lean low, as few walks find most of the light,
+//! and break one of the limits for two seeds in five. A change that draws other walks may need another seed; whether it broke
+//! something, `welkin-fit validate` tells.
 
 use std::path::{Path, PathBuf};
 use welkin_fitter::atmosphere::Phase;
