@@ -30,8 +30,26 @@ pub fn manifest(plan: &Plan, work: &Path) -> Result<Value> {
             "judging": format!("{:?}", plan.judging),
         },
         "core_seconds": serde_json::Map::from_iter(totals),
+        "difference_to_tracer": differences(plan, work)?,
         "units": entries,
     }))
+}
+
+/// Of all units that are judged: together, and by visibility (m).
+fn differences(plan: &Plan, work: &Path) -> Result<Value> {
+    let store = plan.store_of(work, Kind::Judge)?;
+    let (mut all, mut by_visibility) = (vec![], serde_json::Map::new());
+    for &visibility in &plan.grid.visibilities {
+        let units = plan.units().into_iter();
+        let mut here = vec![];
+        for unit in units.filter(|u| u.kind == Kind::Judge && u.visibility == visibility) {
+            let values = store.load(&plan.name(unit))?.unwrap_or_default();
+            here.extend(Difference::from_values(&values));
+        }
+        by_visibility.insert(visibility.to_string(), json!(Summary::of(&here)));
+        all.extend(here);
+    }
+    Ok(json!({ "all": Summary::of(&all), "by_visibility_m": by_visibility }))
 }
 
 fn entry(plan: &Plan, work: &Path, unit: Unit) -> Result<Value> {
