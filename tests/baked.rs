@@ -6,6 +6,7 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
+use common::{radiance as truth, unit};
 use proptest::prelude::*;
 use welkin::{BakedColour, BakedSky, Conditions, Directions, Error, Model, Sky};
 
@@ -40,17 +41,6 @@ fn radiance(sky: &BakedSky, direction: [f32; 3]) -> Vec<f32> {
     let mut out = vec![f32::NAN; sky.wavelengths().len()];
     sky.radiance(direction, &mut out).unwrap();
     out
-}
-
-fn truth(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
-    let mut out = vec![f32::NAN; sky.wavelengths().len()];
-    sky.radiance(direction, &mut out).unwrap();
-    out
-}
-
-fn unit(elevation: f64, azimuth: f64) -> [f32; 3] {
-    let (z, r) = elevation.sin_cos();
-    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
 }
 
 fn sphere(z: f64, azimuth: f64) -> [f32; 3] {

@@ -4,6 +4,7 @@ mod common;
 
 use std::sync::LazyLock;
 
+use common::{radiance, unit};
 use proptest::prelude::*;
 use welkin::{Conditions, Error, Model, Sky};
 
@@ -52,17 +53,6 @@ fn any_f32() -> impl Strategy<Value = f32> {
         -1.0..1.0f32,
         prop::sample::select(vec![0.0, -0.0, f32::NAN, f32::INFINITY, f32::MAX, 1e-45]),
     ]
-}
-
-fn radiance(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
-    let mut out = vec![f32::NAN; sky.wavelengths().len()];
-    sky.radiance(direction, &mut out).unwrap();
-    out
-}
-
-fn unit(elevation: f64, azimuth: f64) -> [f32; 3] {
-    let (z, r) = elevation.sin_cos();
-    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
 }
 
 proptest! {

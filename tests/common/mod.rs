@@ -7,6 +7,7 @@ pub mod http;
 pub mod oracle;
 
 use proptest::test_runner::{Config, RngSeed};
+use welkin::Sky;
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
@@ -35,6 +36,19 @@ pub fn cases(cases: u32) -> Config {
         failure_persistence: None,
         ..default
     }
+}
+
+/// Radiance at all wavelengths.
+pub fn radiance(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
+    let mut out = vec![f32::NAN; sky.wavelengths().len()];
+    sky.radiance(direction, &mut out).unwrap();
+    out
+}
+
+/// Direction at an elevation and an azimuth, rad.
+pub fn unit(elevation: f64, azimuth: f64) -> [f32; 3] {
+    let (z, r) = elevation.sin_cos();
+    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
 }
 
 /// A model with `altitudes` × `visibilities` radiance chunks.
