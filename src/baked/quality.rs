@@ -9,8 +9,8 @@ use crate::lanes::Lanes;
 use crate::simd::dispatch;
 use crate::sky::Sky;
 
-/// What baking adds to the error of a sky: relative differences of all channels at directions that are uniform over
-/// the sphere and are not nodes, nothing excluded.
+/// What baking adds to the error of a sky: relative differences of all channels at directions that are not
+/// nodes, each counted by the part of the sphere that it stands for, nothing excluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeError {
     /// Median.

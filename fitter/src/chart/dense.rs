@@ -1,6 +1,6 @@
 //! The traced tensor itself, as a spline in every mode: the floor that no factorisation gets below.
 
-use super::frame::{Frame, Look};
+use super::frame::{Frame, Look, cosine};
 use crate::dataset::Axis;
 use crate::decompose::{Chunk, Collocation};
 use crate::orders::{FIELDS, NW};
@@ -87,9 +87,4 @@ impl Slice {
             std::array::from_fn(|w| field(FIELDS - 1, w)),
         ]
     }
-}
-
-fn cosine(look: &Look) -> f32 {
-    let ((sv, cv), (ss, cs)) = (look.view.sin_cos(), look.sun.sin_cos());
-    (cv * cs * look.azimuth.cos() + sv * ss).clamp(-1.0, 1.0) as f32
 }

@@ -100,6 +100,12 @@ impl Frame {
     }
 }
 
+/// Cosine of the angle between a direction and its sun.
+pub fn cosine(look: &Look) -> f32 {
+    let ((sv, cv), (ss, cs)) = (look.view.sin_cos(), look.sun.sin_cos());
+    (cv * cs * look.azimuth.cos() + sv * ss).clamp(-1.0, 1.0) as f32
+}
+
 /// Column `k` of a row-major table at the taps.
 fn at(taps: &Taps, table: &[f32], columns: usize, k: usize) -> f64 {
     let pairs = taps.index.iter().zip(taps.weight);

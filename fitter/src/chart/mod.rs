@@ -6,6 +6,7 @@ mod draw;
 mod frame;
 mod log;
 mod paper;
+mod single;
 
 pub use draw::{csv, svg};
 
@@ -22,6 +23,7 @@ use dense::Uncompressed;
 use frame::{Frame, Look};
 use log::Logarithmic;
 use paper::Paper;
+use single::Single;
 use std::path::Path;
 use welkin::Model;
 use welkin::format::encode;
@@ -83,8 +85,17 @@ pub fn chart(
     }
     for &rank in &ranks.shared {
         for refinements in [0, fitting.refinements] {
-            points.push(bench.shared(rank, refinements)?);
+            let fit = bench.shared(rank, refinements)?;
+            let scheme = match refinements {
+                0 => "CPD, shared azimuth and channels",
+                _ => "the same, refined",
+            };
+            points.push(bench.of_shared(scheme, rank.to_string(), &fit)?);
             report(&points);
+            if refinements > 0 {
+                points.push(bench.single(&fit)?);
+                report(&points);
+            }
         }
     }
     for tiers in &ranks.nested {
@@ -223,14 +234,24 @@ impl Bench {
         )
     }
 
-    fn shared(&self, rank: usize, refinements: usize) -> Result<Point> {
+    fn shared(&self, rank: usize, refinements: usize) -> Result<Fit> {
         let fitting = self.fitting(rank, refinements);
-        let fit = fit_all(&self.plan, fitting, &self.store, &self.chunks)?;
-        let scheme = match refinements {
-            0 => "CPD, shared azimuth and channels",
-            _ => "the same, refined",
-        };
-        self.of_shared(scheme, rank.to_string(), &fit)
+        fit_all(&self.plan, fitting, &self.store, &self.chunks)
+    }
+
+    /// What rounding to half precision costs.
+    fn single(&self, fit: &Fit) -> Result<Point> {
+        let mut errors = vec![];
+        for (k, place) in self.places.iter().enumerate() {
+            let single = Single::new(&self.chunks[k], &self.frames[k], &fit.own[k], &fit.basis);
+            let values = place.truth.iter().map(|s| single.radiance(&look(s), s));
+            errors.extend(relative(&place.truth, values));
+        }
+        let rank = fit.basis.rank;
+        let [own, shared] = self.sizes(rank);
+        let bytes = 2.0 * (own + shared / self.sharers as f64);
+        let scheme = "the same, in single precision";
+        self.point(scheme, rank.to_string(), bytes, rank, errors)
     }
 
     fn nested(&self, tiers: &[usize]) -> Result<Point> {

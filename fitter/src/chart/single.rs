@@ -1,0 +1,55 @@
+//! A fit as it is before its factors are rounded to half precision.
+
+use super::cost::Components;
+use super::frame::{Frame, Look, cosine};
+use crate::dataset::Sample;
+use crate::decompose::{Basis, Chunk, Own, row_major, splines};
+use crate::orders::{FIELDS, NW};
+
+/// The factors of a chunk in single precision.
+pub struct Single<'a> {
+    chunk: &'a Chunk,
+    frame: &'a Frame,
+    components: Components,
+}
+
+impl<'a> Single<'a> {
+    /// Splines through the factors of `own` and `basis`.
+    pub fn new(chunk: &'a Chunk, frame: &'a Frame, own: &Own, basis: &Basis) -> Self {
+        let rank = basis.rank;
+        let [up, down, phi, elevation] = frame.axes();
+        let coefficients = |axis, sites: &[f32]| row_major(&splines(axis, sites, rank));
+        let (above, below) = own.view.split_at(up.len() * rank);
+        let components = Components {
+            rank,
+            modes: [
+                [coefficients(up, above), coefficients(down, below)].concat(),
+                coefficients(phi, &basis.phi),
+                coefficients(elevation, &own.elevation),
+            ],
+            channel: basis.channel.clone(),
+        };
+        Self {
+            chunk,
+            frame,
+            components,
+        }
+    }
+
+    /// Relative radiance at every wavelength.
+    pub fn radiance(&self, look: &Look, sample: &Sample) -> [f32; NW] {
+        let place = self.frame.place(look);
+        let mut share = self.chunk.phase_functions(cosine(look));
+        let albedo = sample.albedo as f32;
+        for (w, ground) in share[FIELDS - 1].iter_mut().enumerate() {
+            *ground *= self.chunk.interreflection(w, albedo);
+        }
+        let scale = self.frame.scale(look, &place);
+        let mut radiance = self.components.radiance(&place, &share);
+        radiance
+            .iter_mut()
+            .zip(scale)
+            .for_each(|(r, s)| *r *= s as f32);
+        radiance
+    }
+}
