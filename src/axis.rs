@@ -224,7 +224,13 @@ fn tangent(nodes: &[f64], k: usize) -> (usize, [f64; 3]) {
 /// Maps an angle from the geometric horizon to a spline coordinate (the up and down axes).
 #[inline]
 pub fn alpha_coordinate(angle: f64, range: f64, intervals: usize, exponent: f64) -> f64 {
-    intervals as f64 * (angle / range).clamp(0.0, 1.0).powf(1.0 / exponent)
+    let share = (angle / range).clamp(0.0, 1.0);
+    // The usual exponent has a faster root.
+    let root = match exponent == 3.0 {
+        true => share.cbrt(),
+        false => share.powf(1.0 / exponent),
+    };
+    intervals as f64 * root
 }
 
 /// The inverse of [`alpha_coordinate`].
@@ -256,8 +262,18 @@ impl ElevationAxis {
 
     /// Spline coordinate of an elevation (rad).
     pub fn coordinate(&self, elevation: f64) -> f64 {
-        let low = self.g(self.min);
-        self.intervals as f64 * (self.g(elevation) - low) / (self.g(self.max) - low)
+        self.coordinate_between(self.ends(), elevation)
+    }
+
+    /// The ends of the axis before it is divided evenly.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        [self.g(self.min), self.g(self.max)]
+    }
+
+    /// The same as [`ElevationAxis::coordinate`] with the [ends](ElevationAxis::ends) at hand.
+    #[inline]
+    pub(crate) fn coordinate_between(&self, [low, high]: [f64; 2], elevation: f64) -> f64 {
+        self.intervals as f64 * (self.g(elevation) - low) / (high - low)
     }
 
     /// Elevation (rad) of a spline coordinate.

@@ -40,6 +40,8 @@ pub struct General<'a> {
     chunks: Chunks<'a>,
     /// Altitudes as h^(1/3), visibilities as 1/V.
     axes: [Axis; 2],
+    /// The ends of the axis of solar elevations before it is divided evenly.
+    suns: [f64; 2],
     /// Solar spectral irradiance at the wavelengths.
     irradiance: [f32; WAVELENGTH_BLOCKS * WIDTH],
     light: Light,
@@ -110,6 +112,7 @@ impl<'a> General<'a> {
                 Axis::new("altitudes", altitudes)?,
                 Axis::new("visibilities", visibilities)?,
             ],
+            suns: head.elevation.ends(),
             irradiance,
             interpolation: Interpolation::default(),
             head,

@@ -1,6 +1,7 @@
 //! Where a query stands on the axes of a model.
 
-use super::around::{Axis, Interpolation, Nodes};
+use super::General;
+use super::around::Nodes;
 use super::head::HeadView;
 use crate::axis::{Ends, Taps, alpha_coordinate, chord, spline};
 use crate::conditions::Conditions;
@@ -52,12 +53,9 @@ impl Question {
 
 impl Place {
     #[inline(always)]
-    pub fn new(
-        head: &HeadView,
-        [altitudes, visibilities]: &[Axis; 2],
-        question: &Question,
-        interpolation: Interpolation,
-    ) -> Self {
+    pub fn new(model: &General, question: &Question) -> Self {
+        let (head, [altitudes, visibilities]) = (&model.head, &model.axes);
+        let interpolation = model.interpolation;
         let Question {
             conditions,
             view: [x, y, z],
@@ -76,7 +74,7 @@ impl Place {
         let phi = (across as f32).atan2(along as f32);
         let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
-        let sun = axis.coordinate(conditions.solar_elevation);
+        let sun = axis.coordinate_between(model.suns, conditions.solar_elevation);
         Self {
             altitudes: altitudes.around(conditions.altitude.cbrt(), interpolation),
             visibilities: visibilities.around(1.0 / conditions.visibility, interpolation),

@@ -34,7 +34,7 @@ impl Kernel for One<'_, '_> {
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = Place::new(&model.head, &model.axes, &question, model.interpolation);
+        let place = Place::new(model, &question);
         let mut query = Query {
             model,
             place: &place,
