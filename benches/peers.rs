@@ -109,7 +109,7 @@ fn general(c: &mut Criterion) {
     let mut out = [0.0; 12];
     for (name, interpolation) in [
         ("general: 4 chunks", Interpolation::Linear),
-        ("general: 8 chunks", Interpolation::Lean),
+        ("general: 6 chunks", Interpolation::Lean),
         ("general: 16 chunks", Interpolation::Full),
     ] {
         let general = General::new(welkin::DEFAULT_MODEL)

@@ -44,7 +44,7 @@ fn main() -> Result<()> {
     points.push(exact(&skies[0]));
     for (name, interpolation) in [
         ("general, 4 chunks", Interpolation::Linear),
-        ("general, 8 chunks", Interpolation::Lean),
+        ("general, 6 chunks", Interpolation::Lean),
         ("general, 16 chunks", Interpolation::Full),
     ] {
         points.push(general(&model, name, interpolation)?);

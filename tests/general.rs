@@ -43,7 +43,7 @@ fn fewer_chunks_cost_as_much_accuracy_as_is_said() {
     println!("linear {linear:.6?}\nlean   {lean:.6?}\nfull   {full:.8?}");
     let below = |got: [f64; 3], limits: [f64; 3]| got.iter().zip(limits).all(|(&g, l)| g < l);
     assert!(below(full, [1e-6, 2e-6, 4e-6]));
-    assert!(below(lean, [4e-4, 3e-3, 7e-3]));
+    assert!(below(lean, [6e-4, 4e-3, 7e-3]));
     assert!(below(linear, [1e-3, 7e-3, 1.3e-2]));
 }
 

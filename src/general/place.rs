@@ -55,7 +55,7 @@ impl Place {
     #[inline(always)]
     pub fn new(model: &General, question: &Question) -> Self {
         let (head, [altitudes, visibilities]) = (&model.head, &model.axes);
-        let interpolation = model.interpolation;
+        let [over_altitude, over_visibility] = model.interpolation.curves();
         let Question {
             conditions,
             view: [x, y, z],
@@ -76,8 +76,8 @@ impl Place {
         let axis = &head.elevation;
         let sun = axis.coordinate_between(model.suns, conditions.solar_elevation);
         Self {
-            altitudes: altitudes.around(conditions.altitude.cbrt(), interpolation),
-            visibilities: visibilities.around(1.0 / conditions.visibility, interpolation),
+            altitudes: altitudes.around(conditions.altitude.cbrt(), over_altitude),
+            visibilities: visibilities.around(1.0 / conditions.visibility, over_visibility),
             curve: [
                 spline(alpha, intervals, Ends::Free),
                 spline(sun, axis.intervals, Ends::Free),

@@ -2,7 +2,7 @@
 
 use zerocopy::little_endian::U16;
 
-use super::around::Share;
+use super::around::{Interpolation, Share};
 use super::contract::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::place::{Place, Question};
 use super::{General, MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
@@ -65,13 +65,14 @@ impl<'a, 'b> Query<'a, 'b> {
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
             *slot = Some((column, weight as f32));
         }
-        for (a, altitude) in place.altitudes.taps() {
-            for (v, visibility) in place.visibilities.taps() {
-                let Some(share) = model.interpolation.share(altitude, visibility) else {
-                    continue;
-                };
+        for (a, over_altitude, _) in place.altitudes.taps() {
+            for (v, over_visibility, near) in place.visibilities.taps() {
                 let chunk = model.chunks.radiance(a, v);
                 let chunk = chunk.ok_or_else(|| model.missing("radiance", Some(a), Some(v)))?;
+                let share = Share {
+                    weight: (over_altitude * over_visibility) as f32,
+                    whole: near || model.interpolation == Interpolation::Full,
+                };
                 if let Some(slot) = slots.next() {
                     *slot = Some((chunk, share));
                 }
@@ -87,7 +88,7 @@ impl<'a, 'b> Query<'a, 'b> {
             return;
         };
         let (rows, n) = (self.heights(chunk), self.model.head.shape.wavelengths);
-        match share.near {
+        match share.whole {
             true => contract::fetch_chunk(instructions, chunk, rows, &self.place.curve),
             false => contract::fetch_chunk(instructions, chunk, rows, &self.place.chord),
         }
@@ -108,12 +109,12 @@ impl<'a, 'b> Query<'a, 'b> {
         }
         for i in 0..MOST_AROUND {
             self.fetch(instructions, i + AHEAD);
-            let Some((chunk, Share { weight, near })) = self.chunks[i] else {
+            let Some((chunk, Share { weight, whole })) = self.chunks[i] else {
                 continue;
             };
             let rows = self.heights(chunk);
             let sum = &mut components;
-            match near {
+            match whole {
                 true => contract::add_chunk(instructions, chunk, rows, &place.curve, weight, sum),
                 false => contract::add_chunk(instructions, chunk, rows, &place.chord, weight, sum),
             }
