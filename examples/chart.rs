@@ -19,8 +19,8 @@ const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
 const QUERIES: usize = 1024;
 /// What the marks of the chart are, and their colours.
 const KINDS: [(&str, &str); 3] = [
-    ("baked, RGB (kB)", "#d95f02"),
-    ("baked, 12 wavelengths (kB)", "#1b6ca8"),
+    ("baked, RGB (outlined: default)", "#d95f02"),
+    ("baked, 12 wavelengths", "#1b6ca8"),
     ("12 wavelengths", "#4d9221"),
 ];
 
@@ -211,7 +211,7 @@ fn svg(points: &[Point]) -> String {
         let y = 24.0 + 18.0 * i as f64;
         let _ = writeln!(
             out,
-            r##"<circle cx="470" cy="{:.1}" r="6" fill="{fill}" fill-opacity="0.6"/><text x="482" y="{y:.1}">{name}</text>"##,
+            r##"<circle cx="430" cy="{:.1}" r="6" fill="{fill}" fill-opacity="0.6"/><text x="442" y="{y:.1}">{name}</text>"##,
             y - 4.0
         );
     }
@@ -222,31 +222,39 @@ fn svg(points: &[Point]) -> String {
             _ => KINDS[2].1,
         };
         let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 4.0);
-        let general = p.tolerance == 0.0;
-        let label = match (general, p.tolerance == BakedSky::TOLERANCE) {
-            (true, _) => p.channels.to_owned(),
-            (_, true) => format!("{:.0} kB (default)", p.bytes as f64 / 1e3),
-            _ => format!("{:.0}", p.bytes as f64 / 1e3),
+        let kilobytes = format!("{:.0}", p.bytes as f64 / 1e3);
+        // General queries are close together, so their names stand above and below.
+        let (label, above) = match p.channels {
+            "spectral" => (kilobytes, true),
+            "RGB" => (kilobytes, false),
+            name => (name.to_owned(), name != "general, 4 chunks"),
         };
-        // Where the general queries are close together, their names stand beside them.
-        let (anchor, dx, dy) = match general {
-            true => ("start", r + 4.0, 4.0),
-            false => (
-                "middle",
-                0.0,
-                if p.channels == "RGB" {
-                    r + 14.0
-                } else {
-                    -r - 4.0
-                },
-            ),
+        let known = points.iter().take_while(|other| !std::ptr::eq(*other, p));
+        let repeated = p.tolerance > 0.0
+            && known
+                .into_iter()
+                .any(|other| (other.channels, other.bytes) == (p.channels, p.bytes));
+        let stroke = if p.tolerance == BakedSky::TOLERANCE {
+            "#000"
+        } else {
+            "none"
         };
-        let _ = writeln!(
+        let _ = write!(
             out,
-            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{r:.1}" fill="{fill}" fill-opacity="0.6"/><text x="{:.1}" y="{:.1}" text-anchor="{anchor}">{label}</text>"##,
-            x + dx,
-            y + dy,
+            r##"<circle cx="{x:.1}" cy="{y:.1}" r="{r:.1}" fill="{fill}" fill-opacity="0.6" stroke="{stroke}"/>"##
         );
+        if !repeated {
+            let y = if above { y - r - 4.0 } else { y + r + 14.0 };
+            let (x, anchor) = match p.tolerance > 0.0 {
+                true => (x, "middle"),
+                false => (x - r, "start"),
+            };
+            let _ = write!(
+                out,
+                r##"<text x="{x:.1}" y="{y:.1}" text-anchor="{anchor}">{label}</text>"##
+            );
+        }
+        out.push('\n');
     }
     out + "</svg>\n"
 }
