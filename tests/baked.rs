@@ -2,6 +2,9 @@
 #![cfg(feature = "default-model")]
 
 mod common;
+#[allow(dead_code)]
+#[path = "../examples/compare/random.rs"]
+mod random;
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -329,4 +332,26 @@ fn smaller_tolerances_take_more_memory() {
     assert!(sizes.is_sorted() && sizes[0] < sizes[2], "{sizes:?}");
     let colour: BakedColour = sky.bake_colour(2e-3).unwrap();
     assert!(colour.bytes() < 20_000, "{}", colour.bytes());
+}
+
+/// All over the model, half of them at dusk.
+#[test]
+fn few_skies_are_refused() {
+    const COUNT: usize = 3000;
+    let mut places = random::Sequence::<4>::new();
+    let refused = (0..COUNT).filter(|i| {
+        let mut conditions = random::conditions(&MODEL, places.next());
+        if i % 2 == 0 {
+            let [lowest, _] = MODEL.solar_elevation_range();
+            conditions.solar_elevation += 0.9 * (lowest - conditions.solar_elevation);
+        }
+        match MODEL.sky(&conditions).unwrap().bake(BakedSky::TOLERANCE) {
+            Ok(_) => false,
+            Err(Error::Tolerance { .. }) => true,
+            Err(error) => panic!("{error}"),
+        }
+    });
+    let refused = refused.count();
+    println!("{refused} of {COUNT} skies are refused at the default tolerance");
+    assert!(refused <= 4);
 }

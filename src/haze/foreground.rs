@@ -23,7 +23,8 @@ const REST: f32 = 0.04;
 /// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that of
 /// [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air, be it before the sky or
 /// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond; shorter segments,
-/// and those that end on ground that is seen, are those of the haze.
+/// and those that end on ground that is seen, are those of the haze. Points that the planet hides are not seen: from there on the way
+/// into the ground the light goes over into that of the air before it, which a volume of such points does not want.
 #[derive(Clone, Copy, Debug)]
 pub struct Foreground<'a> {
     haze: &'a Haze,

@@ -244,7 +244,10 @@ impl Bench {
         let mut errors = vec![];
         for (k, place) in self.places.iter().enumerate() {
             let single = Single::new(&self.chunks[k], &self.frames[k], &fit.own[k], &fit.basis);
-            let values = place.truth.iter().map(|s| single.radiance(&look(s), s));
+            let values = place
+                .truth
+                .iter()
+                .map(|s| single.radiance(&look(s), s.albedo as f32));
             errors.extend(relative(&place.truth, values));
         }
         let rank = fit.basis.rank;

@@ -2,7 +2,6 @@
 
 use super::cost::Components;
 use super::frame::{Frame, Look, cosine};
-use crate::dataset::Sample;
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
 use crate::orders::{FIELDS, NW};
 
@@ -36,11 +35,10 @@ impl<'a> Single<'a> {
         }
     }
 
-    /// Relative radiance at every wavelength.
-    pub fn radiance(&self, look: &Look, sample: &Sample) -> [f32; NW] {
+    /// Relative radiance at every wavelength over a ground of this albedo.
+    pub fn radiance(&self, look: &Look, albedo: f32) -> [f32; NW] {
         let place = self.frame.place(look);
         let mut share = self.chunk.phase_functions(cosine(look));
-        let albedo = sample.albedo as f32;
         for (w, ground) in share[FIELDS - 1].iter_mut().enumerate() {
             *ground *= self.chunk.interreflection(w, albedo);
         }
