@@ -75,7 +75,10 @@ impl Conditions {
 
     #[cfg(feature = "std")]
     /// Checks every parameter against the range of `model`; a relative excess of 1e-9 is rounding and gets clamped.
-    pub(crate) fn checked(&self, model: &Model) -> Result<Self> {
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the first parameter that the model does not reach.
+    pub fn checked(&self, model: &Model) -> Result<Self> {
         let mut checked = *self;
         for (parameter, value, [min, max]) in checked.ranges(model) {
             let slack = 1e-9 * min.abs().max(max.abs()).min(1e12);

@@ -92,7 +92,7 @@ pub use conditions::Conditions;
 pub use error::{Error, Result};
 pub use general::{General, Interpolation};
 #[cfg(feature = "std")]
-pub use haze::{Foreground, Haze, PolarisedForeground};
+pub use haze::{Foreground, GeneralHaze, Haze, PolarisedForeground};
 #[cfg(feature = "default-model")]
 pub use model::DEFAULT_MODEL;
 #[cfg(feature = "std")]

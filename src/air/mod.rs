@@ -39,7 +39,7 @@ pub(crate) struct Extinction {
 }
 
 impl Extinction {
-    fn new(head: &Head, visibility: f64) -> Self {
+    pub fn new(head: &Head, visibility: f64) -> Self {
         let nw = head.wavelengths.len();
         let rows = head.constituents * nw;
         let mut row = vec![0.0; rows];
@@ -179,6 +179,27 @@ impl Air {
             out.fill(0.0);
             return Ok(());
         }
+        dispatch(Depths::<true> {
+            air: self,
+            segment: &segment,
+            out,
+        });
+        Ok(())
+    }
+
+    /// Transmittance from a point in a direction (need not be normalised) through all of the air, up to the ground where that is in
+    /// the way.
+    ///
+    /// # Errors
+    /// As [`Air::transmittance_to_space`].
+    pub fn transmittance_to_end(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        self.check_output(out)?;
+        let (segment, _) = Segment::to_end(&self.planet(), from, direction)?;
         dispatch(Depths::<true> {
             air: self,
             segment: &segment,

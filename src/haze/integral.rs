@@ -60,19 +60,9 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     fn run<I: Instructions>(mut self, _: I) {
         let (haze, segment) = (self.haze, self.segment);
         let layers = &haze.air.layers;
-        let sky = Heaven {
-            sun: haze.sun,
-            low: haze.conditions.solar_elevation < LOW_SUN,
-        };
-        let panels = Panels::place(layers, segment, &haze.grey, &sky);
+        let (panels, places) = haze.panels(segment);
         let pairs = panels.count.div_ceil(2);
         let stations = panels.stations;
-        let mut places = [Places::default(); MOST_PLACES / BATCH];
-        let used = panels.count + 1 + stations.shares.len();
-        let (at, _) = panels.places.as_chunks();
-        for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
-            *places = Places::new(&layers.planet(), segment, haze.sun, at);
-        }
         let sunlight = Sunlight::new(haze, &places, panels.count);
         let mut views = [View::<M>::default(); MOST_STATIONS];
         let views = &mut views[..stations.shares.len()];
@@ -135,6 +125,29 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                 },
             );
         }
+    }
+}
+
+/// Ends of panels, then stations, in batches.
+pub(super) type AllPlaces = [Places; MOST_PLACES / BATCH];
+
+impl Haze {
+    /// Where light is evaluated along a segment.
+    #[inline(always)]
+    pub(super) fn panels(&self, segment: &Segment) -> (Panels, AllPlaces) {
+        let layers = &self.air.layers;
+        let sky = Heaven {
+            sun: self.sun,
+            low: self.conditions.solar_elevation < LOW_SUN,
+        };
+        let panels = Panels::place(layers, segment, &self.grey, &sky);
+        let mut places = [Places::default(); MOST_PLACES / BATCH];
+        let used = panels.count + 1 + panels.stations.shares.len();
+        let (at, _) = panels.places.as_chunks();
+        for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
+            *places = Places::new(&layers.planet(), segment, self.sun, at);
+        }
+        (panels, places)
     }
 }
 

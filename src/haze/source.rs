@@ -82,8 +82,7 @@ impl SourceTable {
         if values && table.level.as_flattened().iter().all(|v| v.is_finite()) {
             return Ok(table);
         }
-        let detail = "its values overflow at these conditions: the file is not a sensible sky";
-        Err(Error::invalid("source", detail))
+        Err(overflow())
     }
 
     pub fn bytes(&self) -> usize {
@@ -91,6 +90,40 @@ impl SourceTable {
             + size_of_val(self.values.as_slice())
             + size_of_val(self.level.as_slice())
             + 4 * (self.altitude.len() + self.sun.len())
+    }
+
+    /// Moves the table to other sun nodes (sines); its values are those of the last ones.
+    pub fn turn(&mut self, suns: &[f64]) {
+        self.sun.clear();
+        self.sun.extend(suns.iter().map(|&s| s as f32));
+        let rows = suns.len() * self.blocks;
+        let values = self.altitude.len() * rows * self.pairs;
+        self.values
+            .resize(values.max(self.values.len()), Lanes::splat(0.0));
+        self.level.resize(rows.max(self.level.len()), [0.0; LANES]);
+    }
+
+    /// Altitude nodes.
+    pub fn altitudes(&self) -> usize {
+        self.altitude.len()
+    }
+
+    /// The lowest altitude node and sun node of the cell around a place.
+    #[inline(always)]
+    pub fn cell(&self, altitude: f32, sun: f32) -> [usize; 2] {
+        [locate(&self.altitude, altitude).0, locate(&self.sun, sun).0]
+    }
+
+    /// The values of a node, `[block][pair]`.
+    #[inline(always)]
+    pub fn node(&mut self, altitude: usize, sun: usize) -> &mut [Lanes<8>] {
+        let n = self.blocks * self.pairs;
+        &mut self.values[(altitude * self.sun.len() + sun) * n..][..n]
+    }
+
+    /// Logarithm of the level at a sun node, `[block]`.
+    pub fn level(&mut self, sun: usize) -> &mut [[f32; LANES]] {
+        &mut self.level[sun * self.blocks..][..self.blocks]
     }
 
     /// Finds a place.
@@ -143,6 +176,12 @@ impl SourceTable {
     }
 }
 
+#[cold]
+pub(super) fn overflow() -> Error {
+    let detail = "its values overflow at these conditions: the file is not a sensible sky";
+    Error::invalid("source", detail)
+}
+
 /// Components 2r and 2r + 1, each for four wavelengths.
 #[inline(always)]
 fn pair(seen: &Components, r: usize) -> Lanes<8> {
@@ -162,7 +201,7 @@ fn locate(nodes: &[f32], x: f32) -> (usize, f32) {
 }
 
 /// The altitude nodes of the file with one more between each two, for linear interpolation.
-fn refine(basis: &SourceBasisView) -> Vec<f64> {
+pub(super) fn refine(basis: &SourceBasisView) -> Vec<f64> {
     let nodes = basis.altitude.windows(2);
     let mut out: Vec<f64> = nodes
         .flat_map(|n| [n[0].get(), 0.5 * (n[0].get() + n[1].get())])
@@ -172,7 +211,7 @@ fn refine(basis: &SourceBasisView) -> Vec<f64> {
 }
 
 /// Sines of the elevations around that of the scene's sun (rad).
-fn sun_nodes(elevation: f64) -> Vec<f64> {
+pub(super) fn sun_nodes(elevation: f64) -> Vec<f64> {
     let half = (SUNS / 2) as f64;
     let angle = |i: usize| {
         let v = i as f64 / half - 1.0;
@@ -190,7 +229,7 @@ fn sun_nodes(elevation: f64) -> Vec<f64> {
     nodes
 }
 
-fn sun_coordinate(sine: f64) -> f64 {
+pub(super) fn sun_coordinate(sine: f64) -> f64 {
     (12.5 * sine).asinh()
 }
 

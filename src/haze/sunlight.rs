@@ -32,29 +32,49 @@ const REACH: f64 = 0.06;
 const ANGLES: usize = 64;
 /// Altitudes, ever closer towards the ground.
 const ALTITUDES: usize = 121;
+/// Nodes of the table.
+pub(crate) const NODES: usize = ALTITUDES * ANGLES;
 /// Added to columns before the logarithm, m: less is nothing.
 const NOTHING: f32 = 1e-3;
 
 impl Beam {
     pub fn new(layers: &Layers, elevation: f64) -> Self {
-        let planet = layers.planet();
+        let mut beam = Self::empty(layers, elevation);
+        for node in 0..NODES {
+            beam.fill(layers, node);
+        }
+        beam
+    }
+
+    /// The table around a sun (rad) without its columns.
+    fn empty(layers: &Layers, elevation: f64) -> Self {
+        let mut beam = Self {
+            range: [0.0; 2],
+            top: layers.planet().top,
+            quads: layers.quads,
+            columns: vec![[0.0; LANES]; NODES * layers.quads],
+        };
+        beam.turn(&layers.planet(), elevation);
+        beam
+    }
+
+    /// Moves the table to another sun (rad); its columns are those of the last one.
+    pub fn turn(&mut self, planet: &Planet, elevation: f64) {
         let low = (elevation - REACH).max(0.0);
         let high = (elevation + REACH + planet.dip(planet.top)).max(low + REACH);
-        let mut columns = Vec::with_capacity(ALTITUDES * ANGLES * layers.quads);
-        for i in 0..ALTITUDES {
-            let h = planet.top * share(i, ALTITUDES).powi(2);
-            for j in 0..ANGLES {
-                let angle = low + (high - low) * share(j, ANGLES).powi(2);
-                let node = towards(layers, h, (angle - planet.dip(h)).sin());
-                let logarithm = |c: f32| (c + NOTHING).ln();
-                columns.extend(node.0[..layers.quads].iter().map(|row| row.map(logarithm)));
-            }
-        }
-        Self {
-            range: [low, high],
-            top: planet.top,
-            quads: layers.quads,
-            columns,
+        self.range = [low, high];
+    }
+
+    /// Computes the columns of a node.
+    pub fn fill(&mut self, layers: &Layers, node: usize) {
+        let planet = layers.planet();
+        let [low, high] = self.range;
+        let h = planet.top * share(node / ANGLES, ALTITUDES).powi(2);
+        let angle = low + (high - low) * share(node % ANGLES, ANGLES).powi(2);
+        let columns = towards(layers, h, (angle - planet.dip(h)).sin());
+        let rows = &mut self.columns[node * self.quads..][..self.quads];
+        for (row, column) in rows.iter_mut().zip(columns.0) {
+            *row = column.map(|c| (c + NOTHING).ln());
         }
     }
 
@@ -66,10 +86,7 @@ impl Beam {
     /// columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
     #[inline(always)]
     pub fn at(&self, layers: &Layers, places: &Places, pairs: usize, out: &mut [Two]) -> Heights {
-        let planet = layers.planet();
-        let dip = dips(&planet, places.altitude.max(Heights::splat(0.0)));
-        let rise = (places.sun.asin() + dip) * (1.0 / SUN_RADIUS) as f32;
-        let angle = visible_rise(rise) * SUN_RADIUS as f32;
+        let [dip, rise, angle] = heights(&layers.planet(), places);
         let spots = self.spots(places.altitude, angle);
         for (p, out) in out.iter_mut().enumerate().take(pairs) {
             let two = [2 * p, 2 * p + 1];
@@ -86,6 +103,15 @@ impl Beam {
             }
         }
         rise
+    }
+
+    /// The nodes that [`Beam::at`] may look up for each of these places.
+    #[inline(always)]
+    pub fn nodes(&self, planet: &Planet, places: &Places) -> [[usize; 4]; BATCH] {
+        let [_, _, angle] = heights(planet, places);
+        let spots = self.spots(places.altitude, angle);
+        let first = spots.node.map(|row| row / self.quads);
+        first.map(|node| [0, 1, ANGLES, ANGLES + 1].map(|step| node + step))
     }
 
     /// Where in the table these altitudes (m) and angles above the horizon are.
@@ -124,6 +150,14 @@ impl Beam {
             *out = sum.exp();
         }
     }
+}
+
+/// Dip of the horizon (rad), height of the sun's centre above it (radii), and that of the visible share of the disc (rad).
+#[inline(always)]
+fn heights(planet: &Planet, places: &Places) -> [Heights; 3] {
+    let dip = dips(planet, places.altitude.max(Heights::splat(0.0)));
+    let rise = (places.sun.asin() + dip) * (1.0 / SUN_RADIUS) as f32;
+    [dip, rise, visible_rise(rise) * SUN_RADIUS as f32]
 }
 
 /// Cells of the table and places in them.

@@ -1,0 +1,201 @@
+//! Answers questions that come sorted, so that neighbours have as much in common as can be.
+
+use welkin::{
+    Air, Conditions, Frame, GeneralHaze, Haze, PolarisedSky, Result, Sky, Stokes, SunDisc,
+};
+
+use super::quantity::{Key, Quantity, Question};
+use super::shared::Shared;
+
+/// What a thread keeps from row to row: the last of everything.
+pub struct Answerer<'a> {
+    shared: &'a Shared<'a>,
+    general_haze: Option<GeneralHaze<'a>>,
+    sky: Kept<Sky>,
+    polarised: Kept<PolarisedSky>,
+    haze: Kept<Haze>,
+    disc: Kept<SunDisc>,
+    air: Kept<Air, u64>,
+    spectrum: Spectrum,
+}
+
+/// Something prepared, and what for.
+type Kept<T, K = [u64; 4]> = Option<(K, T)>;
+
+/// The last spectrum: rows often differ in their wavelength only.
+#[derive(Default)]
+struct Spectrum {
+    key: Option<Key>,
+    values: Vec<f32>,
+    /// What else was computed with it.
+    rest: Vec<f32>,
+}
+
+impl<'a> Answerer<'a> {
+    pub fn new(shared: &'a Shared<'a>) -> Self {
+        let zeros = || vec![0.0; shared.irradiance.len()];
+        Self {
+            shared,
+            general_haze: None,
+            sky: None,
+            polarised: None,
+            haze: None,
+            disc: None,
+            air: None,
+            spectrum: Spectrum {
+                key: None,
+                values: zeros(),
+                rest: zeros(),
+            },
+        }
+    }
+
+    pub fn answer(&mut self, question: &Question) -> Result<f32> {
+        let wavelength = question.wavelength;
+        match question.quantity {
+            Quantity::Radiance => {
+                let relative = self.at(question)?;
+                Ok(self.shared.times_irradiance(relative, wavelength))
+            }
+            Quantity::RelativeRadiance | Quantity::Transmittance => self.at(question),
+            Quantity::InScatter | Quantity::SunRadiance => {
+                let relative = self.at(question)?;
+                Ok(self.shared.times_irradiance(relative, wavelength))
+            }
+            Quantity::Polarisation => Ok(self.stokes(question, Frame::SunAligned)?.signed_degree()),
+            Quantity::StokesQ => Ok(self.stokes(question, Frame::Vertical)?.q),
+            Quantity::StokesU => Ok(self.stokes(question, Frame::Vertical)?.u),
+        }
+    }
+
+    /// The spectrum of a question at its wavelength, relative to the sun's where that makes it smooth.
+    fn at(&mut self, question: &Question) -> Result<f32> {
+        let key = Some(question.key());
+        if self.spectrum.key != key {
+            self.spectrum.key = None;
+            self.fill(question)?;
+            self.spectrum.key = key;
+        }
+        self.shared
+            .between(&self.spectrum.values, question.wavelength)
+    }
+
+    fn fill(&mut self, question: &Question) -> Result<()> {
+        let conditions = self.shared.reachable(&question.conditions)?;
+        match question.quantity {
+            Quantity::Transmittance => self.transmittance(question, &conditions),
+            Quantity::InScatter => {
+                self.in_scatter(question, &conditions)?;
+                self.divide();
+                Ok(())
+            }
+            Quantity::SunRadiance => {
+                self.sun(question, &conditions)?;
+                self.divide();
+                Ok(())
+            }
+            _ => self.radiance(question, &conditions),
+        }
+    }
+
+    /// Takes the sun's spectrum out.
+    fn divide(&mut self) {
+        let values = self.spectrum.values.iter_mut();
+        for (value, irradiance) in values.zip(&self.shared.irradiance) {
+            // Where the sun does not shine there is no light either.
+            *value = match *irradiance > 0.0 {
+                true => (*value / irradiance).min(f32::MAX),
+                false => 0.0,
+            };
+        }
+    }
+
+    fn radiance(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
+        let (direction, out) = (question.ray.narrow(), &mut self.spectrum.values);
+        if let Some(general) = self.shared.general() {
+            return general.relative_radiance(conditions, direction, out);
+        }
+        let model = self.shared.model;
+        let sky = kept(&mut self.sky, question.place(), || model.sky(conditions))?;
+        sky.relative_radiance(direction, out)
+    }
+
+    fn transmittance(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
+        let model = self.shared.model;
+        let visibility = conditions.checked(model)?.visibility;
+        let air = kept(&mut self.air, visibility.to_bits(), || {
+            model.air(visibility)
+        })?;
+        let ([from, to], out) = (question.ray.ends(conditions), &mut self.spectrum.values);
+        match question.ray.is_endless() {
+            true => air.transmittance_to_end(from, question.ray.direction, out),
+            false => air.transmittance(from, to, out),
+        }
+    }
+
+    fn in_scatter(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
+        let ray = &question.ray;
+        if let Some(shared) = self.shared.haze() {
+            let haze = self.general_haze.get_or_insert_with(|| shared.clone());
+            let Spectrum { values, rest, .. } = &mut self.spectrum;
+            let [from, to] = ray.ends(conditions);
+            return match ray.is_endless() {
+                true => haze.to_end(conditions, from, ray.direction, values, rest),
+                false => haze.in_scatter(conditions, from, to, values, rest),
+            };
+        }
+        let model = self.shared.model;
+        let haze = kept(&mut self.haze, question.place(), || model.haze(conditions))?;
+        ray.through(haze, &mut self.spectrum.values, &mut self.spectrum.rest)
+    }
+
+    fn sun(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
+        let model = self.shared.model;
+        let disc = kept(&mut self.disc, question.place(), || {
+            Ok(SunDisc::new(&model.sky(conditions)?))
+        })?;
+        disc.radiance(question.ray.narrow(), &mut self.spectrum.values)
+    }
+
+    /// Of the sky, or of what the air within a finite distance scatters.
+    fn stokes(&mut self, question: &Question, frame: Frame) -> Result<Stokes> {
+        let (model, wavelength) = (self.shared.model, question.wavelength);
+        let conditions = &self.shared.reachable(&question.conditions)?;
+        if question.ray.is_endless() {
+            let sky = kept(&mut self.polarised, question.place(), || {
+                model.polarised_sky(conditions)
+            })?;
+            return sky.stokes_at(question.ray.narrow(), frame, wavelength);
+        }
+        let [from, to] = question.ray.ends(conditions);
+        let light = if let Some(shared) = self.shared.haze() {
+            let haze = self.general_haze.get_or_insert_with(|| shared.clone());
+            haze.relative_stokes_at(conditions, from, to, frame, wavelength)?
+        } else {
+            let haze = kept(&mut self.haze, question.place(), || model.haze(conditions))?;
+            haze.relative_stokes_at(from, to, frame, wavelength)?
+        };
+        let irradiance = model.head().solar_irradiance_at(wavelength) as f32;
+        Ok(Stokes {
+            i: irradiance * light.i,
+            q: irradiance * light.q,
+            u: irradiance * light.u,
+        })
+    }
+}
+
+/// What was prepared last if it was for the same, or else prepared now.
+fn kept<K: PartialEq, T>(
+    last: &mut Option<(K, T)>,
+    key: K,
+    prepare: impl FnOnce() -> Result<T>,
+) -> Result<&T> {
+    match last {
+        Some((for_what, _)) if *for_what == key => {}
+        _ => *last = Some((key, prepare()?)),
+    }
+    match last {
+        Some((_, prepared)) => Ok(prepared),
+        None => unreachable!("it was prepared just now"),
+    }
+}

@@ -1,0 +1,111 @@
+//! A few ten thousand rows at a time: understood and answered by all threads, in an order that shares work, and written in theirs.
+
+use std::io;
+use std::sync::Mutex;
+
+use csv::ByteRecord;
+use rayon::prelude::*;
+
+use super::answer::Answerer;
+use super::columns::Columns;
+use super::quantity::Question;
+use super::shared::Shared;
+use crate::failure::describe;
+
+/// Most rows of a block, and most bytes of their cells.
+const MOST_ROWS: usize = 1 << 16;
+const MOST_BYTES: usize = 1 << 25;
+/// Rows that a thread takes at once.
+const PORTION: usize = 256;
+
+/// The error of a row whose value is no number.
+const OVERFLOW: &str = "the value overflows: the file is not a sensible sky";
+
+/// What to write beside a row.
+pub type Answer = Result<f32, String>;
+
+/// Rows whose records are used again and again.
+#[derive(Default)]
+pub struct Block {
+    records: Vec<ByteRecord>,
+    len: usize,
+}
+
+impl Block {
+    /// Reads rows until the block is full or the table ends; what precedes an error is kept.
+    pub fn read(&mut self, reader: &mut csv::Reader<impl io::Read>) -> csv::Result<()> {
+        self.len = 0;
+        let mut bytes = 0;
+        while self.len < MOST_ROWS && bytes < MOST_BYTES {
+            if self.len == self.records.len() {
+                self.records.push(ByteRecord::new());
+            }
+            let record = &mut self.records[self.len];
+            if !reader.read_byte_record(record)? {
+                break;
+            }
+            bytes += record.as_slice().len();
+            self.len += 1;
+        }
+        Ok(())
+    }
+
+    pub fn rows(&self) -> &[ByteRecord] {
+        &self.records[..self.len]
+    }
+
+    /// Answers all rows, in their order.
+    pub fn answer<'a>(
+        &self,
+        columns: &Columns,
+        shared: &'a Shared<'a>,
+        answerers: &Mutex<Vec<Answerer<'a>>>,
+    ) -> Vec<Answer> {
+        let questions: Vec<_> = (self.rows().par_iter().with_min_len(PORTION))
+            .map(|row| columns.question(row))
+            .collect();
+        let mut order: Vec<_> = (questions.iter().enumerate())
+            .filter_map(|(i, question)| Some((question.as_ref().ok()?.key(), i)))
+            .collect();
+        order.par_sort_unstable();
+        let portions: Vec<Vec<Answer>> = order
+            .par_chunks(PORTION)
+            .map(|portion| {
+                let rows = portion.iter().map(|&(_, i)| &questions[i]);
+                let rows = rows.filter_map(|question| question.as_ref().ok());
+                answer_all(rows, shared, answerers)
+            })
+            .collect();
+        let mut answers: Vec<Answer> = (questions.into_iter())
+            .map(|question| question.map(|_| f32::NAN))
+            .collect();
+        let answered = portions.into_iter().flatten();
+        for ((_, i), answer) in order.into_iter().zip(answered) {
+            answers[i] = answer;
+        }
+        answers
+    }
+}
+
+fn answer_all<'a, 'q>(
+    questions: impl Iterator<Item = &'q Question>,
+    shared: &'a Shared<'a>,
+    answerers: &Mutex<Vec<Answerer<'a>>>,
+) -> Vec<Answer> {
+    // A thread that panicked leaves nothing half done in the list.
+    let lock = || {
+        answerers
+            .lock()
+            .unwrap_or_else(|poison| poison.into_inner())
+    };
+    let idle = lock().pop();
+    let mut answerer = idle.unwrap_or_else(|| Answerer::new(shared));
+    let answers = questions.map(|question| match answerer.answer(question) {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(OVERFLOW.to_owned()),
+        Err(error) => Err(describe(&error)),
+    });
+    let answers = answers.collect();
+    lock().push(answerer);
+    answers
+}

@@ -1,0 +1,138 @@
+//! `welkin query`: a CSV table in, the same table with values out.
+
+mod answer;
+mod block;
+mod columns;
+mod progress;
+mod quantity;
+mod shared;
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use csv::ByteRecord;
+
+use crate::Source;
+use crate::failure::{Failure, Result};
+use block::Block;
+use columns::Columns;
+use progress::Progress;
+use shared::Shared;
+
+#[derive(clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    source: Source,
+    /// Fail (exit code 2) if a row got an error.
+    #[arg(long)]
+    strict: bool,
+    /// Move conditions that the model does not reach to its nearest.
+    #[arg(long)]
+    clamp: bool,
+    /// Threads that answer rows; all cores if absent. Answers do not depend on it.
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Table with a header; standard input if absent or "-".
+    file: Option<PathBuf>,
+}
+
+pub fn run(options: &Options) -> Result<()> {
+    let model = options.source.open()?;
+    let input = input(options)?;
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads.map_or(0, usize::from))
+        .build()
+        .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
+    let shared = Shared::new(&model, options.clamp);
+    let (rows, failures) = answer(&shared, &threads, input, io::stdout().lock())?;
+    if options.strict && failures > 0 {
+        let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
+        return Err(Failure::message(text));
+    }
+    Ok(())
+}
+
+/// Answers a table; returns how many rows it has and how many of them failed.
+fn answer<'a>(
+    shared: &'a Shared<'a>,
+    threads: &rayon::ThreadPool,
+    input: impl Read,
+    output: impl io::Write,
+) -> Result<(u64, u64)> {
+    let mut reader = csv::ReaderBuilder::new()
+        .flexible(true)
+        .buffer_capacity(BUFFER)
+        .from_reader(input);
+    let header = reader.byte_headers().map_err(unreadable)?.clone();
+    let columns = Columns::find(&header)?;
+    let mut writer = csv::WriterBuilder::new()
+        .buffer_capacity(BUFFER)
+        .from_writer(output);
+    write_row(&mut writer, &header, header.len(), "value", "error")?;
+    let answerers = Mutex::new(Vec::new());
+    let mut progress = Progress::new();
+    let (mut rows, mut failures) = (0u64, 0u64);
+    let mut block = Block::default();
+    loop {
+        let read = block.read(&mut reader);
+        if block.rows().is_empty() {
+            read.map_err(unreadable)?;
+            break;
+        }
+        let answers = threads.install(|| block.answer(&columns, shared, &answerers));
+        let mut value = String::new();
+        for (row, answer) in block.rows().iter().zip(&answers) {
+            value.clear();
+            let error = match answer {
+                Ok(number) => {
+                    use std::fmt::Write;
+                    // Writing to a string never fails.
+                    let _ = write!(value, "{number:?}");
+                    ""
+                }
+                Err(error) => error,
+            };
+            failures += u64::from(answer.is_err());
+            write_row(&mut writer, row, header.len(), &value, error)?;
+        }
+        rows += answers.len() as u64;
+        progress.rows(rows);
+        read.map_err(unreadable)?;
+    }
+    writer.flush()?;
+    Ok((rows, failures))
+}
+
+/// Bytes that are read and written at once.
+const BUFFER: usize = 1 << 16;
+
+fn input(options: &Options) -> Result<Box<dyn Read>> {
+    match &options.file {
+        Some(path) if path.as_os_str() != "-" => {
+            let unreadable = |e: io::Error| Failure::message(format!("{}: {e}", path.display()));
+            Ok(Box::new(File::open(path).map_err(unreadable)?))
+        }
+        _ => Ok(Box::new(io::stdin().lock())),
+    }
+}
+
+fn unreadable(error: csv::Error) -> Failure {
+    Failure::message(format!("cannot read the table: {error}"))
+}
+
+fn write_row(
+    writer: &mut csv::Writer<impl io::Write>,
+    row: &ByteRecord,
+    columns: usize,
+    value: &str,
+    error: &str,
+) -> Result<()> {
+    let cells = (0..columns).map(|i| row.get(i).unwrap_or(b"").trim_ascii());
+    let written = writer.write_record(cells.chain([value.as_bytes(), error.as_bytes()]));
+    written.map_err(|error| match error.into_kind() {
+        csv::ErrorKind::Io(error) => Failure::from(error),
+        other => Failure::message(format!("cannot write the table: {other:?}")),
+    })
+}

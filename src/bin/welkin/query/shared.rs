@@ -1,0 +1,78 @@
+//! What all threads share: the model, and its evaluators for questions that have nothing in common.
+
+use std::sync::OnceLock;
+
+use welkin::{Budget, Channels, Conditions, General, GeneralHaze, Interpolation, Model, Result};
+
+/// The model and what is prepared of it when it is first needed.
+///
+/// The general evaluators verify all that they could ever read. Where that fails, because a chunk is missing or damaged, or because
+/// the file is too large for them, there are none: then what a row needs is prepared row by row, so that only rows that need the
+/// broken chunk get an error.
+pub struct Shared<'a> {
+    pub model: &'a Model,
+    pub clamp: bool,
+    /// Solar spectral irradiance at the wavelengths of the model.
+    pub irradiance: Vec<f32>,
+    general: OnceLock<Option<Box<General<'a>>>>,
+    haze: OnceLock<Option<GeneralHaze<'a>>>,
+}
+
+impl<'a> Shared<'a> {
+    pub fn new(model: &'a Model, clamp: bool) -> Self {
+        let head = model.head();
+        let irradiance = |&l: &f64| head.solar_irradiance_at(l) as f32;
+        Self {
+            irradiance: head.wavelengths.iter().map(irradiance).collect(),
+            model,
+            clamp,
+            general: OnceLock::new(),
+            haze: OnceLock::new(),
+        }
+    }
+
+    /// Radiance of any direction under any conditions, as exact as prepared skies.
+    pub fn general(&self) -> Option<&General<'a>> {
+        let prepared = self.general.get_or_init(|| {
+            let general = self.plan(Channels::Spectral).ok()?;
+            Some(Box::new(general.with_interpolation(Interpolation::Full)))
+        });
+        prepared.as_deref()
+    }
+
+    fn plan(&self, channels: Channels) -> Result<General<'a>> {
+        let plan = self.model.plan(&Budget {
+            altitude: self.model.altitude_range(),
+            visibility: self.model.visibility_range(),
+            solar_elevation: self.model.solar_elevation_range(),
+            tolerance: 1.0,
+            channels,
+        })?;
+        self.model.general(&plan)
+    }
+
+    /// Light of any segment under any conditions.
+    pub fn haze(&self) -> Option<&GeneralHaze<'a>> {
+        let prepared = self.haze.get_or_init(|| self.model.general_haze().ok());
+        prepared.as_ref()
+    }
+
+    /// The conditions, moved into the model if that is wanted.
+    pub fn reachable(&self, conditions: &Conditions) -> Result<Conditions> {
+        match self.clamp {
+            true => conditions.clamped(self.model),
+            false => Ok(*conditions),
+        }
+    }
+
+    /// Between the wavelengths of the model.
+    pub fn between(&self, values: &[f32], wavelength: f64) -> Result<f32> {
+        welkin::between_wavelengths(self.model.wavelengths(), values, wavelength)
+    }
+
+    /// Spectral radiance from relative radiance.
+    pub fn times_irradiance(&self, relative: f32, wavelength: f64) -> f32 {
+        let irradiance = self.model.head().solar_irradiance_at(wavelength);
+        (f64::from(relative) * irradiance).min(f64::from(f32::MAX)) as f32
+    }
+}

@@ -1,0 +1,358 @@
+//! `welkin query` on many rows: the answers of prepared skies and hazes, row by row.
+#![cfg(feature = "cli")]
+
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+use welkin::{Conditions, Frame, Model, Stokes, SunDisc};
+
+const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
+const QUANTITIES: [&str; 8] = [
+    "radiance",
+    "relative_radiance",
+    "polarisation",
+    "stokes_q",
+    "stokes_u",
+    "transmittance",
+    "in_scatter",
+    "sun_radiance",
+];
+
+fn query(arguments: &[&str], table: String) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
+        .arg("query")
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let writing = std::thread::spawn(move || input.write_all(table.as_bytes()));
+    let output = child.wait_with_output().unwrap();
+    // The command may stop before it has read all.
+    let _ = writing.join().unwrap();
+    output
+}
+
+/// Value and error of each row.
+fn answers(output: &Output) -> Vec<(Option<f32>, String)> {
+    assert!(output.status.success(), "{output:?}");
+    let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+    let rows = reader.records().map(|row| row.unwrap());
+    rows.map(|row| (row[9].parse().ok(), row[10].to_owned()))
+        .collect()
+}
+
+/// Numbers that are as good as random, the same in every run (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn share(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.share()
+    }
+}
+
+/// A row, as numbers in the order of the columns.
+#[derive(Clone, Debug)]
+struct Row {
+    quantity: &'static str,
+    numbers: [f64; 8],
+}
+
+impl Row {
+    fn random(quantity: &'static str, random: &mut Random) -> Self {
+        let elevation = random.between(-4.2, 90.0);
+        let beside = |random: &mut Random| random.between(-0.25, 0.25);
+        let of_sun = quantity == "sun_radiance";
+        let zenith = match of_sun {
+            true => (90.0 - elevation + beside(random)).clamp(0.0, 180.0),
+            false => random.between(-1.0, 1.0).acos().to_degrees(),
+        };
+        let azimuth = match of_sun {
+            true => beside(random),
+            false => random.between(-180.0, 180.0),
+        };
+        let radiance = quantity.contains("radiance");
+        let distance = match radiance || random.share() < 0.3 {
+            true => f64::INFINITY,
+            false => 10f64.powf(random.between(0.0, 5.5)),
+        };
+        let visibility = 1.0 / random.between(1.0 / 131.8, 1.0 / 20.0);
+        let altitude = 15e3 * random.share().powi(3);
+        let numbers = [
+            visibility,
+            random.share(),
+            altitude,
+            elevation,
+            zenith,
+            azimuth,
+            distance,
+            random.between(320.0, 760.0),
+        ];
+        Self { quantity, numbers }
+    }
+
+    /// Makes one of the numbers wrong; says what the error begins with.
+    fn spoil(&mut self, random: &mut Random) -> &'static str {
+        let (column, value, error) = [
+            (0, 5.0, "visibility must be in"),
+            (1, f64::NAN, "albedo must be in"),
+            (2, -1.0, "altitude must be in"),
+            (3, -4.3, "solar elevation must be in"),
+            (4, 180.5, "view_zenith_deg must be in 0..=180"),
+            (5, f64::INFINITY, "view_azimuth_deg must be finite"),
+            (6, -1.0, "distance_m must"),
+            (7, 900.0, "wavelength must be in"),
+        ][(random.share() * 8.0) as usize];
+        self.numbers[column] = value;
+        error
+    }
+
+    fn text(&self) -> String {
+        let cells = self.numbers.map(|number| format!("{number:?}"));
+        format!("{},{}\n", self.quantity, cells.join(","))
+    }
+
+    fn conditions(&self) -> Conditions {
+        let [visibility, albedo, altitude, elevation, ..] = self.numbers;
+        Conditions {
+            solar_elevation: elevation.to_radians(),
+            solar_azimuth: 0.0,
+            visibility: 1e3 * visibility,
+            albedo,
+            altitude,
+        }
+    }
+
+    /// What a sky or a haze that is prepared for this row alone says, and what an error of it is relative to.
+    fn expected(&self, model: &Model) -> (f32, f32) {
+        let [_, _, altitude, _, zenith, azimuth, distance, wavelength] = self.numbers;
+        let (r, z) = zenith.to_radians().sin_cos();
+        let (y, x) = azimuth.to_radians().sin_cos();
+        let unit = [r * x, r * y, z];
+        let (conditions, direction) = (self.conditions(), unit.map(|v| v as f32));
+        let irradiance = model.head().solar_irradiance_at(wavelength) as f32;
+        let nodes = model.wavelengths();
+        let over_sun = |light: &mut [f32]| {
+            for (light, &node) in light.iter_mut().zip(nodes) {
+                *light /= model.head().solar_irradiance_at(node) as f32;
+            }
+            welkin::between_wavelengths(nodes, light, wavelength).unwrap()
+        };
+        let own = |value: f32| (value, value.abs());
+        match self.quantity {
+            "radiance" => {
+                let sky = model.sky(&conditions).unwrap();
+                own(sky.radiance_at(direction, wavelength).unwrap())
+            }
+            "relative_radiance" => {
+                let sky = model.sky(&conditions).unwrap();
+                own(sky.relative_radiance_at(direction, wavelength).unwrap())
+            }
+            "sun_radiance" => {
+                let disc = SunDisc::new(&model.sky(&conditions).unwrap());
+                let mut light = vec![0.0; nodes.len()];
+                disc.radiance(direction, &mut light).unwrap();
+                own(irradiance * over_sun(&mut light))
+            }
+            "transmittance" | "in_scatter" => {
+                let haze = model.haze(&conditions).unwrap();
+                let (mut light, mut through) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
+                let from = [0.0, 0.0, altitude];
+                let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
+                match distance.is_finite() {
+                    true => haze.in_scatter(from, to, &mut light, &mut through),
+                    false => haze.to_end(from, unit, &mut light, &mut through),
+                }
+                .unwrap();
+                match self.quantity {
+                    "in_scatter" => own(irradiance * over_sun(&mut light)),
+                    _ => own(welkin::between_wavelengths(nodes, &through, wavelength).unwrap()),
+                }
+            }
+            _ => {
+                let frame = match self.quantity {
+                    "polarisation" => Frame::SunAligned,
+                    _ => Frame::Vertical,
+                };
+                let light: Stokes = if distance.is_finite() {
+                    let from = [0.0, 0.0, altitude];
+                    let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
+                    let haze = model.haze(&conditions).unwrap();
+                    let light = haze.relative_stokes_at(from, to, frame, wavelength);
+                    let light = light.unwrap();
+                    let [i, q, u] = [light.i, light.q, light.u].map(|v| irradiance * v);
+                    Stokes { i, q, u }
+                } else {
+                    let sky = model.polarised_sky(&conditions).unwrap();
+                    sky.stokes_at(direction, frame, wavelength).unwrap()
+                };
+                match self.quantity {
+                    "polarisation" => (light.signed_degree(), 1.0),
+                    "stokes_q" => (light.q, light.i),
+                    _ => (light.u, light.i),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn random_rows_are_answered_as_by_what_is_prepared_for_them_alone() {
+    let model = Model::default_model().unwrap();
+    let mut random = Random(1);
+    let mut rows = Vec::new();
+    for quantity in QUANTITIES {
+        // A haze takes twenty times as long to prepare as a sky.
+        let count = match quantity {
+            "transmittance" | "in_scatter" => 120,
+            "polarisation" | "stokes_q" | "stokes_u" => 150,
+            _ => 1500,
+        };
+        rows.extend((0..count).map(|_| (Row::random(quantity, &mut random), None)));
+    }
+    for row in rows.iter_mut().step_by(9) {
+        row.1 = Some(row.0.spoil(&mut random));
+    }
+    // Rows of all quantities side by side.
+    for i in (1..rows.len()).rev() {
+        rows.swap(i, (random.share() * (i + 1) as f64) as usize);
+    }
+    let texts: String = rows.iter().map(|(row, _)| row.text()).collect();
+    let output = query(&[], format!("{HEADER}\n{texts}"));
+    let answers = answers(&output);
+    assert_eq!(answers.len(), rows.len());
+    for ((row, error), (value, text)) in rows.iter().zip(&answers) {
+        match error {
+            Some(error) => assert!(value.is_none() && text.starts_with(error), "{row:?} {text}"),
+            None => {
+                let (expected, size) = row.expected(&model);
+                let got = value.unwrap_or(f32::NAN);
+                // Dark transmittances lose digits in the exponential.
+                let depth = -expected.abs().max(f32::MIN_POSITIVE).ln().min(0.0);
+                let tolerance = match row.quantity {
+                    "transmittance" => 1e-6 * depth.max(1.0),
+                    _ => 1e-5,
+                };
+                assert!(
+                    (got - expected).abs() <= tolerance * size,
+                    "{row:?} {got} {expected} {text}"
+                );
+            }
+        }
+    }
+    // Neither threads nor neighbours count: the first rows alone, by one thread.
+    let few: String = rows[..300].iter().map(|(row, _)| row.text()).collect();
+    let alone = query(&["--threads", "1"], format!("{HEADER}\n{few}"));
+    assert!(output.stdout.starts_with(&alone.stdout));
+}
+
+#[test]
+fn rows_that_differ_in_the_wavelength_only_share_no_answer() {
+    let row = |quantity: &str, nm: f64| format!("{quantity},50,0.2,0,30,60,30,,{nm}\n");
+    let mut table = format!("{HEADER}\n");
+    for nm in [450.0, 650.0] {
+        table += &row("radiance", nm);
+        table += &row("relative_radiance", nm);
+        table += &row("in_scatter", nm);
+        table += &row("transmittance", nm);
+    }
+    let answers: Vec<f32> = answers(&query(&[], table))
+        .iter()
+        .map(|(value, _)| value.unwrap())
+        .collect();
+    for (blue, red) in answers[..4].iter().zip(&answers[4..]) {
+        assert!((blue / red - 1.0).abs() > 0.01, "{answers:?}");
+    }
+    assert!((answers[0] / answers[2] - 1.0).abs() < 0.05, "{answers:?}");
+}
+
+#[test]
+fn more_rows_than_a_block_stay_in_order() {
+    const ROWS: usize = 70_000;
+    let row = |i: usize| {
+        let elevation = (i * 7919) % 90;
+        format!("radiance,50,0.2,0,{elevation},60,30,,{}\n", 320 + i % 440)
+    };
+    let rows: String = (0..ROWS).map(row).collect();
+    let output = query(&[], format!("{HEADER}\n{rows}"));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.lines().count(), ROWS + 1);
+    for (line, i) in text.lines().skip(1).zip(0..) {
+        let asked = row(i);
+        assert!(
+            line.starts_with(asked.trim_end()) && line.ends_with(','),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn foreign_separators_and_decimal_commas_get_a_hint() {
+    let header = HEADER.replace(',', ";");
+    let refused = |table: String| {
+        let output = query(&[], table);
+        assert_eq!(output.status.code(), Some(2));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let text = refused(format!("{header}\nradiance;50;0,2;0;30;60;30;;550\n"));
+    assert!(text.contains("separated by semicolons"), "{text}");
+    let text = refused(HEADER.replace(',', "\t"));
+    assert!(text.contains("separated by tabs"), "{text}");
+    let text = refused(HEADER.replace("albedo", "reflectance"));
+    assert!(
+        text.contains("lacks the column \"albedo\"") && !text.contains("separated"),
+        "{text}"
+    );
+    let table =
+        format!("{HEADER}\nradiance,50,\"0,2\",0,30,60,30,,550\nradiance,50,0,2,0,30,60,30,,550\n");
+    let answers = answers(&query(&[], table));
+    assert!(
+        answers[0]
+            .1
+            .contains("decimals are written with a point, 0.2")
+    );
+    assert!(answers[1].1.contains("expected 9 cells, got 10 (decimals"));
+}
+
+#[test]
+fn a_broken_chunk_spoils_only_the_rows_that_need_it() {
+    let model = Model::default_model().unwrap();
+    let damaged = (model.directory().iter())
+        .find(|e| e.kind == welkin::format::Kind::Radiance)
+        .unwrap();
+    let (altitude, visibility) = (damaged.altitude.unwrap(), damaged.visibility.unwrap());
+    let mut bytes = welkin::DEFAULT_MODEL.to_vec();
+    bytes[damaged.offset + damaged.length / 2] ^= 1;
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("damaged.welkin");
+    std::fs::write(&file, bytes).unwrap();
+    let row = |a: usize, v: usize| {
+        let (h, km) = (
+            model.head().altitudes[a],
+            1e-3 * model.head().visibilities[v],
+        );
+        format!("radiance,{km},0.2,{h},30,60,30,,550\n")
+    };
+    let far = (
+        model.head().altitudes.len() - 1,
+        model.head().visibilities.len() - 1,
+    );
+    let table = format!(
+        "{HEADER}\n{}{}",
+        row(altitude, visibility),
+        row(far.0, far.1)
+    );
+    let answers = answers(&query(&["--model", file.to_str().unwrap()], table));
+    assert!(answers[0].1.contains("damaged"), "{answers:?}");
+    assert!(answers[1].0.is_some(), "{answers:?}");
+}
