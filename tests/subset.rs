@@ -156,6 +156,83 @@ fn extras_and_what_nobody_sees_can_be_left_out() {
     assert!(packed["bytes"].as_u64() < ground["bytes"].as_u64());
 }
 
+/// The chunks of a model with a luminance of nothing, or of far too much.
+fn absurd_files() -> Vec<(&'static str, Vec<u8>)> {
+    use welkin::format::{Payload, encode};
+    let head = common::head(&[0.0, 120.0], &[20e3, 60e3]);
+    let xyz = |value: f64| {
+        let mut head = head.clone();
+        head.xyz.fill([value; 3]);
+        encode(&head, &common::chunks(&head)).unwrap()
+    };
+    let scale = |value: f32| {
+        let mut chunks = common::chunks(&head);
+        for chunk in &mut chunks {
+            if let Payload::Radiance(factors) = &mut chunk.payload {
+                factors.scale.fill(value);
+            }
+        }
+        encode(&head, &chunks).unwrap()
+    };
+    vec![
+        ("colours of zero", xyz(0.0)),
+        ("colours below zero", xyz(-1e30)),
+        ("scales of zero", scale(0.0)),
+        ("scales below zero", scale(-1.0)),
+        ("scales that overflow", scale(1e30)),
+    ]
+}
+
+/// Runs `welkin subset` over a file; panics if it takes more than a minute.
+fn subset_in_time(folder: &Path, bytes: &[u8], arguments: &[&str]) -> Output {
+    std::fs::write(folder.join("source.welkin"), bytes).unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
+        .args(["subset", "--json", "--model", "source.welkin"])
+        .args(["--out", "small.welkin"])
+        .args(arguments)
+        .current_dir(folder)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    for _ in 0..600 {
+        if child.try_wait().unwrap().is_some() {
+            return child.wait_with_output().unwrap();
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
+    child.kill().unwrap();
+    panic!("subset {arguments:?} has not ended after a minute");
+}
+
+#[test]
+fn absurd_files_that_conform_are_refused_and_end() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in absurd_files() {
+        assert!(welkin::format::verify(&bytes).is_empty(), "{name}");
+        // What does not ask for colour can do with any.
+        let wishes = [
+            ["--rgb", "--zstd"],
+            ["--wavelengths", "320..500"],
+            ["--tolerance", "1%"],
+        ];
+        for wish in wishes {
+            let output = subset_in_time(folder.path(), &bytes, &wish);
+            let error = String::from_utf8(output.stderr.clone()).unwrap();
+            let dark = wish[0] == "--rgb" && !name.contains("overflow");
+            if dark || output.status.code() != Some(0) {
+                assert_eq!(output.status.code(), Some(2), "{name} {wish:?}: {error}");
+                assert!(error.contains("invalid "), "{name} {wish:?}: {error}");
+                assert!(!folder.path().join("small.welkin").exists(), "{name}");
+                continue;
+            }
+            let difference = &report(&output)["difference_to_source"];
+            assert!(difference["max"].is_f64(), "{name} {wish:?}: {difference}");
+            std::fs::remove_file(folder.path().join("small.welkin")).unwrap();
+        }
+    }
+}
+
 #[test]
 fn impossible_wishes_are_refused_in_one_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -178,12 +178,14 @@ fn table_altitudes(top: f64) -> Vec<f64> {
     let mut nodes = vec![0.0];
     let mut z: f64 = 0.0;
     while z < top {
-        z += match z {
+        let step: f64 = match z {
             z if z < 3000.0 => 25.0,
             z if z < 14_000.0 => 100.0,
             z if z < 50_000.0 => 250.0,
             _ => 500.0,
         };
+        // Air that is thousands of kilometres high gets no more nodes.
+        z += step.max(top / 8192.0);
         nodes.push(z.min(top));
     }
     nodes

@@ -46,6 +46,10 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     ensure!(args.segments >= 1, "--segments is not positive");
+    ensure!(
+        args.highest >= 0.0 && args.highest.is_finite(),
+        "--highest must be an altitude, m"
+    );
     let path = || args.model.display().to_string();
     let bytes = std::fs::read(&args.model).with_context(path)?;
     let model = Model::from_bytes(bytes.clone()).with_context(path)?;
@@ -83,7 +87,7 @@ fn save(folder: &Path, name: &str, bytes: &[u8]) -> Result<()> {
 
 fn study(args: &Args, model: &Model, solved: &[Solved]) -> Result<String> {
     let methods = study::Methods::new(model, solved);
-    let cases = study::cases(solved, args.segments, args.highest, 1);
+    let cases = study::cases(solved, args.segments, args.highest, 1)?;
     let truth: Vec<_> = cases
         .par_iter()
         .map(|c| c.truth(&solved[c.visibility]))

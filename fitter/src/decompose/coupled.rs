@@ -53,12 +53,17 @@ pub fn decompose(
     let mut extrapolated = false;
     for sweep in 0..options.sweeps {
         let cost = problem.sweep(&mut factors);
-        if cost.objective > least.objective && extrapolated {
+        // Also if it is not a number.
+        let worse = !(cost.objective <= least.objective);
+        if worse && extrapolated {
             // The extrapolation overshot: go on from the best factors with a shorter one.
             factors = best.clone();
             momentum *= 0.7;
             extrapolated = false;
             continue;
+        }
+        if cost.objective.is_nan() && !least.errors.is_empty() {
+            break;
         }
         let previous = std::mem::replace(&mut best, factors.clone());
         least = cost;

@@ -30,6 +30,8 @@ pub struct Path {
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 /// Longest segment, m: over it the sun's elevation changes by a quarter of a degree.
 const LONGEST: f64 = 25_000.0;
+/// Segments of a ray: they get longer where there would be more.
+const MOST_SEGMENTS: f64 = 1e5;
 
 /// Divides the ray from `altitude` with zenith cosine `mu` and `length` into segments; `fineness` 1 is for production.
 pub fn trace(
@@ -58,7 +60,8 @@ pub fn trace(
     let mut s = 0.0;
     while s < length {
         let (h, c) = at(s);
-        let ds = segment(medium, h, c, fineness).min(length - s);
+        let ds = segment(medium, h, c, fineness).max(length / MOST_SEGMENTS);
+        let ds = ds.min(length - s);
         for x in GAUSS {
             let d = s + x * ds;
             let (h, c) = at(d);

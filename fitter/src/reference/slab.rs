@@ -176,7 +176,9 @@ pub fn rayleigh(path: &Path, stride: usize, effort: Effort) -> Result<Vec<Verdic
     let mut verdicts = vec![];
     let mut left: Vec<&RayleighRow> = file.rows.iter().step_by(stride.max(1)).collect();
     while let Some(first) = left.first().copied() {
-        let (same, others) = left.into_iter().partition(|r| key(r) == key(first));
+        let (same, others) = left
+            .into_iter()
+            .partition(|r| std::ptr::eq(*r, first) || key(r) == key(first));
         left = others;
         let slab = Slab {
             name: format!("{} tau {}", first.source, first.tau),

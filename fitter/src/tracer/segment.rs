@@ -11,6 +11,8 @@ const LONGEST: f64 = 30_000.0;
 const THICK: f64 = 0.7;
 /// Transmittance behind which pieces are no longer divided.
 const NOTHING: f64 = 1e-6;
+/// Pieces of a segment; the last one takes what is left.
+const MOST_PIECES: usize = 1 << 16;
 
 struct Piece {
     from: f64,
@@ -141,7 +143,8 @@ impl Segment {
         while at.t < to {
             let extinction = at.extinction.iter().fold(1e-300_f64, |a, &b| a.max(b));
             let mut step = LONGEST.min(THICK / extinction);
-            if at.t + 1.3 * step > to || through.iter().all(|&x| x < NOTHING) {
+            let full = self.pieces.len() >= MOST_PIECES;
+            if full || at.t + 1.3 * step > to || through.iter().all(|&x| x < NOTHING) {
                 step = to - at.t;
             }
             let next = scene.end(line, if at.t + step < to { at.t + step } else { to });

@@ -72,12 +72,18 @@ pub struct Walker<'a, const N: usize> {
 
 /// How far from a surface walks go on, m: their own surface must not stop them.
 const CLEARANCE: f64 = 1e-3;
+/// Flights of a walk and tentative collisions of a flight after which it ends: more than any air has use for that light gets
+/// through (some thousand optical depths), so that no walk is endless in air that has none.
+const MOST_FLIGHTS: usize = 1 << 20;
+const MOST_COLLISIONS: usize = 1 << 24;
 
 enum Flight {
     Escape,
     Ground(f64),
     Solid(Hit),
     Collision(f64, Columns),
+    /// No end within [`MOST_COLLISIONS`].
+    Lost,
 }
 
 /// Numbers for one step: the lattice's while they last, then the stream's.
@@ -110,7 +116,7 @@ impl<const N: usize> Walker<'_, N> {
     /// Follows `path`, whose direction has just been chosen, to its end.
     pub fn follow(&mut self, mut path: Path<N>, numbers: &mut Numbers, tally: &mut Tally<N>) {
         let reference = path.m.strength() * self.normaliser(&path);
-        loop {
+        for _ in 0..MOST_FLIGHTS {
             let line = Line::new(path.point, path.frame.w);
             let ground = line.ground_distance(self.medium().radius);
             let end = ground.unwrap_or_else(|| line.space_distance(self.medium().top));
@@ -126,7 +132,8 @@ impl<const N: usize> Walker<'_, N> {
                 return;
             }
             let strength = path.m.strength() * self.normaliser(&path) / reference;
-            if strength < 0.1 {
+            // Also if it is not a number.
+            if !(strength >= 0.1) {
                 let survival = (strength / 0.1).max(0.05);
                 if numbers.draw() >= survival {
                     return;
@@ -146,6 +153,7 @@ impl<const N: usize> Walker<'_, N> {
         tally: &mut Tally<N>,
     ) -> bool {
         match flight {
+            Flight::Lost => false,
             Flight::Escape => {
                 if self.light == Light::Furnace {
                     self.gather_escape(path, tally);
@@ -311,6 +319,7 @@ impl<const N: usize> Walker<'_, N> {
         let mut s = line.start;
         let mut factor = [1.0; N];
         let mut depth = -(1.0 - numbers.stream.uniform()).ln();
+        let mut tentative = 0;
         let flight = loop {
             let Some((exit, down)) = step(medium, line, shell, s) else {
                 break Flight::Escape;
@@ -318,6 +327,10 @@ impl<const N: usize> Walker<'_, N> {
             let majorant = medium.shells[shell].majorant;
             let thickness = majorant * (exit - s).max(0.0);
             if depth < thickness {
+                tentative += 1;
+                if tentative > MOST_COLLISIONS {
+                    break Flight::Lost;
+                }
                 s += depth / majorant;
                 if let Some(hit) = hit.filter(|_| s >= limit) {
                     break Flight::Solid(hit);

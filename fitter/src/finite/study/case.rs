@@ -4,6 +4,7 @@ use crate::orders::Gatherer;
 use crate::orders::path::trace;
 use crate::orders::source::{Stokes, Sun};
 use crate::units::Solved;
+use anyhow::{Result, ensure};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
@@ -72,13 +73,20 @@ impl Case {
 
 /// `count` random segments for each of the visibilities: 1 m to 300 km, never through the ground; observers up to `highest` (m); half of
 /// the directions crowd around the horizontal, half of the suns stand below 0°, and all crowd around it.
-pub fn cases(solved: &[Solved], count: usize, highest: f64, seed: u64) -> Vec<Case> {
+///
+/// # Errors
+/// If hardly any segment is 1 m long: there is no air up to `highest`.
+pub fn cases(solved: &[Solved], count: usize, highest: f64, seed: u64) -> Result<Vec<Case>> {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let mut uniform = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let mut out = vec![];
     for (visibility, one) in solved.iter().enumerate() {
         let planet = crate::column::planet(&one.medium.atmosphere);
-        while out.len() < count * (visibility + 1) {
+        // Some three in four are long enough.
+        for _ in 0..100 + 100 * count {
+            if out.len() == count * (visibility + 1) {
+                break;
+            }
             let altitude = highest * uniform().powi(2);
             let t = 2.0 * uniform() - 1.0;
             let elevation = match out.len() % 2 {
@@ -103,6 +111,10 @@ pub fn cases(solved: &[Solved], count: usize, highest: f64, seed: u64) -> Vec<Ca
                 out.push(case);
             }
         }
+        ensure!(
+            out.len() == count * (visibility + 1),
+            "no segments of 1 m for observers up to {highest} m"
+        );
     }
-    out
+    Ok(out)
 }

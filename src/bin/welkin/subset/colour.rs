@@ -7,6 +7,9 @@ use welkin::Model;
 
 use super::samples::{Quantity, Samples};
 
+/// Rounds of exchange. Most searches end after three; what is left to gain after so many does not count.
+const ROUNDS: usize = 16;
+
 /// Sums of products of relative radiances and colours over all samples, each sample divided by its luminance.
 pub struct Quadrature {
     wavelengths: usize,
@@ -33,7 +36,27 @@ impl Quadrature {
         for (spectrum, colour) in spectra.chunks_exact(n).zip(colours.chunks_exact(3)) {
             sums.add(spectrum, colour);
         }
-        Ok(sums)
+        match sums.is_finite() {
+            true => Ok(sums),
+            false => Err(absurd(
+                "the colours of its skies overflow: the file is not a sensible sky",
+            )),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let sums = self.gram.iter().chain(self.moment.as_flattened());
+        self.energy.is_finite() && sums.into_iter().all(|v| v.is_finite())
+    }
+
+    /// Refuses models of which no sky has a colour: there is nothing that wavelengths could be chosen by.
+    pub fn check_light(&self) -> welkin::Result<()> {
+        match self.energy > 0.0 {
+            true => Ok(()),
+            false => Err(absurd(
+                "none of its skies has a luminance, so no wavelengths can be chosen for colour",
+            )),
+        }
     }
 
     fn add(&mut self, spectrum: &[f32], colour: &[f32]) {
@@ -59,24 +82,31 @@ impl Quadrature {
         let n = self.wavelengths;
         let mut best: Vec<usize> = (0..count).map(|k| (2 * k + 1) * n / (2 * count)).collect();
         let mut residual = self.residual(&best);
-        loop {
+        for _ in 0..ROUNDS {
             let before = residual;
             for k in 0..count {
-                for w in (0..n).filter(|w| !best.contains(w)).collect::<Vec<_>>() {
-                    let mut other = best.clone();
-                    other[k] = w;
-                    other.sort_unstable();
-                    let changed = self.residual(&other);
-                    if changed < residual {
-                        (best, residual) = (other, changed);
-                        break;
-                    }
-                }
+                (best, residual) = self.exchanged(best, residual, k);
             }
-            if residual >= before {
-                return best;
+            // Also if it is not a number.
+            if !(residual < before) {
+                break;
             }
         }
+        best
+    }
+
+    /// The wavelengths with the `k`-th exchanged for the first that is better, if one is.
+    fn exchanged(&self, best: Vec<usize>, residual: f64, k: usize) -> (Vec<usize>, f64) {
+        for w in (0..self.wavelengths).filter(|w| !best.contains(w)) {
+            let mut other = best.clone();
+            other[k] = w;
+            other.sort_unstable();
+            let changed = self.residual(&other);
+            if changed < residual {
+                return (other, changed);
+            }
+        }
+        (best, residual)
     }
 
     fn residual(&self, kept: &[usize]) -> f64 {
@@ -110,13 +140,25 @@ impl Quadrature {
     }
 }
 
-/// Solves a symmetric positive definite system for three right-hand sides by Gauss-Jordan elimination.
+fn absurd(detail: &str) -> welkin::Error {
+    welkin::Error::Invalid {
+        what: "model",
+        detail: detail.to_owned(),
+    }
+}
+
+/// Solves a symmetric positive semidefinite system for three right-hand sides by Gauss-Jordan elimination. Unknowns of which
+/// nothing is known (no sky has light there) are 0.
 fn solve(n: usize, matrix: impl Fn(usize, usize) -> f64, right: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     let left = |i: usize| (0..n).map(|j| matrix(i, j)).collect::<Vec<_>>();
     let augmented = |(i, right): (usize, &[f64; 3])| [&left(i), right.as_slice()].concat();
     let mut rows: Vec<Vec<f64>> = right.iter().enumerate().map(augmented).collect();
     for pivot in 0..n {
         let lead = rows[pivot].clone();
+        if !(lead[pivot] > 0.0) {
+            rows[pivot].fill(0.0);
+            continue;
+        }
         for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != pivot) {
             let factor = row[pivot] / lead[pivot];
             for (value, lead) in row.iter_mut().zip(&lead) {
@@ -124,7 +166,9 @@ fn solve(n: usize, matrix: impl Fn(usize, usize) -> f64, right: Vec<[f64; 3]>) -
             }
         }
     }
-    let solution = |(i, row): (usize, &Vec<f64>)| core::array::from_fn(|c| row[n + c] / row[i]);
+    let quotient = |value: f64, pivot: f64| if pivot > 0.0 { value / pivot } else { 0.0 };
+    let solution =
+        |(i, row): (usize, &Vec<f64>)| core::array::from_fn(|c| quotient(row[n + c], row[i]));
     rows.iter().enumerate().map(solution).collect()
 }
 
@@ -140,6 +184,27 @@ mod tests {
         };
         assert!((a[0] - 1.0 / 11.0).abs() < 1e-15 && (b[0] - 7.0 / 11.0).abs() < 1e-15);
         assert!((a[2] - 1.0).abs() < 1e-15 && (b[2] - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_nothing_is_known_of_is_zero() {
+        let matrix = |i: usize, j: usize| [[4.0, 0.0], [0.0, 0.0]][i][j];
+        let weights = solve(2, matrix, vec![[1.0; 3], [0.0; 3]]);
+        assert_eq!(weights, [[0.25; 3], [0.0; 3]]);
+    }
+
+    #[test]
+    fn a_search_without_numbers_ends() {
+        let sums = |value: f64| Quadrature {
+            wavelengths: 12,
+            gram: vec![value; 144],
+            moment: vec![[value; 3]; 12],
+            energy: value,
+        };
+        for value in [0.0, f64::NAN, f64::INFINITY, 1e300] {
+            assert_eq!(sums(value).best(4).len(), 4, "{value}");
+        }
+        assert!(!sums(f64::NAN).is_finite() && sums(0.0).check_light().is_err());
     }
 
     #[test]

@@ -12,6 +12,8 @@ use crate::failure::{Failure, Result};
 const SKIES: usize = 64;
 /// Share of the tolerance that the choice of wavelengths may use.
 const COLOUR_SHARE: f64 = 0.6;
+/// Where colour needs more wavelengths than this, all are kept: the search grows with the fifth power.
+const MOST_COLOUR_WAVELENGTHS: usize = 24;
 /// Tolerance of colours, if none is given.
 const COLOUR_TOLERANCE: f64 = 0.01;
 
@@ -99,8 +101,9 @@ impl<'a> Reducer<'a> {
 
     /// The fewest wavelengths that keep colours.
     fn colour_wavelengths(&self, all: &Selection, quadrature: &Quadrature) -> Result<Vec<usize>> {
+        quadrature.check_light()?;
         let share = COLOUR_SHARE * self.share * self.promise();
-        for count in 3..all.wavelengths.len() {
+        for count in 3..all.wavelengths.len().min(1 + MOST_COLOUR_WAVELENGTHS) {
             let selection = Selection {
                 wavelengths: quadrature.best(count),
                 ..all.clone()

@@ -94,13 +94,17 @@ impl Samples {
 }
 
 impl Differences {
-    /// Where both are zero (ground seen from the ground) there is nothing to compare.
+    /// Where both are zero (ground seen from the ground) there is nothing to compare. Finite: what is not zero where the source
+    /// is counts relative to the smallest normal number.
     pub fn between(got: &[f32], expected: &[f32]) -> Self {
         let pairs = got
             .iter()
             .zip(expected)
             .filter(|(g, e)| **g != 0.0 || **e != 0.0);
-        let relative = pairs.map(|(&g, &e)| f64::from((g - e).abs()) / f64::from(e.abs()));
+        let relative = pairs.map(|(&got, &expected)| {
+            let (got, expected) = (f64::from(got), f64::from(expected));
+            (got - expected).abs() / expected.abs().max(f64::from(f32::MIN_POSITIVE))
+        });
         let mut sorted: Vec<f64> = relative.collect();
         sorted.sort_by(f64::total_cmp);
         Self(sorted)
