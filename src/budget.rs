@@ -1,6 +1,6 @@
 //! No more of a model than a scene needs.
 
-use crate::baked::largest_bytes;
+use crate::baked::{check_tolerance, largest_bytes};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
 use crate::general::{Chunks, General, HeadView};
@@ -66,16 +66,15 @@ impl Model {
     /// Finds what a scene needs; reads nothing.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that is not positive,
-    /// [`Error::MissingChunk`] if the file lacks a chunk, such as those of the polarisation.
+    /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that baking refuses for every sky (whether
+    /// a hard sky keeps it shows when that is baked), [`Error::MissingChunk`] if the file lacks a chunk, such as those of the polarisation.
     pub fn plan(&self, budget: &Budget) -> Result<Plan> {
         let head = self.head();
         check("altitude", budget.altitude, self.altitude_range())?;
         check("visibility", budget.visibility, self.visibility_range())?;
         let elevations = self.solar_elevation_range();
         check_range("solar_elevation", budget.solar_elevation, elevations, "rad")?;
-        let tolerance = [budget.tolerance, budget.tolerance];
-        check_range("tolerance", tolerance, [f64::MIN_POSITIVE, 1.0], "")?;
+        check_tolerance(budget.tolerance)?;
         let altitudes = around(&head.altitudes, budget.altitude);
         let visibilities = around(&head.visibilities, budget.visibility);
         let polarised = budget.channels == Channels::Stokes;

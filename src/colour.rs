@@ -1,5 +1,7 @@
 //! From CIE XYZ to linear sRGB.
 
+use crate::math::finite;
+
 pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
     [3.240_97, -1.537_383_2, -0.498_610_76],
     [-0.969_243_65, 1.875_967_5, 0.041_555_06],
@@ -8,9 +10,9 @@ pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
 
 /// Converts CIE 1931 XYZ to linear sRGB (IEC 61966-2-1, D65 white): Y = 1 and the chromaticity of D65 give (1, 1, 1).
 ///
-/// Colours outside the gamut have negative components; deep blue skies do.
+/// Colours outside the gamut have negative components; deep blue skies do. What overflows becomes the largest number.
 pub fn xyz_to_linear_srgb([x, y, z]: [f32; 3]) -> [f32; 3] {
-    XYZ_TO_SRGB.map(|[a, b, c]| a * x + b * y + c * z)
+    XYZ_TO_SRGB.map(|[a, b, c]| finite(a * x + b * y + c * z))
 }
 
 #[cfg(test)]

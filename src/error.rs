@@ -160,6 +160,54 @@ impl Error {
     }
 }
 
+/// A number as a person would write it: with a power of ten where it would have many zeros.
+pub(crate) struct Number(pub f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Number(value) = *self;
+        let size = value.abs();
+        match value == 0.0 || !value.is_finite() || (1e-4..1e15).contains(&size) {
+            true => write!(f, "{value}"),
+            false => write!(f, "{value:e}"),
+        }
+    }
+}
+
+/// The same of a number in single precision.
+struct Single(f32);
+
+impl fmt::Display for Single {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Single(value) = *self;
+        match value == 0.0 || !value.is_finite() || (1e-4..1e9).contains(&value.abs()) {
+            true => write!(f, "{value}"),
+            false => write!(f, "{value:e}"),
+        }
+    }
+}
+
+/// What a value must be, in words where there is no end: "in 0..=1 m", "at least 3 m", "finite".
+pub(crate) struct Range<'a> {
+    pub min: f64,
+    pub max: f64,
+    pub unit: &'a str,
+}
+
+impl fmt::Display for Range<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (min, max) = (Number(self.min), Number(self.max));
+        match (self.min <= f64::MIN, self.max >= f64::MAX) {
+            (true, true) => return write!(f, "finite"),
+            (true, false) => write!(f, "at most {max}")?,
+            (false, true) => write!(f, "finite and at least {min}")?,
+            (false, false) => write!(f, "in {min}..={max}")?,
+        }
+        let space = if self.unit.is_empty() { "" } else { " " };
+        write!(f, "{space}{}", self.unit)
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -210,10 +258,10 @@ impl fmt::Display for Error {
             } => {
                 write!(f, "the file has no {kind} chunk")?;
                 if let Some(altitude) = altitude {
-                    write!(f, " for altitude {altitude} m")?;
+                    write!(f, " for altitude {} m", Number(*altitude))?;
                 }
                 if let Some(visibility) = visibility {
-                    write!(f, " for visibility {visibility} m")?;
+                    write!(f, " for visibility {} m", Number(*visibility))?;
                 }
                 write!(f, ", which these conditions need")
             }
@@ -223,26 +271,38 @@ impl fmt::Display for Error {
                 min,
                 max,
                 unit,
-            } => write!(
-                f,
-                "{parameter} must be in {min}..={max}{}{unit}, got {value}",
-                if unit.is_empty() { "" } else { " " }
-            ),
+            } => {
+                let (min, max) = (*min, *max);
+                let range = Range { min, max, unit };
+                write!(f, "{parameter} must be {range}, got {}", Number(*value))?;
+                match unit.is_empty() || !value.is_finite() {
+                    true => Ok(()),
+                    false => write!(f, " {unit}"),
+                }
+            }
             Error::Limit { what, most, got } => write!(
                 f,
                 "the model has {got} {what}, this evaluator has room for {most}: prepare a sky instead"
             ),
             Error::Tolerance { expected, got } => write!(
                 f,
-                "the largest table has an error of {got}, wanted at most {expected}: allow more"
+                "the largest table has an error of {}, wanted at most {}: allow more",
+                Number(*got),
+                Number(*expected)
             ),
             Error::Point { got: [x, y, z] } => write!(
                 f,
-                "coordinates of a point must lie within ±1e9 m, got ({x}, {y}, {z})"
+                "coordinates of a point must lie within ±1e9 m, got ({}, {}, {}) m",
+                Number(*x),
+                Number(*y),
+                Number(*z)
             ),
             Error::Direction { got: [x, y, z] } => write!(
                 f,
-                "direction must be finite and not zero, got ({x}, {y}, {z})"
+                "direction must be finite and not zero, got ({}, {}, {})",
+                Single(*x),
+                Single(*y),
+                Single(*z)
             ),
         }
     }
@@ -254,6 +314,78 @@ impl core::error::Error for Error {
             #[cfg(feature = "std")]
             Error::Io { source, .. } | Error::Read { source, .. } => Some(source),
             _ => None,
+        }
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+
+    fn out_of_range(
+        parameter: &'static str,
+        [value, min, max]: [f64; 3],
+        unit: &'static str,
+    ) -> String {
+        let error = Error::OutOfRange {
+            parameter,
+            value,
+            min,
+            max,
+            unit,
+        };
+        error.to_string()
+    }
+
+    #[test]
+    fn ranges_are_told_as_people_tell_them() {
+        let every = [f64::NAN, f64::MIN, f64::MAX];
+        assert_eq!(
+            out_of_range("solar_azimuth", every, "rad"),
+            "solar_azimuth must be finite, got NaN"
+        );
+        assert_eq!(
+            out_of_range("solar_elevation", [2.0, -0.0625, 1.5], "rad"),
+            "solar_elevation must be in -0.0625..=1.5 rad, got 2 rad"
+        );
+        assert_eq!(
+            out_of_range("x", [-1e300, f64::MIN_POSITIVE, f64::MAX], ""),
+            "x must be finite and at least 2.2250738585072014e-308, got -1e300"
+        );
+        assert_eq!(
+            out_of_range("x", [1e300, f64::MIN, 3.0], "m"),
+            "x must be at most 3 m, got 1e300 m"
+        );
+    }
+
+    #[test]
+    fn no_number_has_hundreds_of_digits() {
+        for value in [
+            f64::MAX,
+            f64::MIN,
+            5e-324,
+            f64::MIN_POSITIVE,
+            0.1 + 0.2,
+            f64::NAN,
+        ] {
+            let errors = [
+                Error::Tolerance {
+                    expected: value,
+                    got: value,
+                },
+                Error::Point { got: [value; 3] },
+                Error::Direction {
+                    got: [value as f32; 3],
+                },
+                Error::MissingChunk {
+                    kind: "radiance",
+                    altitude: Some(value),
+                    visibility: Some(value),
+                },
+            ];
+            for error in errors {
+                assert!(error.to_string().len() < 160, "{error}");
+            }
         }
     }
 }

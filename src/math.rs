@@ -33,6 +33,13 @@ pub(crate) fn bound(x: f32, low: f32, high: f32) -> f32 {
     if x < high { x } else { high }
 }
 
+/// What absurd tables give, as a number: overflow counts as the largest, and what is none as 0.
+#[inline(always)]
+pub(crate) fn finite(x: f32) -> f32 {
+    let x = if x.is_nan() { 0.0 } else { x };
+    bound(x, f32::MIN, f32::MAX)
+}
+
 /// e^x with a relative error below 2e-7; x is clamped to −87..=88, NaN counts as −87.
 #[inline(always)]
 pub(crate) fn exp(x: f32) -> f32 {

@@ -5,7 +5,7 @@ use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
 use crate::geometry::{Planet, Ray, Side};
-use crate::math::{LANES, bound};
+use crate::math::{LANES, finite};
 use crate::phase::SunAngle;
 use crate::spectrum;
 use crate::tables::{Lookup, Row, Tables, azimuth};
@@ -171,7 +171,7 @@ impl Sky {
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.
     pub fn linear_srgb(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
-        Ok(xyz_to_linear_srgb(self.xyz(direction)?).map(finite))
+        Ok(xyz_to_linear_srgb(self.xyz(direction)?))
     }
 
     /// Solar irradiance at the wavelengths, in blocks of `N`, W m⁻² nm⁻¹.
@@ -191,7 +191,7 @@ impl Sky {
     pub(crate) fn xyz_weights(&self) -> Vec<[f32; 3]> {
         let lane = |w: usize| self.tables.xyz[w / LANES].map(|component| component[w % LANES]);
         let solar = self.irradiance::<1>().map(|[e]| e).enumerate();
-        let weight = |w: usize, e: f32| lane(w).map(|v| if e > 0.0 { v / e } else { 0.0 });
+        let weight = |w: usize, e: f32| lane(w).map(|v| if e > 0.0 { finite(v / e) } else { 0.0 });
         solar.map(|(w, e)| weight(w, e)).collect()
     }
 
@@ -204,7 +204,7 @@ impl Sky {
                 *sum += radiance.iter().zip(weight).map(|(l, w)| l * w).sum::<f32>();
             }
         }
-        sums
+        sums.map(finite)
     }
 
     /// Angle of the geometric horizon below the horizontal, rad.
@@ -332,9 +332,4 @@ pub(crate) fn check_length(got: usize, expected: usize) -> Result<()> {
         expected: expected as u64,
         got: got as u64,
     })
-}
-
-/// Absurd tables can overflow; the result stays a number.
-fn finite(value: f32) -> f32 {
-    bound(value, f32::MIN, f32::MAX)
 }

@@ -8,7 +8,8 @@ use crate::error::{Error, Result};
 /// linear beside zeros. For what is smooth, so divide radiance by the irradiance of the sun first.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for wavelengths beyond the nodes; [`Error::Length`] unless `values` has one element per node.
+/// [`Error::OutOfRange`] for wavelengths beyond the nodes; [`Error::Length`] unless `values` has one element per node;
+/// [`Error::Invalid`] for values that are not finite or nodes that do not increase.
 #[cfg(feature = "std")]
 pub fn between_wavelengths(nodes: &[f64], values: &[f32], wavelength: f64) -> Result<f32> {
     let ends = nodes.first().zip(nodes.last());
@@ -20,7 +21,14 @@ pub fn between_wavelengths(nodes: &[f64], values: &[f32], wavelength: f64) -> Re
         });
     };
     check(wavelength, [min, max])?;
-    Ok(between(nodes, values, wavelength) as f32)
+    if !values.iter().all(|v| v.is_finite()) {
+        return Err(Error::invalid("values", "must be finite"));
+    }
+    if !nodes.windows(2).all(|w| w[0] < w[1]) {
+        return Err(Error::invalid("nodes", "must increase strictly"));
+    }
+    let value = between(nodes, values, wavelength);
+    Ok(value.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32)
 }
 
 /// Refuses wavelengths outside the range of the nodes, nm.

@@ -295,7 +295,16 @@ fn bad_tolerances_and_lengths_are_typed_errors() {
             })
         ));
     }
-    assert!(matches!(sky.bake(1e-9), Err(Error::Tolerance { .. })));
+    // What no plan allows is refused at once, what the sky is too hard for after a look at it.
+    assert!(matches!(sky.bake(1e-9), Err(Error::OutOfRange { .. })));
+    let dusk = Conditions {
+        solar_elevation: -0.06,
+        altitude: 14_000.0,
+        visibility: 25e3,
+        ..Conditions::default()
+    };
+    let hard = MODEL.sky(&dusk).unwrap();
+    assert!(matches!(hard.bake(3e-4), Err(Error::Tolerance { .. })));
     let baked = bake(&sky);
     let directions = Directions {
         x: &[1.0, 0.0],

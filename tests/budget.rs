@@ -117,6 +117,54 @@ fn bad_budgets_are_typed_errors() {
 }
 
 #[test]
+fn plans_and_bakes_take_the_same_tolerances() {
+    let model = Model::from_bytes(common::model_bytes()).unwrap();
+    let sky = model.sky(&welkin::Conditions::default()).unwrap();
+    let (mut taken, mut refused) = (0, 0);
+    for tolerance in [
+        f64::NAN,
+        f64::NEG_INFINITY,
+        -1.0,
+        0.0,
+        5e-324,
+        f64::MIN_POSITIVE,
+        1e-9,
+        2.9e-4,
+        3e-4,
+        2.5e-3,
+        1.0,
+        2.0,
+        1e9,
+        f64::MAX,
+        f64::INFINITY,
+    ] {
+        let plan = model.plan(&Budget {
+            tolerance,
+            ..budget([0.0, 100.0], [20e3, 30e3])
+        });
+        let out_of_range = |error: &Error| {
+            matches!(
+                error,
+                Error::OutOfRange {
+                    parameter: "tolerance",
+                    ..
+                }
+            )
+        };
+        let planned = !plan.as_ref().is_err_and(out_of_range);
+        // A tolerance that this sky is too hard for was taken all the same.
+        let baked = !sky.bake(tolerance).as_ref().is_err_and(out_of_range);
+        let coloured = !sky.bake_colour(tolerance).as_ref().is_err_and(out_of_range);
+        assert_eq!([planned, planned], [baked, coloured], "{tolerance}");
+        match planned {
+            true => taken += 1,
+            false => refused += 1,
+        }
+    }
+    assert_eq!([taken, refused], [6, 9]);
+}
+
+#[test]
 #[cfg(feature = "default-model")]
 fn baked_skies_keep_the_promises_of_the_plan() {
     let model = Model::default_model().unwrap();

@@ -52,7 +52,10 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!(
+                "error: {}",
+                welkin::format::printable(&format!("{error:#}"))
+            );
             ExitCode::from(2)
         }
     }

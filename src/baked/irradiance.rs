@@ -41,7 +41,7 @@ impl BakedSky {
                     self.radiance([r * x, r * y, z].map(|v| v as f32), spectrum)?;
                     let weight = (cosine * solid_angle) as f32;
                     let pairs = out.iter_mut().zip(spectrum.iter());
-                    pairs.for_each(|(sum, l)| *sum += weight * l);
+                    pairs.for_each(|(sum, l)| *sum = (*sum + weight * l).min(f32::MAX));
                 }
             }
         }

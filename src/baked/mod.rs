@@ -58,18 +58,27 @@ struct Baked<const N: usize> {
     error: BakeError,
 }
 
+/// Smallest relative error that the largest table keeps for most skies.
+const LEAST_TOLERANCE: f64 = 3e-4;
+
+/// The one rule for what may be asked of baking, for those who bake and those who plan to.
+pub(crate) fn check_tolerance(tolerance: f64) -> Result<()> {
+    if tolerance >= LEAST_TOLERANCE && tolerance.is_finite() {
+        return Ok(());
+    }
+    Err(Error::OutOfRange {
+        parameter: "tolerance",
+        value: tolerance,
+        min: LEAST_TOLERANCE,
+        max: f64::MAX,
+        unit: "",
+    })
+}
+
 impl<const N: usize> Baked<N> {
     /// With the grid at `least` or a larger one.
     fn new<C: Channels<N>>(sky: &Sky, channels: &C, tolerance: f64, least: usize) -> Result<Self> {
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(Error::OutOfRange {
-                parameter: "tolerance",
-                value: tolerance,
-                min: f64::MIN_POSITIVE,
-                max: f64::MAX,
-                unit: "",
-            });
-        }
+        check_tolerance(tolerance)?;
         let frame = Frame::new(sky);
         let (table, error) = quality::bake(sky, channels, &frame, tolerance, least)?;
         Ok(Self {

@@ -61,7 +61,7 @@ impl Sky {
     /// wavelengths, e.g. [`BakedSky::TOLERANCE`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a tolerance that is not positive, [`Error::Tolerance`] if the largest table misses it.
+    /// [`Error::OutOfRange`] for a tolerance below 3e-4, [`Error::Tolerance`] if the largest table misses it.
     pub fn bake(&self, tolerance: f64) -> Result<BakedSky> {
         self.bake_at_least(tolerance, 0)
     }

@@ -6,7 +6,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 use super::chunk::{check_length, take};
 use super::crop::narrow;
 use super::write::check;
-use crate::error::{Error, Result};
+use crate::error::{Error, Number, Result};
 
 /// Most layers that a chunk can have.
 pub const MAX_LAYERS: usize = 1024;
@@ -58,7 +58,10 @@ impl<'a> DensityView<'a> {
         let [first, last] = [self.edges[0].get(), self.edges[self.edges.len() - 1].get()];
         if first != 0.0 || last != top {
             return broken(format!(
-                "layers must reach from 0 to {top} m, not {first} to {last}"
+                "layers must reach from 0 to {} m, not {} to {}",
+                Number(top),
+                Number(first),
+                Number(last)
             ));
         }
         // A millimetre, so that no layer is too thin for the arithmetic of a reader.
@@ -67,7 +70,8 @@ impl<'a> DensityView<'a> {
             .windows(2)
             .find(|e| e[1].get() - e[0].get() < 1e-3 || e[1].get().is_nan())
         {
-            return broken(format!("edge {} must lie above {}", pair[1], pair[0]));
+            let [below, above] = [pair[0], pair[1]].map(|edge| Number(edge.get()));
+            return broken(format!("edge {above} must lie above {below}"));
         }
         match self
             .density
@@ -75,7 +79,10 @@ impl<'a> DensityView<'a> {
             .find(|d| !(0.0..=DENSEST).contains(&d.get()))
         {
             None => Ok(()),
-            Some(d) => broken(format!("densities must lie in 0..={DENSEST}, got {d}")),
+            Some(d) => {
+                let got = Number(d.get().into());
+                broken(format!("densities must lie in 0..={DENSEST}, got {got}"))
+            }
         }
     }
 }

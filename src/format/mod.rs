@@ -17,6 +17,8 @@ mod parse;
 #[cfg(feature = "std")]
 mod polarisation;
 #[cfg(feature = "std")]
+mod printable;
+#[cfg(feature = "std")]
 mod replace;
 #[cfg(feature = "std")]
 mod source;
@@ -57,6 +59,8 @@ pub use layout::{
 pub use parse::{Contents, parse};
 #[cfg(feature = "std")]
 pub use polarisation::{PolarisationBasis, PolarisationFactors};
+#[cfg(feature = "std")]
+pub use printable::{printable, printable_json};
 #[cfg(feature = "std")]
 pub use replace::replace_file;
 #[cfg(feature = "std")]

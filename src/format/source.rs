@@ -8,7 +8,7 @@ use super::chunk::{Payload16, check_length, half_is_finite, take, widen};
 use super::crop::{columns, narrow, rows};
 use super::head::PhaseFunction;
 use super::write::{Chunk, Payload, check};
-use crate::error::{Error, Result};
+use crate::error::{Error, Number, Result};
 
 /// Components of the tensor that describes light for Rayleigh scattering.
 pub const TENSOR: usize = 4;
@@ -196,7 +196,8 @@ impl<'a> SourceView<'a> {
             .iter()
             .find(|s| !(0.0..=1e6).contains(&s.get()))
         {
-            return broken(format!("scattering must lie in 0..=1e6, got {s}"));
+            let got = Number(s.get().into());
+            return broken(format!("scattering must lie in 0..=1e6, got {got}"));
         }
         for (code, parameters) in self.phase.iter().zip(self.parameter.chunks(wavelengths)) {
             let range = match phase_function(code.get()) {
@@ -205,7 +206,8 @@ impl<'a> SourceView<'a> {
                 _ => return broken(format!("unknown phase function {code}")),
             };
             if let Some(p) = parameters.iter().find(|p| !range.contains(&p.get())) {
-                return broken(format!("phase parameter {p} is outside {range:?}"));
+                let got = Number(p.get().into());
+                return broken(format!("phase parameter {got} is outside {range:?}"));
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::head::{Field, Head, PhaseFunction};
 use super::layout::MAX_TABLE;
-use crate::error::{Error, Result};
+use crate::error::{Error, Number, Range, Result};
 
 impl Head {
     /// Checks every value and length against the format specification.
@@ -54,43 +54,50 @@ impl Head {
 
     fn check_scalars(&self) -> Result<()> {
         let last = self.altitudes[self.altitudes.len() - 1];
-        scalar("planet_radius", self.planet.radius, 1e3, 1e9)?;
-        scalar("top_altitude", self.planet.top, last.next_up(), 1e9)?;
-        scalar("alpha_up_exponent", self.up.exponent, 1.0, 8.0)?;
-        scalar("alpha_down_exponent", self.down.exponent, 1.0, 8.0)?;
+        scalar("planet_radius", self.planet.radius, 1e3, 1e9, "m")?;
+        scalar("top_altitude", self.planet.top, last.next_up(), 1e9, "m")?;
+        scalar("alpha_up_exponent", self.up.exponent, 1.0, 8.0, "")?;
+        scalar("alpha_down_exponent", self.down.exponent, 1.0, 8.0, "")?;
         let e = &self.elevation;
-        scalar("elevation_min", e.min, -FRAC_PI_2, FRAC_PI_2)?;
-        scalar("elevation_max", e.max, e.min.next_up(), FRAC_PI_2)?;
-        scalar("elevation_centre", e.centre, -FRAC_PI_2, FRAC_PI_2)?;
-        scalar("elevation_width", e.width, 1e-6, 1e6)?;
-        scalar("solar_step", self.solar_step, 1e-3, 1e6)?;
+        scalar("elevation_min", e.min, -FRAC_PI_2, FRAC_PI_2, "rad")?;
+        scalar("elevation_max", e.max, e.min.next_up(), FRAC_PI_2, "rad")?;
+        scalar("elevation_centre", e.centre, -FRAC_PI_2, FRAC_PI_2, "rad")?;
+        scalar("elevation_width", e.width, 1e-6, 1e6, "rad")?;
+        scalar("solar_step", self.solar_step, 1e-3, 1e6, "nm")?;
         let first = self.wavelengths[0];
-        scalar("solar_start", self.solar_start, 0.0, first)?;
+        scalar("solar_start", self.solar_start, 0.0, first, "nm")?;
         let steps = (self.solar_irradiance.len() - 1) as f64;
         let end = self.solar_start + steps * self.solar_step;
         let last = self.wavelengths[self.wavelengths.len() - 1];
-        scalar("end of the solar spectrum", end, last, f64::MAX)
+        scalar("end of the solar spectrum", end, last, f64::MAX, "nm")
     }
 
     fn check_axes(&self) -> Result<()> {
-        increasing("wavelength", &self.wavelengths, 1.0, 1e6)?;
-        increasing("altitude", &self.altitudes, 0.0, 1e9)?;
-        increasing("visibility", &self.visibilities, 1.0, 1e9)?;
-        increasing("cube root of altitude", &self.altitude_nodes(), 0.0, 1e3)?;
+        increasing("wavelength", &self.wavelengths, [1.0, 1e6], "nm")?;
+        increasing("altitude", &self.altitudes, [0.0, 1e9], "m")?;
+        increasing("visibility", &self.visibilities, [1.0, 1e9], "m")?;
+        increasing(
+            "cube root of altitude",
+            &self.altitude_nodes(),
+            [0.0, 1e3],
+            "",
+        )?;
         let mut inverse = self.visibility_nodes();
         inverse.reverse();
-        increasing("inverse of visibility", &inverse, 0.0, 1.0)
+        increasing("inverse of visibility", &inverse, [0.0, 1.0], "")
     }
 
     fn check_tables(&self) -> Result<()> {
         let f64s = |what, values: &[f64], min, max| {
-            values.iter().try_for_each(|&v| scalar(what, v, min, max))
+            values
+                .iter()
+                .try_for_each(|&v| scalar(what, v, min, max, ""))
         };
         let f32s = |what, values: &[f32], min: f64| {
             let max = f64::from(f32::MAX);
             values
                 .iter()
-                .try_for_each(|&v| scalar(what, f64::from(v), min, max))
+                .try_for_each(|&v| scalar(what, f64::from(v), min, max, ""))
         };
         f64s("extinction", &self.extinction, 0.0, 1e6)?;
         let below_one = 1f64.next_down();
@@ -109,7 +116,7 @@ fn check_field(field: &Field) -> Result<()> {
     field
         .parameter
         .iter()
-        .try_for_each(|&p| scalar("phase_parameter", p, min, max))
+        .try_for_each(|&p| scalar("phase_parameter", p, min, max, ""))
 }
 
 fn count(what: &'static str, got: usize, min: usize, max: usize) -> Result<()> {
@@ -133,23 +140,30 @@ fn length(what: &'static str, got: usize, expected: usize) -> Result<()> {
     })
 }
 
-fn scalar(what: &'static str, got: f64, min: f64, max: f64) -> Result<()> {
+fn scalar(what: &'static str, got: f64, min: f64, max: f64, unit: &str) -> Result<()> {
     if got.is_finite() && got >= min && got <= max {
         return Ok(());
     }
+    let range = Range { min, max, unit };
     Err(Error::invalid(
         what,
-        format!("expected {min}..={max}, got {got}"),
+        format!("must be {range}, got {}", Number(got)),
     ))
 }
 
-fn increasing(what: &'static str, nodes: &[f64], min: f64, max: f64) -> Result<()> {
-    nodes.iter().try_for_each(|&v| scalar(what, v, min, max))?;
+fn increasing(what: &'static str, nodes: &[f64], [min, max]: [f64; 2], unit: &str) -> Result<()> {
+    nodes
+        .iter()
+        .try_for_each(|&v| scalar(what, v, min, max, unit))?;
     match nodes.windows(2).find(|w| w[0] >= w[1]) {
         None => Ok(()),
         Some(w) => Err(Error::invalid(
             what,
-            format!("must increase strictly, got {} before {}", w[0], w[1]),
+            format!(
+                "must increase strictly, got {} before {}",
+                Number(w[0]),
+                Number(w[1])
+            ),
         )),
     }
 }

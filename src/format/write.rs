@@ -13,7 +13,7 @@ use super::layout::*;
 use super::polarisation::{PolarisationBasis, PolarisationFactors};
 use super::replace::replace_file;
 use super::source::{SourceBasis, SourceCore, check_together};
-use crate::error::{Error, Result};
+use crate::error::{Error, Number, Result};
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
 ///
@@ -323,7 +323,10 @@ fn push_halves(bytes: &mut Vec<u8>, what: &'static str, values: &[f32]) -> Resul
     for &value in values {
         let half = f16::from_f32(value);
         if !half.is_finite() {
-            let detail = format!("{value} overflows half precision: move the size into scale");
+            let detail = format!(
+                "{} overflows half precision: move the size into scale",
+                Number(value.into())
+            );
             return Err(Error::invalid(what, detail));
         }
         bytes.extend_from_slice(U16::new(half.to_bits()).as_bytes());

@@ -2,7 +2,7 @@
 
 use super::attenuated;
 use super::integral::Block;
-use crate::math::{LANES, bound};
+use crate::math::{LANES, bound, finite};
 
 /// Sums over wavelengths: X, Y and Z of in-scattered light, and of sunlight behind the segment.
 #[derive(Default)]
@@ -25,7 +25,7 @@ impl Colours {
         let total = |lanes: [f32; LANES]| lanes.iter().sum::<f32>();
         let [light, through] = self.0.map(|sums| sums.map(total));
         let factor = |c: usize| bound(through[c] / white[c], 0.0, 1.0);
-        let light = light.map(|v| bound(v, f32::MIN, f32::MAX));
+        let light = light.map(finite);
         (light, core::array::from_fn(factor))
     }
 }

@@ -43,7 +43,7 @@ impl Haze {
             ("solar_elevation", "rad", |c| c.solar_elevation),
             ("solar_azimuth", "rad", |c| c.solar_azimuth),
             ("visibility", "m", |c| c.visibility),
-            ("albedo", "1", |c| c.albedo),
+            ("albedo", "", |c| c.albedo),
         ];
         for (parameter, unit, get) in SAME {
             let (wanted, value) = (get(own), get(other));

@@ -9,7 +9,7 @@ use super::integral::{Block, Integral, POLARISED};
 use crate::air::Segment;
 use crate::colour::xyz_to_linear_srgb;
 use crate::error::Result;
-use crate::math::{LANES, bound};
+use crate::math::{LANES, bound, finite};
 use crate::polarisation::{Frame, Plane, PolarisedSky, Stokes, StokesSpectra, between, limit};
 use crate::simd::dispatch;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
@@ -92,7 +92,8 @@ impl Haze {
         let mut relative = [0.0; MOST_WAVELENGTHS];
         self.stokes(None, from, to, frame, |block, [i, q, u], _| {
             for lane in 0..LANES.min(nodes.len() - block * LANES) {
-                let (i, q, u) = (i[lane], i[lane] * q[lane], i[lane] * u[lane]);
+                let i = bound(i[lane], 0.0, f32::MAX);
+                let (q, u) = (i * q[lane], i * u[lane]);
                 lights[block * LANES + lane] = Stokes { i, q, u };
                 relative[block * LANES + lane] = i;
             }
@@ -135,7 +136,6 @@ impl Haze {
                 }
             }
         })?;
-        let finite = |v: f32| bound(v, f32::MIN, f32::MAX);
         let stokes = light.map(|parts| {
             let [i, q, u] = parts.map(finite);
             Stokes { i, q, u }

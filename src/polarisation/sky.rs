@@ -8,7 +8,7 @@ use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
-use crate::math::LANES;
+use crate::math::{LANES, finite};
 use crate::model::Model;
 use crate::phase::SunAngle;
 use crate::prepare::Place;
@@ -130,7 +130,11 @@ impl PolarisedSky {
                 }
             }
         })?;
-        Ok(sums)
+        Ok(sums.map(|sum| Stokes {
+            i: finite(sum.i),
+            q: finite(sum.q),
+            u: finite(sum.u),
+        }))
     }
 
     /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit` block by

@@ -2,6 +2,7 @@
 
 use crate::axis::hermite;
 use crate::error::Result;
+use crate::math::finite;
 use crate::sky::check_length;
 
 /// Intensity and linear polarisation of light, against an axis `e1` across the view direction `w` and `e2 = w × e1`.
@@ -75,14 +76,14 @@ impl Stokes {
         let (sine, cosine) = (2.0 * angle).sin_cos();
         Self {
             i: self.i,
-            q: cosine * self.q + sine * self.u,
-            u: cosine * self.u - sine * self.q,
+            q: finite(cosine * self.q + sine * self.u),
+            u: finite(cosine * self.u - sine * self.q),
         }
     }
 
     /// Radiance behind an ideal polariser at `angle` (rad) from `e1` towards `e2`.
     pub fn through_polariser(&self, angle: f32) -> f32 {
-        (0.5 * (self.i + self.turned(angle).q)).max(0.0)
+        (0.5 * self.i + 0.5 * self.turned(angle).q).max(0.0)
     }
 }
 

@@ -6,6 +6,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use crate::error::{Error, Result};
 use crate::geometry::Side;
+use crate::math::{bound, finite};
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 
 /// Angular radius of the sun at its mean distance, rad: 959.63″ (Neckel & Labs 1994).
@@ -70,7 +71,8 @@ impl SunDisc {
             let ray = sky.planet().ray_beside_horizon(altitude, Side::Up, angle);
             let depths = sky.tables().optical_depths(&ray);
             let depths = depths.flatten().take(self.wavelengths.len());
-            self.transmittance.extend(depths.map(|depth| -depth));
+            self.transmittance
+                .extend(depths.map(|depth| -bound(depth, 0.0, f32::MAX)));
         }
     }
 
@@ -116,7 +118,8 @@ impl SunDisc {
         let (low, high) = self.transmittance[i * n..(i + 2) * n].split_at(n);
         for (w, out) in out.iter_mut().enumerate() {
             let transmittance = (low[w] + t * (high[w] - low[w])).exp();
-            *out = self.mean[w] * limb::evaluate(&self.profile[w], mu) * transmittance;
+            let light = self.mean[w] * limb::evaluate(&self.profile[w], mu) * transmittance;
+            *out = bound(light, 0.0, f32::MAX);
         }
     }
 
@@ -128,7 +131,8 @@ impl SunDisc {
         let mut radiance = [0.0; MOST_WAVELENGTHS];
         let radiance = &mut radiance[..self.wavelengths.len()];
         self.radiance(direction, radiance)?;
-        let component = |c: usize| radiance.iter().zip(&self.xyz).map(|(l, w)| l * w[c]).sum();
+        let component =
+            |c: usize| finite(radiance.iter().zip(&self.xyz).map(|(l, w)| l * w[c]).sum());
         Ok(core::array::from_fn(component))
     }
 
@@ -170,7 +174,7 @@ impl SunDisc {
             let weight = (weight / QUADRATURE * cosine.max(0.0)) as f32;
             self.radiance_along(point, radiance);
             let pairs = out.iter_mut().zip(radiance.iter());
-            pairs.for_each(|(sum, l)| *sum += weight * l);
+            pairs.for_each(|(sum, l)| *sum = (*sum + weight * l).min(f32::MAX));
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use super::plan::PlanArgs;
 use anyhow::{Result, ensure};
 use clap::Subcommand;
 use std::io::Write;
+use welkin_fitter::dataset::State;
 use welkin_fitter::manifest::manifest;
 use welkin_fitter::progress::bar;
 use welkin_fitter::units::{Kind, Plan, Unit};
@@ -18,7 +19,8 @@ pub struct Args {
 
 #[derive(Subcommand)]
 enum Action {
-    /// Print the name of every unit, a tab, and whether it is done or missing.
+    /// Print the name of every unit, a tab, and whether it is done, missing or damaged (length and checksum of the whole file
+    /// are compared). Damaged ones are done again by `run`.
     List {
         #[command(flatten)]
         plan: UnitsArgs,
@@ -83,8 +85,12 @@ fn list(args: &UnitsArgs) -> Result<()> {
     for unit in plan.units() {
         let name = plan.name(unit);
         let store = plan.store_of(&args.plan.work, unit.kind)?;
-        let done = store.checksum(&name)?.is_some();
-        writeln!(out, "{name}\t{}", if done { "done" } else { "missing" })?;
+        let state = match store.state(&name)? {
+            State::Done => "done",
+            State::Missing => "missing",
+            State::Damaged => "damaged",
+        };
+        writeln!(out, "{name}\t{state}")?;
     }
     Ok(())
 }

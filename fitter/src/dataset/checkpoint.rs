@@ -13,6 +13,17 @@ pub struct Store {
     key: String,
 }
 
+/// What is in the file of a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// The unit, whole.
+    Done,
+    /// Nothing, or a unit of other settings.
+    Missing,
+    /// A part of the unit, or other bytes than were written. It is computed again when it is needed.
+    Damaged,
+}
+
 impl Store {
     /// Uses `folder`, created if needed, for units made with the settings that `key` describes.
     pub fn open(folder: impl AsRef<Path>, key: impl Into<String>) -> Result<Self> {
@@ -78,6 +89,26 @@ impl Store {
             Err(e) if e.kind() != ErrorKind::DirectoryNotEmpty => Err(e).with_context(context),
             _ => Ok(()),
         }
+    }
+
+    /// What is in the file of the unit `name`. Reads and checks all of it.
+    pub fn state(&self, name: &str) -> Result<State> {
+        if self.has(name)? {
+            return Ok(State::Done);
+        }
+        let bytes = match fs::read(self.path(name, UNIT)) {
+            Ok(bytes) => bytes,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(State::Missing),
+            Err(e) => return Err(e).with_context(|| format!("cannot read unit {name}")),
+        };
+        let ours = self.header(&[]);
+        let foreign = bytes.get(..8) == ours.get(..8)
+            && bytes.len() >= HEADER
+            && bytes.get(8..12) != ours.get(8..12);
+        Ok(match foreign {
+            true => State::Missing,
+            false => State::Damaged,
+        })
     }
 
     /// Whether the unit `name` is there and valid.
@@ -193,7 +224,24 @@ mod tests {
         let other = Store::open(folder.path(), "b").unwrap();
         assert_eq!(other.checksum("x").unwrap(), None);
         assert!(!other.has("x").unwrap());
+        assert_eq!(store.state("x").unwrap(), State::Done);
+        assert_eq!(store.state("y").unwrap(), State::Missing);
+        assert_eq!(other.state("x").unwrap(), State::Missing);
         let path = folder.path().join("x.unit");
+        let whole = fs::read(&path).unwrap();
+        for i in 0..whole.len() {
+            fs::write(&path, &whole[..i]).unwrap();
+            assert_eq!(store.state("x").unwrap(), State::Damaged, "{i} bytes");
+        }
+        // A flip in the checksum of the settings makes it a unit of others.
+        for i in (0..8).chain(12..whole.len()) {
+            let mut flipped = whole.clone();
+            flipped[i] ^= 1 << (i % 8);
+            fs::write(&path, &flipped).unwrap();
+            assert_eq!(store.state("x").unwrap(), State::Damaged, "byte {i}");
+        }
+        assert_eq!(store.unit("x", || Ok(vec![1.0, 2.0])).unwrap(), [1.0, 2.0]);
+        assert_eq!(store.state("x").unwrap(), State::Done, "done again");
         let mut bytes = fs::read(&path).unwrap();
         bytes[17] ^= 1;
         fs::write(&path, &bytes).unwrap();

@@ -5,7 +5,7 @@ mod grid;
 mod tensor;
 mod truth;
 
-pub use checkpoint::Store;
+pub use checkpoint::{State, Store};
 pub use grid::{Axis, Grid, WAVELENGTHS};
 pub use tensor::{CHANNELS, Tensor, trace_tensor};
 pub use truth::{Sample, truth};

@@ -53,8 +53,7 @@ pub fn decompose(
     let mut extrapolated = false;
     for sweep in 0..options.sweeps {
         let cost = problem.sweep(&mut factors);
-        // Also if it is not a number.
-        let worse = !(cost.objective <= least.objective);
+        let worse = cost.objective > least.objective || cost.objective.is_nan();
         if worse && extrapolated {
             // The extrapolation overshot: go on from the best factors with a shorter one.
             factors = best.clone();

@@ -132,8 +132,7 @@ impl<const N: usize> Walker<'_, N> {
                 return;
             }
             let strength = path.m.strength() * self.normaliser(&path) / reference;
-            // Also if it is not a number.
-            if !(strength >= 0.1) {
+            if strength < 0.1 || strength.is_nan() {
                 let survival = (strength / 0.1).max(0.05);
                 if numbers.draw() >= survival {
                     return;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use welkin::Haze;
-use welkin::format::replace_file;
+use welkin::format::{printable, replace_file};
 
 use crate::Source;
 use crate::camera::{Camera, Lens};
@@ -84,7 +84,11 @@ pub fn run(options: &Options) -> Result<()> {
     };
     replace_file(&options.out, &bytes)?;
     let mut out = std::io::stdout().lock();
-    writeln!(out, "wrote           {}", options.out.display())?;
+    writeln!(
+        out,
+        "wrote           {}",
+        printable(&options.out.display().to_string())
+    )?;
     writeln!(
         out,
         "time            {:.0} ms for {} froxels",

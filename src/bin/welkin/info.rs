@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use welkin::Model;
-use welkin::format::{Entry, Kind, VERSION_MAJOR};
+use welkin::format::{Entry, Kind, VERSION_MAJOR, printable_json};
 
 use crate::Source;
-use crate::failure::Result;
+use crate::failure::{Result, fixed, plain};
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -28,12 +28,13 @@ pub fn run(options: &Options) -> Result<()> {
             .file
             .clone()
             .or_else(|| options.source.model.clone()),
+        no_map: options.source.no_map,
     };
     let model = source.open()?;
     let description = describe(&model);
     let mut out = std::io::stdout().lock();
     if options.json {
-        writeln!(out, "{description:#}")?;
+        writeln!(out, "{}", printable_json(&format!("{description:#}")))?;
         return Ok(());
     }
     writeln!(out, "{}", source.name())?;
@@ -41,7 +42,7 @@ pub fn run(options: &Options) -> Result<()> {
         return Ok(());
     };
     for (key, value) in entries.iter().filter(|(key, _)| *key != "chunks") {
-        writeln!(out, "{key:24} {value}")?;
+        writeln!(out, "{key:24} {}", printable_json(&value.to_string()))?;
     }
     chunk_table(&mut out, &model)
 }
@@ -112,19 +113,19 @@ fn chunk_table(out: &mut impl Write, model: &Model) -> Result<()> {
     let head = model.head();
     let node = |axis: &[f64], i: Option<usize>, scale: f64| {
         let value = i.and_then(|i| axis.get(i));
-        value.map_or("-".to_owned(), |v| (v * scale).to_string())
+        value.map_or("-".to_owned(), |v| plain(v * scale))
     };
     for entry in model.directory() {
         writeln!(
             out,
-            "{:10} {:>10} {:>13} {:>9} {:>5} {:>12.5} {:>9.5}",
+            "{:10} {:>10} {:>13} {:>9} {:>5} {:>12} {:>9}",
             entry.kind.name(),
             node(&head.altitudes, entry.altitude, 1.0),
             node(&head.visibilities, entry.visibility, 1e-3),
             entry.length,
             entry.rank,
-            entry.error_median,
-            entry.error_p99,
+            fixed(entry.error_median.into(), 5),
+            fixed(entry.error_p99.into(), 5),
         )?;
     }
     Ok(())

@@ -26,11 +26,17 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 use failure::{Failure, Result};
 use welkin::Model;
+use welkin::format::printable;
 
 /// Clear-sky radiance from a compact model.
 #[derive(Parser)]
 #[command(name = "welkin", version)]
 struct Arguments {
+    /// Read model files into memory instead of mapping them. A mapped file that somebody truncates meanwhile ends the
+    /// command with SIGBUS, and one that somebody changes can give wrong numbers; files that are replaced by renaming, as
+    /// this command does, are safe either way. Costs time and memory for the whole file.
+    #[arg(long, global = true)]
+    no_map: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -61,12 +67,21 @@ struct Source {
     /// Model file; the embedded default model if absent.
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
+    #[arg(from_global)]
+    no_map: bool,
 }
 
 impl Source {
     fn open(&self) -> Result<Model> {
         match &self.model {
-            Some(path) => Model::open(path).map_err(|error| Failure::in_file(path, error)),
+            Some(path) => {
+                let open = if self.no_map {
+                    Model::read
+                } else {
+                    Model::open
+                };
+                open(path).map_err(|error| Failure::in_file(path, error))
+            }
             None => Ok(Model::default_model()?),
         }
     }
@@ -84,7 +99,7 @@ impl Source {
 
     fn name(&self) -> String {
         match &self.model {
-            Some(path) => path.display().to_string(),
+            Some(path) => printable(&path.display().to_string()),
             None => "embedded default model".to_owned(),
         }
     }
@@ -139,7 +154,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
 
 fn complain(message: &str) -> ExitCode {
     use std::io::Write;
-    let line = message.replace(['\n', '\r'], " ");
+    let line = printable(&message.replace(['\n', '\r'], " "));
     // Nobody is left to tell when standard error is closed.
     let _ = writeln!(std::io::stderr(), "welkin: {line}");
     ExitCode::from(2)

@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use serde_json::json;
+use welkin::format::printable_json;
 use welkin::{Budget, Channels};
 
-use crate::failure::Result;
+use crate::failure::{Result, fixed};
 use crate::subset::{percent, range};
 
 #[derive(clap::Args)]
@@ -61,7 +62,7 @@ pub fn run(options: &Options) -> Result<()> {
     });
     let mut out = std::io::stdout().lock();
     if options.json {
-        writeln!(out, "{report:#}")?;
+        writeln!(out, "{}", printable_json(&format!("{report:#}")))?;
         return Ok(());
     }
     writeln!(
@@ -74,14 +75,16 @@ pub fn run(options: &Options) -> Result<()> {
     writeln!(out, "per baked sky    at most {} bytes", plan.sky_bytes)?;
     writeln!(
         out,
-        "error of the fit median {:.2} %, p99 {:.2} % at altitudes and visibilities of the model",
-        100.0 * plan.error_median,
-        100.0 * plan.error_p99
+        "error of the fit median {} %, p99 {} % at altitudes and visibilities of the model",
+        fixed(100.0 * f64::from(plan.error_median), 2),
+        fixed(100.0 * f64::from(plan.error_p99), 2)
     )?;
     if let Some([median, p99]) = plan.degree_error {
         writeln!(
             out,
-            "of the degree    median {median:.4}, p99 {p99:.4} of linear polarisation"
+            "of the degree    median {}, p99 {} of linear polarisation",
+            fixed(median.into(), 4),
+            fixed(p99.into(), 4)
         )?;
     }
     writeln!(

@@ -4,11 +4,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use welkin::format::replace_file;
+use welkin::format::{printable, replace_file};
 use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, fixed, plain};
 use crate::landscape::{self, Landscape};
 use crate::picture::{Picture, View, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
@@ -249,26 +249,30 @@ fn report(
     )?;
     writeln!(
         out,
-        "sun             elevation {:.2}°, azimuth {:.2}°",
+        "sun             elevation {:.2}°, azimuth {}°",
         conditions.solar_elevation.to_degrees(),
-        conditions.solar_azimuth.to_degrees(),
+        fixed(conditions.solar_azimuth.to_degrees(), 2),
     )?;
     writeln!(
         out,
         "conditions      visibility {} km, albedo {}, altitude {} m",
-        conditions.visibility * 1e-3,
-        conditions.albedo,
-        conditions.altitude,
+        plain(conditions.visibility * 1e-3),
+        plain(conditions.albedo),
+        plain(conditions.altitude),
     )?;
     let zenith = sky.xyz([0.0, 0.0, 1.0])?[1];
-    writeln!(out, "zenith          {zenith:.4} cd/m²")?;
+    writeln!(out, "zenith          {} cd/m²", fixed(zenith.into(), 4))?;
     writeln!(
         out,
         "exposure        EV {:.2}",
         (white / WHITE_AT_EV_0).log2()
     )?;
     for path in written {
-        writeln!(out, "wrote           {}", path.as_ref().display())?;
+        writeln!(
+            out,
+            "wrote           {}",
+            printable(&path.as_ref().display().to_string())
+        )?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use welkin::format::replace_file;
+use welkin::format::{printable, replace_file};
 use welkin::{Conditions, Model};
 
 use crate::Source;
@@ -110,7 +110,11 @@ pub fn run(options: &Options) -> Result<()> {
         canvas.paste(&model, &conditions, Projection::Up, large, corner)?;
     }
     replace_file(&options.out, &png_of_display(canvas.size, &canvas.pixels)?)?;
-    writeln!(out, "wrote {}", options.out.display())?;
+    writeln!(
+        out,
+        "wrote {}",
+        printable(&options.out.display().to_string())
+    )?;
     Ok(())
 }
 

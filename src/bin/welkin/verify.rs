@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
-use welkin::format::{Problem, parse, verify};
+use welkin::format::{Problem, parse, printable, printable_json, verify};
 
 use crate::failure::{Failure, Result};
 
@@ -36,7 +36,7 @@ pub fn run(options: &Options) -> Result<ExitCode> {
     });
     let mut out = std::io::stdout().lock();
     if options.json {
-        writeln!(out, "{report:#}")?;
+        writeln!(out, "{}", printable_json(&format!("{report:#}")))?;
     } else {
         write_text(&mut out, &report, &problems)?;
     }
@@ -71,7 +71,7 @@ fn write_text(out: &mut impl Write, report: &Value, problems: &[Value]) -> Resul
             Value::Null => "head".to_owned(),
             index => format!("chunk {index}"),
         };
-        let text = |key: &str| problem[key].as_str().unwrap_or_default().to_owned();
+        let text = |key: &str| printable(problem[key].as_str().unwrap_or_default());
         writeln!(out, "{place}: {}: {}", text("class"), text("message"))?;
     }
     let verdict = match problems.len() {
@@ -79,7 +79,7 @@ fn write_text(out: &mut impl Write, report: &Value, problems: &[Value]) -> Resul
         n => format!("breaks the format specification in {n} places"),
     };
     let (bytes, chunks) = (&report["bytes"], &report["chunks"]);
-    let file = report["file"].as_str().unwrap_or_default();
+    let file = printable(report["file"].as_str().unwrap_or_default());
     writeln!(out, "{file}: {bytes} bytes, {chunks} chunks: {verdict}")?;
     Ok(())
 }

@@ -2,9 +2,10 @@
 
 use csv::ByteRecord;
 use welkin::Conditions;
+use welkin::format::printable;
 
 use super::quantity::{Quantity, Question, Ray};
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, plain};
 
 const QUANTITY: &str = "quantity";
 const DISTANCE: &str = "distance_m";
@@ -80,7 +81,7 @@ impl Columns {
             return Err("distance_m must be empty: radiance is along the whole ray".to_owned());
         }
         if distance.is_nan() || distance < 0.0 {
-            return Err(format!("distance_m must not be negative, got {distance}"));
+            return Err(format!("distance_m must not be negative, got {}", plain(distance)));
         }
         question(quantity, numbers, distance)
     }
@@ -100,7 +101,7 @@ fn question(
     distance: f64,
 ) -> std::result::Result<Question, String> {
     if !(0.0..=180.0).contains(&zenith) {
-        return Err(format!("view_zenith_deg must be in 0..=180, got {zenith}"));
+        return Err(format!("view_zenith_deg must be in 0..=180, got {}", plain(zenith)));
     }
     if !azimuth.is_finite() {
         return Err(format!("view_azimuth_deg must be finite, got {azimuth}"));
@@ -163,7 +164,7 @@ fn not_a_number(name: &str, cell: &[u8]) -> String {
     if cell.is_empty() {
         return format!("{name} is empty");
     }
-    let text = String::from_utf8_lossy(cell);
+    let text = printable(&String::from_utf8_lossy(cell));
     let pointed = text.replacen(',', ".", 1);
     let hint = match pointed != text && pointed.parse::<f64>().is_ok() {
         true => format!(": decimals are written with a point, {pointed}"),

@@ -1,5 +1,6 @@
 //! What a row asks for.
 
+use welkin::format::printable;
 use welkin::{Conditions, Haze};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +32,7 @@ impl Quantity {
             b"sun_radiance" => Ok(Self::SunRadiance),
             other => Err(format!(
                 "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q, stokes_u, transmittance, in_scatter or sun_radiance",
-                String::from_utf8_lossy(other)
+                printable(&String::from_utf8_lossy(other))
             )),
         }
     }

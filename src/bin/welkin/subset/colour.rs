@@ -87,8 +87,7 @@ impl Quadrature {
             for k in 0..count {
                 (best, residual) = self.exchanged(best, residual, k);
             }
-            // Also if it is not a number.
-            if !(residual < before) {
+            if residual >= before || residual.is_nan() {
                 break;
             }
         }
@@ -155,7 +154,7 @@ fn solve(n: usize, matrix: impl Fn(usize, usize) -> f64, right: Vec<[f64; 3]>) -
     let mut rows: Vec<Vec<f64>> = right.iter().enumerate().map(augmented).collect();
     for pivot in 0..n {
         let lead = rows[pivot].clone();
-        if !(lead[pivot] > 0.0) {
+        if lead[pivot] <= 0.0 || lead[pivot].is_nan() {
             rows[pivot].fill(0.0);
             continue;
         }

@@ -11,11 +11,12 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 use welkin::Model;
 use welkin::format::{
-    Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, recode, replace_file, unpack,
+    Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, printable, printable_json, recode,
+    replace_file, unpack,
 };
 
 use crate::Source;
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, fixed, plain};
 use reduce::{Reducer, Wish};
 use samples::{Differences, Quantity, Samples, Scope};
 
@@ -169,7 +170,7 @@ fn within(
     if model[0] <= low && high <= model[1] {
         return Ok([low, high]);
     }
-    let [low, high, first, last] = [low, high, model[0], model[1]].map(|v| v * factor);
+    let [low, high, first, last] = [low, high, model[0], model[1]].map(|v| plain(v * factor));
     Err(Failure::message(format!(
         "{what} must be in {first}..{last} {unit}, got {low}..{high}"
     )))
@@ -235,12 +236,12 @@ fn kilometres(metres: &[f64]) -> Vec<f64> {
 fn print(report: &Value, json: bool) -> Result<()> {
     let mut out = std::io::stdout().lock();
     if json {
-        writeln!(out, "{report:#}")?;
+        writeln!(out, "{}", printable_json(&format!("{report:#}")))?;
         return Ok(());
     }
     let size = |key: &str| report[key].as_u64().unwrap_or_default();
     let share = 100.0 * size("bytes") as f64 / size("source_bytes") as f64;
-    let file = report["file"].as_str().unwrap_or_default();
+    let file = printable(report["file"].as_str().unwrap_or_default());
     writeln!(
         out,
         "{file}: {} bytes, {share:.1} % of the source",
@@ -254,10 +255,10 @@ fn print(report: &Value, json: bool) -> Result<()> {
         writeln!(out, "{name:18} {}", report[key])?;
     }
     let difference = &report["difference_to_source"];
-    let percent = |key: &str| 100.0 * difference[key].as_f64().unwrap_or_default();
+    let percent = |key: &str| fixed(100.0 * difference[key].as_f64().unwrap_or_default(), 3);
     writeln!(
         out,
-        "difference of {} to the source over {} values: median {:.3} %, p95 {:.3} %, p99 {:.3} %, max {:.3} %",
+        "difference of {} to the source over {} values: median {} %, p95 {} %, p99 {} %, max {} %",
         difference["of"].as_str().unwrap_or_default(),
         difference["count"],
         percent("median"),
@@ -267,10 +268,10 @@ fn print(report: &Value, json: bool) -> Result<()> {
     )?;
     let promise = |key: &str| report["error_against_data"][key].as_f64();
     if let (Some(median), Some(p99)) = (promise("median"), promise("p99")) {
-        let (median, p99) = (100.0 * median, 100.0 * p99);
+        let [median, p99] = [median, p99].map(|error| fixed(100.0 * error, 3));
         writeln!(
             out,
-            "error against the data of the source, at most: median {median:.3} %, p99 {p99:.3} % (its worst chunk plus the difference)"
+            "error against the data of the source, at most: median {median} %, p99 {p99} % (its worst chunk plus the difference)"
         )?;
     }
     Ok(())

@@ -6,7 +6,7 @@ use welkin::format::{Chunk, Head, Payload, Selection, crop, encode};
 use super::colour::Quadrature;
 use super::nodes::{covers, needed};
 use super::samples::{Differences, Quantity, Samples, Scope};
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, plain};
 
 /// Skies of each comparison of the search.
 const SKIES: usize = 64;
@@ -90,6 +90,7 @@ impl<'a> Reducer<'a> {
         if let Some([low, high]) = self.wish.wavelengths {
             let [first, last] = self.model.wavelength_range();
             if low < first || high > last || low == high {
+                let [first, last, low, high] = [first, last, low, high].map(plain);
                 let text =
                     format!("wavelengths must be a range in {first}..{last} nm, got {low}..{high}");
                 return Err(Failure::message(text));

@@ -1,0 +1,343 @@
+//! Asks a model everything that gives numbers.
+
+use welkin::{
+    BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Frame,
+    General, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes, StokesSpectra, SunDisc,
+};
+
+const DIRECTIONS: [[f32; 3]; 6] = [
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 0.0],
+    [0.3, -0.2, 0.01],
+    [0.3, -0.2, -0.001],
+    [-0.5, 0.4, -0.3],
+    [0.0, 0.0, -1.0],
+];
+const SEGMENTS: [[[f64; 3]; 2]; 6] = [
+    [[0.0, 0.0, 2.0], [9e4, 0.0, 2.0]],
+    [[0.0, 0.0, 9e3], [1e5, 2e5, 3e5]],
+    [[0.0, 0.0, 500.0], [3e4, 1e4, -4e3]],
+    [[0.0, 0.0, 2000.0], [0.0, 0.0, 0.0]],
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+    [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+];
+const FRAMES: [Frame; 3] = [
+    Frame::Vertical,
+    Frame::SunAligned,
+    Frame::Axis([0.1, 0.2, 1.0]),
+];
+
+/// What the last call was about, and how many answers were numbers.
+pub struct Asker {
+    pub answers: usize,
+    pub refusals: usize,
+}
+
+impl Asker {
+    fn finite(&mut self, what: &str, values: impl IntoIterator<Item = f32>) {
+        for value in values {
+            assert!(value.is_finite(), "{what}: {value}");
+            self.answers += 1;
+        }
+    }
+
+    fn light(&mut self, what: &str, values: &[f32]) {
+        self.finite(what, values.iter().copied());
+        assert!(values.iter().all(|l| *l >= 0.0), "{what}: {values:?}");
+    }
+
+    fn share(&mut self, what: &str, values: &[f32]) {
+        self.light(what, values);
+        assert!(values.iter().all(|t| *t <= 1.0), "{what}: {values:?}");
+    }
+
+    fn stokes(&mut self, what: &str, light: &[Stokes]) {
+        for stokes in light {
+            self.finite(what, [stokes.i, stokes.q, stokes.u]);
+            self.finite(what, [stokes.degree(), stokes.signed_degree()]);
+            self.finite(
+                what,
+                [
+                    stokes.angle(),
+                    stokes.through_polariser(0.3),
+                    stokes.turned(1.0).q,
+                ],
+            );
+        }
+    }
+
+    /// Counts what was refused, which only absurd values may be.
+    fn allowed<T>(&mut self, what: &str, answer: Result<T>) -> Option<T> {
+        match answer {
+            Ok(answer) => Some(answer),
+            Err(error) => {
+                let class = error.class();
+                assert!(matches!(class, "value" | "tolerance"), "{what}: {error}");
+                let text = error.to_string();
+                assert!(!text.contains("NaN") && text.len() < 200, "{what}: {text}");
+                self.refusals += 1;
+                None
+            }
+        }
+    }
+
+    pub fn everything(&mut self, bytes: &'static [u8]) {
+        let model = Model::from_static(bytes).expect("a file that was verified");
+        let general = General::new(bytes).expect("a small model");
+        for t in [0.0, 0.4, 1.0] {
+            let within = |[low, high]: [f64; 2]| (low + t * (high - low)).clamp(low, high);
+            let conditions = Conditions {
+                altitude: within(model.altitude_range()),
+                visibility: within(model.visibility_range()),
+                solar_elevation: within(model.solar_elevation_range()),
+                solar_azimuth: t,
+                albedo: t,
+            };
+            let wavelength = within(model.wavelength_range());
+            self.general(&general, &conditions);
+            let sky = self.allowed("sky", model.sky(&conditions));
+            if let Some(sky) = &sky {
+                self.sky(sky, wavelength);
+            }
+            let polarised = self.allowed("polarised sky", model.polarised_sky(&conditions));
+            if let Some(sky) = &polarised {
+                self.polarised(sky, wavelength);
+            }
+            if let Some(air) = self.allowed("air", model.air(conditions.visibility)) {
+                self.air(&air);
+            }
+            if let Some(haze) = self.allowed("haze", model.haze(&conditions)) {
+                self.haze(&haze, wavelength);
+                if let (Some(sky), Some(polarised)) = (&sky, &polarised) {
+                    self.foreground(&haze, sky, polarised);
+                }
+            }
+            self.plan(&model, &conditions);
+        }
+    }
+
+    fn general(&mut self, general: &General, conditions: &Conditions) {
+        let mut out = vec![0.0; general.wavelengths().len()];
+        for direction in DIRECTIONS {
+            let answer = general.radiance(conditions, direction, &mut out);
+            if self.allowed("general", answer).is_some() {
+                self.light("general", &out);
+            }
+            let answer = general.relative_radiance(conditions, direction, &mut out);
+            if self.allowed("general", answer).is_some() {
+                self.light("general, relative", &out);
+            }
+        }
+        let _ = Interpolation::Full;
+    }
+
+    fn sky(&mut self, sky: &Sky, wavelength: f64) {
+        let mut out = vec![0.0; sky.wavelengths().len()];
+        for direction in DIRECTIONS {
+            sky.radiance(direction, &mut out).unwrap();
+            self.light("radiance", &out);
+            sky.relative_radiance(direction, &mut out).unwrap();
+            self.light("relative radiance", &out);
+            let between = welkin::between_wavelengths(sky.wavelengths(), &out, wavelength);
+            if let Some(value) = self.allowed("between wavelengths", between) {
+                self.light("between wavelengths", &[value]);
+            }
+            let at = sky.radiance_at(direction, wavelength).unwrap();
+            self.light("radiance at a wavelength", &[at]);
+            let at = sky.relative_radiance_at(direction, wavelength).unwrap();
+            self.light("relative radiance at a wavelength", &[at]);
+            self.finite("XYZ", sky.xyz(direction).unwrap());
+            self.finite("RGB", sky.linear_srgb(direction).unwrap());
+        }
+        let disc = SunDisc::new(sky);
+        self.disc(&disc);
+        if let Some(baked) = self.allowed("bake", sky.bake(0.1)) {
+            self.baked(&baked, wavelength as f32);
+        }
+        if let Some(baked) = self.allowed("bake colour", sky.bake_colour(0.1)) {
+            self.colour(&baked, &disc);
+        }
+    }
+
+    fn disc(&mut self, disc: &SunDisc) {
+        let mut out = vec![0.0; disc.wavelengths().len()];
+        let sun = disc.direction();
+        let beside = [sun[0], sun[1], sun[2] + 0.004];
+        for direction in [sun, beside].into_iter().chain(DIRECTIONS) {
+            disc.radiance(direction, &mut out).unwrap();
+            self.light("disc", &out);
+            self.finite("disc, XYZ", disc.xyz(direction).unwrap());
+            disc.irradiance(direction, &mut out).unwrap();
+            self.light("disc, irradiance", &out);
+        }
+        self.finite("disc, solid angle", [disc.solid_angle() as f32]);
+    }
+
+    fn baked(&mut self, baked: &BakedSky, wavelength: f32) {
+        let mut out = vec![0.0; baked.wavelengths().len()];
+        for direction in DIRECTIONS {
+            baked.radiance(direction, &mut out).unwrap();
+            self.light("baked", &out);
+            let hero = baked.hero(direction, [wavelength; 4]).unwrap();
+            self.light("baked, hero", &hero);
+        }
+        baked.irradiance([0.1, 0.2, 0.9], &mut out).unwrap();
+        self.light("baked, irradiance", &out);
+        let mut batch = vec![0.0; DIRECTIONS.len() * out.len()];
+        let [x, y, z] = [0, 1, 2].map(|c| DIRECTIONS.map(|d| d[c]));
+        let directions = Directions {
+            x: &x,
+            y: &y,
+            z: &z,
+        };
+        baked.radiance_batch(&directions, &mut batch).unwrap();
+        self.light("baked, batch", &batch);
+        let error = baked.bake_error();
+        self.finite(
+            "bake error",
+            [error.median, error.p95, error.p99, error.max].map(|e| e as f32),
+        );
+    }
+
+    fn colour(&mut self, baked: &BakedColour, disc: &SunDisc) {
+        for direction in DIRECTIONS {
+            self.finite("baked XYZ", baked.xyz(direction).unwrap());
+            self.finite("baked RGB", baked.linear_srgb(direction).unwrap());
+        }
+        let sampler = baked.sampler();
+        for sampler in [sampler.clone(), sampler.with_sun(disc)] {
+            for i in 0..16 {
+                let place = [i as f32 / 15.0, (i * 7 % 16) as f32 / 16.0];
+                let sample = sampler.sample(place);
+                self.finite("sample", sample.direction);
+                self.light("pdf of a sample", &[sample.pdf]);
+            }
+            for direction in DIRECTIONS {
+                self.light("pdf", &[sampler.pdf(direction).unwrap()]);
+            }
+        }
+    }
+
+    fn polarised(&mut self, sky: &PolarisedSky, wavelength: f64) {
+        let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
+        for direction in DIRECTIONS {
+            for frame in FRAMES {
+                sky.stokes(direction, frame, &mut light).unwrap();
+                self.stokes("Stokes", &light);
+                sky.relative_stokes(direction, frame, &mut light).unwrap();
+                self.stokes("relative Stokes", &light);
+                let at = sky.stokes_at(direction, frame, wavelength).unwrap();
+                self.stokes("Stokes at a wavelength", &[at]);
+                self.stokes("Stokes, XYZ", &sky.xyz(direction, frame).unwrap());
+            }
+        }
+        if let Some(baked) = self.allowed("bake Stokes", sky.bake(0.1)) {
+            self.baked_polarised(&baked, wavelength as f32);
+        }
+    }
+
+    fn baked_polarised(&mut self, baked: &BakedPolarisedSky, wavelength: f32) {
+        let n = baked.sky().wavelengths().len();
+        let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; n]);
+        for direction in DIRECTIONS {
+            let out = StokesSpectra {
+                i: &mut i,
+                q: &mut q,
+                u: &mut u,
+            };
+            baked.stokes(direction, Frame::Vertical, out).unwrap();
+            self.light("baked Stokes", &i);
+            self.finite("baked Stokes", q.iter().chain(&u).copied());
+            let hero = baked.hero(direction, Frame::Vertical, [wavelength; 4]);
+            self.stokes("baked Stokes, hero", &hero.unwrap());
+        }
+        let error = baked.polarisation_error();
+        self.finite("error of polarisation", [error.p95 as f32]);
+    }
+
+    fn air(&mut self, air: &welkin::Air) {
+        let mut out = vec![0.0; air.wavelengths().len()];
+        for [from, to] in SEGMENTS {
+            air.transmittance(from, to, &mut out).unwrap();
+            self.share("transmittance", &out);
+            air.optical_depth(from, to, &mut out).unwrap();
+            self.light("optical depth", &out);
+            let up = [0.1, 0.2, 0.5];
+            air.transmittance_to_space(from, up, &mut out).unwrap();
+            self.share("transmittance to space", &out);
+        }
+    }
+
+    fn haze(&mut self, haze: &Haze, wavelength: f64) {
+        let n = haze.wavelengths().len();
+        let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+        let [mut q, mut u] = [(); 2].map(|()| vec![0.0; n]);
+        for [from, to] in SEGMENTS {
+            haze.in_scatter(from, to, &mut light, &mut through).unwrap();
+            self.light("in-scatter", &light);
+            self.share("transmittance", &through);
+            haze.to_end(from, [0.1, 0.2, 0.05], &mut light, &mut through)
+                .unwrap();
+            self.light("in-scatter to the end", &light);
+            let (colour, factors) = haze.xyz(from, to).unwrap();
+            self.finite("in-scatter, XYZ", colour);
+            self.share("factors of XYZ", &factors);
+            let (colour, factors) = haze.linear_srgb(from, to).unwrap();
+            self.finite("in-scatter, RGB", colour);
+            self.share("factors of RGB", &factors);
+            for frame in FRAMES {
+                let out = StokesSpectra {
+                    i: &mut light,
+                    q: &mut q,
+                    u: &mut u,
+                };
+                haze.in_scatter_stokes(from, to, frame, out, &mut through)
+                    .unwrap();
+                self.finite("in-scatter, Stokes", light.iter().copied());
+                self.finite("in-scatter, Stokes", q.iter().chain(&u).copied());
+                let at = haze.relative_stokes_at(from, to, frame, wavelength);
+                self.stokes("in-scatter, Stokes at a wavelength", &[at.unwrap()]);
+                let (colour, factors) = haze.xyz_stokes(from, to, frame).unwrap();
+                self.stokes("in-scatter, Stokes, XYZ", &colour);
+                self.share("factors of XYZ", &factors);
+                let (colour, factors) = haze.linear_srgb_stokes(from, to, frame).unwrap();
+                self.stokes("in-scatter, Stokes, RGB", &colour);
+                self.share("factors of RGB", &factors);
+            }
+        }
+    }
+
+    fn foreground(&mut self, haze: &Haze, sky: &Sky, polarised: &PolarisedSky) {
+        let n = haze.wavelengths().len();
+        let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+        let before = haze.before(sky).unwrap();
+        for [_, to] in SEGMENTS {
+            before.in_scatter(to, &mut light, &mut through).unwrap();
+            self.light("foreground", &light);
+            self.share("foreground, transmittance", &through);
+            let (colour, factors) = before.xyz(to).unwrap();
+            self.finite("foreground, XYZ", colour);
+            self.share("foreground, factors", &factors);
+            let (colour, _) = before.linear_srgb(to).unwrap();
+            self.finite("foreground, RGB", colour);
+            let before = haze.before_polarised(polarised).unwrap();
+            let (colour, factors) = before.linear_srgb_stokes(to, Frame::Vertical).unwrap();
+            self.stokes("foreground, Stokes", &colour);
+            self.share("foreground, factors", &factors);
+        }
+    }
+
+    fn plan(&mut self, model: &Model, conditions: &Conditions) {
+        for channels in [Channels::Spectral, Channels::Colour, Channels::Stokes] {
+            let plan = model.plan(&Budget {
+                altitude: [conditions.altitude; 2],
+                visibility: [conditions.visibility; 2],
+                solar_elevation: [conditions.solar_elevation; 2],
+                tolerance: 0.1,
+                channels,
+            });
+            let plan = plan.expect("conditions of the model");
+            self.finite("plan", [plan.error_median, plan.error_p99]);
+        }
+    }
+}
