@@ -2,7 +2,7 @@
 
 use welkin::{
     BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Frame,
-    General, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes, StokesSpectra, SunDisc,
+    General, GeneralHaze, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes, StokesSpectra, SunDisc,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -113,6 +113,9 @@ impl Asker {
                 }
             }
             self.plan(&model, &conditions);
+            if let Some(mut haze) = self.allowed("general haze", model.general_haze()) {
+                self.general_haze(&mut haze, &conditions, wavelength);
+            }
         }
     }
 
@@ -193,10 +196,9 @@ impl Asker {
         baked.radiance_batch(&directions, &mut batch).unwrap();
         self.light("baked, batch", &batch);
         let error = baked.bake_error();
-        self.finite(
-            "bake error",
-            [error.median, error.p95, error.p99, error.max].map(|e| e as f32),
-        );
+        self.answers += 1;
+        let errors = [error.median, error.p95, error.p99, error.max];
+        assert!(errors.iter().all(|e| e.is_finite()), "{error:?}");
     }
 
     fn colour(&mut self, baked: &BakedColour, disc: &SunDisc) {
@@ -303,6 +305,27 @@ impl Asker {
                 let (colour, factors) = haze.linear_srgb_stokes(from, to, frame).unwrap();
                 self.stokes("in-scatter, Stokes, RGB", &colour);
                 self.share("factors of RGB", &factors);
+            }
+        }
+    }
+
+    fn general_haze(&mut self, haze: &mut GeneralHaze, conditions: &Conditions, wavelength: f64) {
+        let n = haze.wavelengths().len();
+        let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+        for [from, to] in SEGMENTS {
+            let answer = haze.in_scatter(conditions, from, to, &mut light, &mut through);
+            if self.allowed("general in-scatter", answer).is_some() {
+                self.light("general in-scatter", &light);
+                self.share("general transmittance", &through);
+            }
+            let along = [0.1, 0.2, 0.05];
+            let answer = haze.to_end(conditions, from, along, &mut light, &mut through);
+            if self.allowed("general in-scatter", answer).is_some() {
+                self.light("general in-scatter to the end", &light);
+            }
+            let at = haze.relative_stokes_at(conditions, from, to, Frame::Vertical, wavelength);
+            if let Some(stokes) = self.allowed("general Stokes", at) {
+                self.stokes("general Stokes at a wavelength", &[stokes]);
             }
         }
     }
