@@ -2,7 +2,8 @@
 
 use welkin::{
     BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Frame,
-    General, GeneralHaze, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes, StokesSpectra, SunDisc,
+    General, GeneralHaze, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes,
+    StokesSpectra, SunDisc,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [

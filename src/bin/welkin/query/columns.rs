@@ -81,7 +81,10 @@ impl Columns {
             return Err("distance_m must be empty: radiance is along the whole ray".to_owned());
         }
         if distance.is_nan() || distance < 0.0 {
-            return Err(format!("distance_m must not be negative, got {}", plain(distance)));
+            return Err(format!(
+                "distance_m must not be negative, got {}",
+                plain(distance)
+            ));
         }
         question(quantity, numbers, distance)
     }
@@ -101,7 +104,10 @@ fn question(
     distance: f64,
 ) -> std::result::Result<Question, String> {
     if !(0.0..=180.0).contains(&zenith) {
-        return Err(format!("view_zenith_deg must be in 0..=180, got {}", plain(zenith)));
+        return Err(format!(
+            "view_zenith_deg must be in 0..=180, got {}",
+            plain(zenith)
+        ));
     }
     if !azimuth.is_finite() {
         return Err(format!("view_azimuth_deg must be finite, got {azimuth}"));
