@@ -4,7 +4,7 @@
 #[path = "../../src/bin/welkin/failure.rs"]
 #[allow(dead_code)]
 mod failure;
-#[path = "../../src/bin/welkin/query.rs"]
+#[path = "../../src/bin/welkin/query/mod.rs"]
 #[allow(dead_code)]
 mod query;
 
@@ -27,6 +27,8 @@ impl Source {
     }
 }
 
+static THREADS: OnceLock<rayon::ThreadPool> = OnceLock::new();
+
 static MODEL: OnceLock<Model> = OnceLock::new();
 
 fuzz_target!(|table: &[u8]| {
@@ -34,9 +36,13 @@ fuzz_target!(|table: &[u8]| {
         let file = include_bytes!("../../format-spec/conformance/files/raw.welkin");
         Model::from_static(file).expect("a valid model")
     });
+    let threads = THREADS.get_or_init(|| {
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1);
+        one.build().expect("a thread")
+    });
     for clamp in [false, true] {
         let mut answers = Vec::new();
-        if let Ok((rows, failures)) = query::answer(model, clamp, table, &mut answers) {
+        if let Ok((rows, failures)) = query::answer(model, clamp, threads, table, &mut answers) {
             assert!(failures <= rows);
             let mut reader = csv::Reader::from_reader(answers.as_slice());
             let read = reader.byte_records().filter(|row| row.is_ok()).count();

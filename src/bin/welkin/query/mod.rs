@@ -13,6 +13,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use csv::ByteRecord;
+use welkin::Model;
 
 use crate::Source;
 use crate::failure::{Failure, Result};
@@ -45,8 +46,7 @@ pub fn run(options: &Options) -> Result<()> {
         .num_threads(options.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
-    let shared = Shared::new(&model, options.clamp);
-    let (rows, failures) = answer(&shared, &threads, input, io::stdout().lock())?;
+    let (rows, failures) = answer(&model, options.clamp, &threads, input, io::stdout().lock())?;
     if options.strict && failures > 0 {
         let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
         return Err(Failure::message(text));
@@ -55,12 +55,14 @@ pub fn run(options: &Options) -> Result<()> {
 }
 
 /// Answers a table; returns how many rows it has and how many of them failed.
-fn answer<'a>(
-    shared: &'a Shared<'a>,
+pub fn answer(
+    model: &Model,
+    clamp: bool,
     threads: &rayon::ThreadPool,
     input: impl Read,
     output: impl io::Write,
 ) -> Result<(u64, u64)> {
+    let shared = &Shared::new(model, clamp);
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .buffer_capacity(BUFFER)
