@@ -58,9 +58,10 @@ fn main() -> Result<()> {
         );
     }
     print!("{csv}");
-    let write = |path: &str, text: &str| welkin::format::replace_file(path, text.as_bytes());
-    write("docs/settings.csv", &csv)?;
-    write("docs/settings.svg", &svg(&points))
+    welkin::output::replace_files(&[
+        ("docs/settings.csv".as_ref(), csv.as_bytes()),
+        ("docs/settings.svg".as_ref(), svg(&points).as_bytes()),
+    ])
 }
 
 /// Noon, low sun and twilight, near the ground and high up.

@@ -30,7 +30,7 @@
 //! `format-spec/SPEC.md` and implemented in [`mod@format`].
 //!
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
-//! builds the command `welkin`. Without `std` (and with `libm`) what is left is [`General`], which needs neither the
+//! builds the command `welkin`, `signals` lets no signal leave temporary files behind ([`output`]). Without `std` (and with `libm`) what is left is [`General`], which needs neither the
 //! standard library nor an allocator.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -57,6 +57,8 @@ mod lanes;
 mod math;
 #[cfg(feature = "std")]
 mod model;
+#[cfg(feature = "std")]
+pub mod output;
 mod phase;
 #[cfg(feature = "std")]
 mod polarisation;

@@ -298,7 +298,7 @@ fn refusals_are_one_line_and_code_2() {
                 "--out",
                 "missing/sky",
             ],
-            "missing/sky.exr",
+            "missing/sky",
         ),
         (&["render", "--model", "missing.welkin"], "missing.welkin"),
         (&["info", "missing.welkin"], "missing.welkin"),

@@ -16,7 +16,8 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::time::Instant;
 use welkin::Model;
-use welkin::format::{self, ColumnTable, Head, Payload, encode, replace_file};
+use welkin::format::{self, ColumnTable, Head, Payload, encode};
+use welkin::output::{Target, write};
 
 /// How the traced tensors are fitted.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +57,8 @@ pub(crate) struct Traced {
 }
 
 /// Builds the model file `out`, keeping units in `work`; returns a report.
-pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<String> {
+pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result<String> {
+    out.check()?;
     let store = plan.store(work)?;
     let started = Instant::now();
     let solved = solve_all(plan, work)?;
@@ -71,7 +73,7 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<S
     file.extend(finite::chunks(&solved)?);
     file.extend(polarisation);
     let (bytes, errors, polarimetry) = assemble(plan, fitting, head, file, &places)?;
-    replace_file(out, &bytes).with_context(|| format!("cannot write {}", out.display()))?;
+    write(&[(out, &bytes)]).context("cannot write the model")?;
     let rows: Vec<report::Row> = places
         .iter()
         .enumerate()
@@ -88,7 +90,7 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Path) -> Result<S
         assess::table(&errors.concat()),
         polarimetry::table(&polarimetry),
         bytes.len(),
-        out.display(),
+        out,
         tracing.as_secs_f64(),
         fitting_time.as_secs_f64(),
     ))

@@ -37,6 +37,9 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    // Without, the next write cleans up.
+    let _ = welkin::output::abandon_on_signals();
     let result = match Cli::parse().command {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),

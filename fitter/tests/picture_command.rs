@@ -81,3 +81,32 @@ fn bad_input_is_one_line_and_exit_code_2() {
         assert!(!folder.path().join("x.png").exists());
     }
 }
+
+/// The picture and nothing else, and no file of that name.
+#[test]
+fn pictures_go_to_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let named = picture(folder.path(), &["--png", "a.png"]);
+    assert!(named.status.success(), "{named:?}");
+    let piped = picture(folder.path(), &["--png", "-"]);
+    assert!(piped.status.success(), "{piped:?}");
+    let file = std::fs::read(folder.path().join("a.png")).unwrap();
+    assert_eq!(piped.stdout, file);
+    let names = std::fs::read_dir(folder.path()).unwrap();
+    assert_eq!(names.count(), 1);
+}
+
+#[test]
+fn targets_are_checked_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    for more in [
+        &["--png", "missing/a.png"][..],
+        &["--png", "."],
+        &["--exr", "a", "--png", "a"],
+        &["--exr", "a.exr", "--png", "missing/a.png"],
+    ] {
+        let output = picture(folder.path(), more);
+        assert_eq!(output.status.code(), Some(2), "{more:?}");
+    }
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
+}

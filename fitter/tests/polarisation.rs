@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 use welkin::axis::Ends;
 use welkin::geometry::Side;
+use welkin::output::Target;
 use welkin::{Conditions, Frame, Model, PolarisedSky, Stokes};
 use welkin_fitter::assess::Quantiles;
 use welkin_fitter::build::{Fitting, build};
@@ -74,7 +75,10 @@ fn built() -> &'static Built {
             refinements: 0,
             polarisation: options(24, 150),
         };
-        println!("{}", build(&plan(), fitting, work.path(), &out).unwrap());
+        println!(
+            "{}",
+            build(&plan(), fitting, work.path(), &Target::new(&out)).unwrap()
+        );
         let model = Model::open(&out).unwrap();
         Built { model, work }
     })

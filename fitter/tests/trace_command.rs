@@ -99,19 +99,23 @@ fn bad_input_is_one_line_and_exit_code_2() {
 }
 
 fn real(directory: &Path, more: &[&str]) -> Output {
+    real_command(directory, more).output().unwrap()
+}
+
+fn real_command(directory: &Path, more: &[&str]) -> Command {
     let file = directory.join("queries.csv");
     std::fs::write(
         &file,
         "altitude_m,view_zenith_deg,view_azimuth_deg\n0,45,90\n0,60,40\n2000,30,120\n",
     )
     .unwrap();
-    Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin-fit"));
+    command
         .args(["trace", "--visibility", "40", "--target-error", "5%"])
         .args(["--wavelengths", "440,550", "--queries"])
         .arg(file)
-        .args(more)
-        .output()
-        .unwrap()
+        .args(more);
+    command
 }
 
 const SCENE: [&str; 4] = ["--solar-elevation", "30", "--albedo", "0.2"];
@@ -155,9 +159,27 @@ fn an_interrupted_run_goes_on() {
         let more = ["--seed", seed, "--out", out.to_str().unwrap()];
         real(directory.path(), &[&SCENE[..], &more].concat())
     };
-    // A folder in the output's place lets all the work be done and the last step fail.
+    // A folder that comes into the output's place lets all the work be done and the last step fail.
+    let more = ["--seed", "1", "--out", out.to_str().unwrap()];
+    let mut child = real_command(directory.path(), &[&SCENE[..], &more].concat())
+        .spawn()
+        .unwrap();
+    while !folder.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended early");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
     std::fs::create_dir(&out).unwrap();
-    assert!(!run("1").status.success());
+    assert!(!child.wait().unwrap().success());
+    // A folder that is there from the beginning is refused before the work.
+    let before = std::fs::metadata(folder.join("row-1.unit"))
+        .unwrap()
+        .modified();
+    let refused = run("2");
+    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
+    let after = std::fs::metadata(folder.join("row-1.unit"))
+        .unwrap()
+        .modified();
+    assert_eq!(before.unwrap(), after.unwrap());
     let kept = folder.join("row-1.unit");
     let whole = std::fs::read(&kept).unwrap();
     assert_eq!(whole.len(), 16 + 2 * 7 * 8);
@@ -185,4 +207,23 @@ fn an_interrupted_run_goes_on() {
     assert!(run("2").status.success());
     let other = column(&std::fs::read_to_string(&out).unwrap(), "I");
     assert!(other[2] < 1.0);
+}
+
+/// Nothing is kept beside what is no file.
+#[cfg(unix)]
+#[test]
+fn answers_go_to_standard_output_and_devices() {
+    let directory = tempfile::tempdir().unwrap();
+    let null = directory.path().join("null");
+    std::os::unix::fs::symlink("/dev/null", &null).unwrap();
+    let run = |out: &str| {
+        let output = real(directory.path(), &[&SCENE[..], &["--out", out]].concat());
+        assert!(output.status.success(), "{output:?}");
+        output.stdout
+    };
+    let table = String::from_utf8(run("-")).unwrap();
+    assert_eq!(column(&table, "I").len(), 6);
+    assert!(run(null.to_str().unwrap()).is_empty());
+    // The queries and the link.
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 2);
 }

@@ -19,8 +19,6 @@ mod polarisation;
 #[cfg(feature = "std")]
 mod printable;
 #[cfg(feature = "std")]
-mod replace;
-#[cfg(feature = "std")]
 mod source;
 #[cfg(feature = "std")]
 mod validate;
@@ -40,6 +38,8 @@ pub(crate) use parse::{Key, head_length, parse_head};
 #[cfg(feature = "std")]
 pub(crate) use source::phase_function;
 
+#[cfg(feature = "std")]
+pub use crate::output::replace_file;
 #[cfg(feature = "std")]
 pub use assemble::{extend, recode};
 pub use chunk::{BasisView, ColumnView, FactorsView, Payload16};
@@ -61,8 +61,6 @@ pub use parse::{Contents, parse};
 pub use polarisation::{PolarisationBasis, PolarisationFactors};
 #[cfg(feature = "std")]
 pub use printable::{printable, printable_json};
-#[cfg(feature = "std")]
-pub use replace::replace_file;
 #[cfg(feature = "std")]
 pub use source::{
     MAX_MOMENTS, Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView,

@@ -11,9 +11,9 @@ use super::density::DensityTable;
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
 use super::polarisation::{PolarisationBasis, PolarisationFactors};
-use super::replace::replace_file;
 use super::source::{SourceBasis, SourceCore, check_together};
 use crate::error::{Error, Number, Result};
+use crate::output::replace_file;
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
 ///

@@ -2,13 +2,15 @@
 
 use super::plan::PlanArgs;
 use anyhow::Result;
+use std::io::Write;
 use std::path::PathBuf;
+use welkin::output::Target;
 use welkin_fitter::build::{Fitting, build};
 
 /// Traces and fits a model file. Without arguments it rebuilds the embedded default model.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Where the model goes.
+    /// Where the model goes; - for standard output.
     #[arg(long, default_value = "models/default.welkin")]
     out: PathBuf,
     #[command(flatten)]
@@ -40,6 +42,7 @@ pub fn run(args: &Args) -> Result<()> {
         fitting.polarisation.rank = rank;
     }
     fitting.refinements = args.refinements.unwrap_or(fitting.refinements);
-    print!("{}", build(&plan, fitting, &args.plan.work, &args.out)?);
-    Ok(())
+    let target = Target::new(&args.out);
+    let report = build(&plan, fitting, &args.plan.work, &target)?;
+    Ok(write!(target.report(), "{report}")?)
 }

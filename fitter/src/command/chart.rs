@@ -1,9 +1,9 @@
 //! `welkin-fit chart`: representations of the same traced chunks against each other.
 
-use super::output::write_whole;
 use anyhow::{Context, Result};
 use std::path::PathBuf;
 use welkin::Model;
+use welkin::output::{check, replace_files};
 use welkin_fitter::build::Fitting;
 use welkin_fitter::chart::{Ranks, chart, csv, svg};
 use welkin_fitter::units::Plan;
@@ -48,6 +48,10 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
+    let [table_file, svg_file] = ["csv", "svg"].map(|e| args.out.with_extension(e));
+    for file in [&table_file, &svg_file] {
+        check(file)?;
+    }
     let (mut plan, mut fitting) = (Plan::default(), Fitting::default());
     plan.grid.altitudes = args.altitudes.clone();
     plan.grid.visibilities = args.visibilities.iter().map(|v| 1e3 * v).collect();
@@ -69,8 +73,11 @@ pub fn run(args: &Args) -> Result<()> {
     let points = chart(&plan, fitting, &ranks, &args.work, model.as_ref())?;
     let table = csv(&points)?;
     print!("{}", String::from_utf8_lossy(&table));
-    write_whole(&args.out.with_extension("csv"), &table)?;
-    write_whole(&args.out.with_extension("svg"), svg(&points)?.as_bytes())
+    let svg = svg(&points)?;
+    Ok(replace_files(&[
+        (&table_file, &table),
+        (&svg_file, svg.as_bytes()),
+    ])?)
 }
 
 fn tiers(text: &str) -> Result<Vec<usize>> {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use welkin::Model;
-use welkin::format::replace_file;
+use welkin::output::{Target, replace_file, write};
 use welkin_fitter::finite::{self, study};
 use welkin_fitter::picture::image;
 use welkin_fitter::units::{Plan, Solved};
@@ -20,7 +20,7 @@ pub struct Args {
     /// Folder for finished work units.
     #[arg(long, default_value = "work")]
     work: PathBuf,
-    /// Only fit transmittance and source, and write the model with them to this file.
+    /// Only fit transmittance and source, and write the model with them to this file; - for standard output.
     #[arg(long)]
     extend: Option<PathBuf>,
     /// Folder for tables and pictures.
@@ -56,17 +56,19 @@ pub fn run(args: &Args) -> Result<()> {
     let nodes: Vec<f64> = model.head().visibilities.clone();
     let solve = |v: &f64| Plan::default().solve(&args.work, *v, &|_| {});
     if let Some(out) = &args.extend {
+        let target = Target::new(out);
+        target.check()?;
         let solved = nodes.iter().map(solve).collect::<Result<Vec<_>>>()?;
         let started = Instant::now();
         let extended = welkin::format::extend(&bytes, &finite::chunks(&solved)?)?;
-        println!(
-            "{} bytes, {} before, {:.0} s",
-            extended.len(),
-            bytes.len(),
-            started.elapsed().as_secs_f64()
-        );
-        replace_file(out, &extended)?;
-        return Ok(());
+        let time = started.elapsed().as_secs_f64();
+        write(&[(&target, &extended)])?;
+        let (new, old) = (extended.len(), bytes.len());
+        let text = format!("{new} bytes, {old} before, {time:.0} s\n");
+        return Ok(std::io::Write::write_all(
+            &mut target.report(),
+            text.as_bytes(),
+        )?);
     }
     let visibilities: Vec<f64> = match args.visibilities.is_empty() {
         true => nodes,

@@ -6,7 +6,6 @@ pub mod build;
 pub mod chart;
 pub mod finite;
 pub mod judge;
-mod output;
 pub mod picture;
 mod plan;
 pub mod trace;

@@ -1,11 +1,11 @@
 //! `welkin-fit picture`: path-traced pictures of sky, ground and simple things on it.
 
-use super::output::write_whole;
 use super::trace::AerosolArg;
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
+use welkin::output::{Target, write};
 use welkin_fitter::atmosphere::{Particles, real_with};
 use welkin_fitter::picture::camera::{Camera, Projection};
 use welkin_fitter::picture::ground::{Ground, Pattern};
@@ -88,13 +88,13 @@ pub struct Args {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// EXR to write: linear sRGB in cd m⁻².
+    /// EXR to write: linear sRGB in cd m⁻²; - for standard output. Of two files the EXR is renamed first.
     #[arg(long, required_unless_present = "png")]
     exr: Option<PathBuf>,
     /// Put the spectrum into the EXR, too.
     #[arg(long, requires = "exr")]
     spectral: bool,
-    /// PNG to write.
+    /// PNG to write; - for standard output.
     #[arg(long)]
     png: Option<PathBuf>,
     /// Luminance of display white in the PNG, cd m⁻²; without it, three times the picture's geometric mean.
@@ -157,6 +157,11 @@ pub fn run(args: &Args) -> Result<()> {
             .is_none_or(|white| white.is_finite() && white > 0.0),
         "--white is not positive"
     );
+    let [exr, png] = [&args.exr, &args.png].map(|path| path.as_ref().map(Target::new));
+    ensure!(exr != png, "--exr and --png are the same");
+    for target in exr.iter().chain(&png) {
+        target.check()?;
+    }
     let particles = match args.aerosol {
         AerosolArg::Mie => Particles::Mie,
         _ => Particles::HenyeyGreenstein,
@@ -170,17 +175,18 @@ pub fn run(args: &Args) -> Result<()> {
     let done = || bar.inc(1);
     let picture = render(&tracer, &args.wavelengths, &scene, &args.settings(), &done)?;
     bar.finish();
-    if let Some(path) = &args.exr {
+    let mut files = Vec::new();
+    if let Some(target) = &exr {
         let spectrum = args.spectral.then_some(args.wavelengths.as_slice());
-        write_whole(path, &image::exr(&picture, spectrum)?)?;
+        files.push((target, image::exr(&picture, spectrum)?));
     }
-    if let Some(path) = &args.png {
-        let white = args
-            .white
-            .unwrap_or_else(|| image::automatic_white(&picture));
-        write_whole(path, &image::png(&picture, white)?)?;
+    if let Some(target) = &png {
+        let automatic = || image::automatic_white(&picture);
+        let white = args.white.unwrap_or_else(automatic);
+        files.push((target, image::png(&picture, white)?));
     }
-    Ok(())
+    let files: Vec<_> = files.iter().map(|(t, b)| (*t, b.as_slice())).collect();
+    Ok(write(&files)?)
 }
 
 impl Args {

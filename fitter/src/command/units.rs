@@ -1,10 +1,10 @@
 //! `welkin-fit units`: the work units of a plan, for schedulers that spread them over many machines.
 
-use super::output::write_whole;
 use super::plan::PlanArgs;
 use anyhow::{Result, ensure};
 use clap::Subcommand;
 use std::io::Write;
+use welkin::output::replace_file;
 use welkin_fitter::dataset::State;
 use welkin_fitter::manifest::manifest;
 use welkin_fitter::progress::bar;
@@ -74,7 +74,8 @@ pub fn run(args: &Args) -> Result<()> {
         Action::Run { plan, which } => work(plan, which),
         Action::Manifest { plan } => {
             let text = serde_json::to_string_pretty(&manifest(&plan.plan()?, &plan.plan.work)?)?;
-            write_whole(&plan.plan.work.join("manifest.json"), text.as_bytes())
+            let file = plan.plan.work.join("manifest.json");
+            Ok(replace_file(file, text.as_bytes())?)
         }
     }
 }

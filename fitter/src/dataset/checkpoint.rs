@@ -3,8 +3,9 @@
 use anyhow::{Context, Result, ensure};
 use cpu_time::ProcessTime;
 use std::fs;
-use std::io::{ErrorKind, Read, Write};
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
+use welkin::output::{replace_file, sweep};
 
 /// A folder of unit files. Every file carries the key of the settings that made it; others are not trusted.
 #[derive(Clone, Debug)]
@@ -45,7 +46,7 @@ impl Store {
         let values = compute()?;
         self.save(name, &values)?;
         let cost = format!("{:.3}\n", start.elapsed().as_secs_f64());
-        self.persist(&self.path(name, COST), &[cost.as_bytes()])?;
+        replace_file(self.path(name, COST), cost.as_bytes())?;
         Ok(values)
     }
 
@@ -79,6 +80,7 @@ impl Store {
     /// Removes all units, and the folder if nothing else is in it.
     pub fn clear(self) -> Result<()> {
         let context = || format!("cannot clear {}", self.folder.display());
+        sweep(&self.folder)?;
         for entry in fs::read_dir(&self.folder).with_context(context)? {
             let path = entry.with_context(context)?.path();
             if path.extension().is_some_and(|e| e == UNIT || e == COST) {
@@ -170,18 +172,10 @@ impl Store {
     }
 
     fn write(&self, name: &str, body: &[u8]) -> Result<()> {
-        self.persist(&self.path(name, UNIT), &[&self.header(body), body])
-    }
-
-    fn persist(&self, path: &Path, parts: &[&[u8]]) -> Result<()> {
-        let context = || format!("cannot write {}", path.display());
-        let mut file = tempfile::NamedTempFile::new_in(&self.folder).with_context(context)?;
-        for part in parts {
-            file.write_all(part).with_context(context)?;
-        }
-        file.as_file().sync_all().with_context(context)?;
-        file.persist(path).with_context(context)?;
-        Ok(())
+        Ok(replace_file(
+            self.path(name, UNIT),
+            &[&self.header(body), body].concat(),
+        )?)
     }
 
     fn path(&self, name: &str, extension: &str) -> PathBuf {
@@ -261,8 +255,12 @@ mod tests {
         let again = store.unit_f64("x", || panic!("computed twice"));
         assert_eq!(again.unwrap(), values);
         fs::write(folder.join("foreign"), "").unwrap();
+        // Of a writer that was killed.
+        let half = folder.join(".welkin-0badcafe-0.tmp");
+        fs::write(&half, "ha").unwrap();
         store.clear().unwrap();
         assert!(folder.join("foreign").exists() && !folder.join("x.unit").exists());
+        assert!(!half.exists());
         Store::open(&folder, "a").unwrap().clear().unwrap();
     }
 }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use welkin::format::printable;
+use welkin::output::Target;
 
 pub type Result<T> = std::result::Result<T, Failure>;
 
@@ -32,7 +33,15 @@ impl Failure {
 
 impl From<welkin::Error> for Failure {
     fn from(error: welkin::Error) -> Self {
-        Self::Message(describe(&error))
+        match &error {
+            welkin::Error::Io { path, source }
+                if source.kind() == io::ErrorKind::BrokenPipe
+                    && *path == Path::new(&Target::Standard.to_string()) =>
+            {
+                Self::BrokenPipe
+            }
+            _ => Self::Message(describe(&error)),
+        }
     }
 }
 

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use welkin::Haze;
-use welkin::format::{printable, replace_file};
+use welkin::output;
 
 use crate::Source;
 use crate::camera::{Camera, Lens};
 use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
+use crate::naming::{self, Named};
 use crate::scene::Scene;
 
 /// First bytes of a raw volume.
@@ -41,9 +42,19 @@ pub struct Options {
     /// All wavelengths of the model instead of linear sRGB.
     #[arg(long)]
     spectral: bool,
-    /// The volume: .exr (six channels per slice, or two per wavelength) or .raw (a header of 64 bytes, then single precision).
+    /// The volume: .exr (six channels per slice, or two per wavelength) or .raw (a header of 64 bytes, then single precision);
+    /// - for standard output.
     #[arg(long, default_value = "froxels.exr", value_name = "FILE")]
     out: PathBuf,
+    /// What to write where the name does not tell.
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Exr,
+    Raw,
 }
 
 fn size(text: &str) -> std::result::Result<[usize; 3], String> {
@@ -68,6 +79,12 @@ pub fn run(options: &Options) -> Result<()> {
             "near and far must be positive, near the smaller, far at most 10000 km",
         ));
     }
+    let formats = [(Format::Exr, "exr"), (Format::Raw, "raw")];
+    let Some(Named { format, target }) = naming::named(&options.out, options.format, &formats)?
+    else {
+        return Err(Failure::message("the volume is written as .exr or .raw"));
+    };
+    target.check()?;
     let model = options.source.open()?;
     let haze = model.haze(&options.scene.conditions(options.altitude))?;
     let [width, height, _] = options.size;
@@ -76,19 +93,13 @@ pub fn run(options: &Options) -> Result<()> {
     let start = Instant::now();
     let volume = fill(options, &haze, &camera)?;
     let time = start.elapsed();
-    let extension = options.out.extension().map(|e| e.to_ascii_lowercase());
-    let bytes = match extension.as_ref().and_then(|e| e.to_str()) {
-        Some("exr") => layers(&volume)?,
-        Some("raw") => raw(options, &volume),
-        _ => return Err(Failure::message("the volume is written as .exr or .raw")),
+    let bytes = match format {
+        Format::Exr => layers(&volume)?,
+        Format::Raw => raw(options, &volume),
     };
-    replace_file(&options.out, &bytes)?;
-    let mut out = std::io::stdout().lock();
-    writeln!(
-        out,
-        "wrote           {}",
-        printable(&options.out.display().to_string())
-    )?;
+    output::write(&[(&target, &bytes)])?;
+    let mut out = target.report();
+    writeln!(out, "wrote           {target}")?;
     writeln!(
         out,
         "time            {:.0} ms for {} froxels",

@@ -7,6 +7,7 @@ mod froxels;
 mod image;
 mod info;
 mod landscape;
+mod naming;
 mod picture;
 mod plan;
 mod polarised;
@@ -106,6 +107,9 @@ impl Source {
 }
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    // Without, the next write cleans up.
+    let _ = welkin::output::abandon_on_signals();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse_arguments(&error),

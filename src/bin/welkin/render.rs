@@ -1,15 +1,16 @@
 //! `welkin render`.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
-use welkin::format::{printable, replace_file};
+use welkin::output::{self, Target};
 use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
 use crate::failure::{Failure, Result, fixed, plain};
 use crate::landscape::{self, Landscape};
+use crate::naming::{self, Named};
 use crate::picture::{Picture, View, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
@@ -43,9 +44,13 @@ pub struct Options {
     /// Height of the picture, pixels; lat-long is twice as wide.
     #[arg(long, default_value_t = 768, value_parser = clap::value_parser!(u16).range(1..=16384), value_name = "PIXELS")]
     size: u16,
-    /// Base name for an EXR and a PNG, or the name of one of them with its extension.
+    /// Base name for an EXR and a PNG, or the name of one of them with its extension; - for standard output. What begins with a digit
+    /// is no extension.
     #[arg(long, default_value = "sky", value_name = "FILE")]
     out: PathBuf,
+    /// Write only this, to the very file that --out names, where its name does not tell.
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Write the EXR with one channel per wavelength (W m⁻² sr⁻¹ nm⁻¹) instead of linear sRGB (cd m⁻²).
     #[arg(long)]
     spectral: bool,
@@ -68,6 +73,18 @@ pub struct Options {
     exposure: Option<f64>,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    Exr,
+    Png,
+}
+
+/// Where the files of a picture go, as far as they are wanted.
+struct Outputs {
+    exr: Option<Target>,
+    png: Option<Target>,
+}
+
 fn exposure(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (-60.0..=60.0).contains(&value) => Ok(value),
@@ -84,18 +101,53 @@ impl Options {
         Ok(conditions)
     }
 
-    /// Paths of the EXR and the PNG, as far as they are wanted.
-    fn outputs(&self) -> [Option<PathBuf>; 2] {
-        let extension = self.out.extension().map(|e| e.to_ascii_lowercase());
+    /// Where to write, checked.
+    fn outputs(&self) -> Result<Outputs> {
+        let formats = [(Format::Exr, "exr"), (Format::Png, "png")];
+        let named = naming::named(&self.out, self.format, &formats)?;
+        Target::new(&self.out).check()?;
         let with = |extension: &str| {
             let mut path = self.out.clone().into_os_string();
             path.push(extension);
-            Some(PathBuf::from(path))
+            Some(Target::Path(path.into()))
         };
-        match extension.as_ref().and_then(|e| e.to_str()) {
-            Some("exr") => [Some(self.out.clone()), None],
-            Some("png") => [None, Some(self.out.clone())],
-            _ => [with(".exr"), with(".png")],
+        let [exr, png] = match named {
+            Some(Named {
+                format: Format::Exr,
+                target,
+            }) => [Some(target), None],
+            Some(Named { target, .. }) => [None, Some(target)],
+            None => [with(".exr"), with(".png")],
+        };
+        for target in exr.iter().chain(&png) {
+            target.check()?;
+        }
+        Ok(Outputs { exr, png })
+    }
+}
+
+impl Outputs {
+    fn wanted(&self) -> Wanted {
+        let [exr, png] = [&self.exr, &self.png].map(Option::is_some);
+        Wanted { exr, png }
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Target> {
+        self.exr.iter().chain(&self.png)
+    }
+
+    /// Both of a picture, or none: first the EXR gets its name, then the PNG.
+    fn write(&self, picture: &Picture) -> Result<()> {
+        let bytes = picture.exr.iter().chain(&picture.png);
+        let files: Vec<_> = self.all().zip(bytes.map(Vec::as_slice)).collect();
+        Ok(output::write(&files)?)
+    }
+
+    /// Where to say what was done.
+    fn report(&self) -> Box<dyn Write> {
+        match self.all().next() {
+            Some(target) => target.report(),
+            None => Box::new(std::io::stdout()),
         }
     }
 }
@@ -110,7 +162,7 @@ impl Options {
     }
 
     /// The picture of a landscape and the number of its pixels.
-    fn scene(&self, landscape: &Landscape, white: f32) -> Result<(Picture, usize)> {
+    fn scene(&self, landscape: &Landscape, white: f32, wanted: Wanted) -> Result<(Picture, usize)> {
         if self.spectral || self.stokes || self.quantity != Quantity::Radiance {
             let text = "landscapes are in colour only, without --spectral, --stokes and --quantity";
             return Err(Failure::message(text));
@@ -118,8 +170,7 @@ impl Options {
         let height = usize::from(self.size);
         let size = [(height as f64 * landscape::ASPECT) as usize, height];
         let pixels = landscape.pixels(size)?;
-        let [exr, png] = self.outputs().map(|path| path.is_some());
-        let picture = Picture::of_pixels(size, &pixels, white, Wanted { exr, png })?;
+        let picture = Picture::of_pixels(size, &pixels, white, wanted)?;
         Ok((picture, pixels.len()))
     }
 
@@ -129,9 +180,8 @@ impl Options {
         sky: &Sky,
         polarised: Option<&PolarisedSky>,
         white: f32,
+        wanted: Wanted,
     ) -> Result<Picture> {
-        let [exr, png] = self.outputs().map(|path| path.is_some());
-        let wanted = Wanted { exr, png };
         match polarised {
             Some(polarised) if self.quantity != Quantity::Radiance => {
                 let colouring = Colouring {
@@ -147,6 +197,8 @@ impl Options {
 }
 
 pub fn run(options: &Options) -> Result<()> {
+    let outputs = options.outputs()?;
+    let wanted = outputs.wanted();
     let start = Instant::now();
     let model = options.source.open()?;
     let conditions = options.conditions(&model)?;
@@ -171,16 +223,19 @@ pub fn run(options: &Options) -> Result<()> {
         None => automatic_white(&sky)?,
     };
     let (picture, count) = match options.landscape.prepare(&model, &conditions, azimuth)? {
-        Some(landscape) => options.scene(&landscape, white as f32)?,
+        Some(landscape) => options.scene(&landscape, white as f32, wanted)?,
         None => {
-            let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32)?;
+            let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32, wanted)?;
             (picture, view.size[0] * view.size[1])
         }
     };
     let rendered = rendering.elapsed();
-    let written = write(options, picture)?;
-    report(options, &model, &sky, white, &written)?;
-    let mut out = std::io::stdout().lock();
+    outputs.write(&picture)?;
+    let mut out = outputs.report();
+    report(options, &model, &sky, white, &mut out)?;
+    for target in outputs.all() {
+        writeln!(out, "wrote           {target}")?;
+    }
     writeln!(
         out,
         "time            {:.2} ms to open and prepare, {:.0} ms for {count} pixels",
@@ -195,18 +250,6 @@ pub fn run(options: &Options) -> Result<()> {
         sky.bytes(),
     )?;
     Ok(())
-}
-
-fn write(options: &Options, picture: Picture) -> Result<Vec<PathBuf>> {
-    let [exr_path, png_path] = options.outputs();
-    let mut written = Vec::new();
-    for (path, bytes) in [(exr_path, picture.exr), (png_path, picture.png)] {
-        if let (Some(path), Some(bytes)) = (path, bytes) {
-            replace_file(&path, &bytes)?;
-            written.push(path);
-        }
-    }
-    Ok(written)
 }
 
 /// The luminance of display white that suits a sky, cd m⁻².
@@ -237,9 +280,8 @@ fn report(
     model: &Model,
     sky: &Sky,
     white: f64,
-    written: &[impl AsRef<Path>],
+    out: &mut dyn Write,
 ) -> Result<()> {
-    let mut out = std::io::stdout().lock();
     let conditions = sky.conditions();
     writeln!(
         out,
@@ -267,12 +309,5 @@ fn report(
         "exposure        EV {:.2}",
         (white / WHITE_AT_EV_0).log2()
     )?;
-    for path in written {
-        writeln!(
-            out,
-            "wrote           {}",
-            printable(&path.as_ref().display().to_string())
-        )?;
-    }
     Ok(())
 }

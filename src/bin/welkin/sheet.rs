@@ -3,12 +3,13 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use welkin::format::{printable, replace_file};
+use welkin::output::{self, Target};
 use welkin::{Conditions, Model};
 
 use crate::Source;
 use crate::failure::Result;
 use crate::image::{display, png_of_display};
+use crate::naming::{self, Named};
 use crate::picture::View;
 use crate::projection::Projection;
 use crate::render::automatic_white;
@@ -31,7 +32,7 @@ pub struct Options {
     /// Height of each sky, pixels.
     #[arg(long, default_value_t = 96, value_parser = clap::value_parser!(u16).range(16..=512), value_name = "PIXELS")]
     size: u16,
-    /// The PNG.
+    /// The PNG; - for standard output.
     #[arg(long, default_value = "contact-sheet.png", value_name = "FILE")]
     out: PathBuf,
 }
@@ -78,13 +79,16 @@ impl Canvas {
 }
 
 pub fn run(options: &Options) -> Result<()> {
+    let named = naming::named(&options.out, Some(()), &[((), "png")])?;
+    let target = named.map_or_else(|| Target::new(&options.out), |Named { target, .. }| target);
+    target.check()?;
     let model = options.source.open()?;
     let size = usize::from(options.size);
     let width = ELEVATIONS.len() * size;
     let rows = VISIBILITIES.len() * ALTITUDES.len();
     let large = width / BETWEEN.len();
     let mut canvas = Canvas::new([width, rows * size + large]);
-    let mut out = std::io::stdout().lock();
+    let mut out = target.report();
     writeln!(out, "columns: sun at {ELEVATIONS:?} degrees; rows:")?;
     let places = VISIBILITIES
         .into_iter()
@@ -109,12 +113,9 @@ pub fn run(options: &Options) -> Result<()> {
         let corner = [column * large, rows * size];
         canvas.paste(&model, &conditions, Projection::Up, large, corner)?;
     }
-    replace_file(&options.out, &png_of_display(canvas.size, &canvas.pixels)?)?;
-    writeln!(
-        out,
-        "wrote {}",
-        printable(&options.out.display().to_string())
-    )?;
+    let png = png_of_display(canvas.size, &canvas.pixels)?;
+    output::write(&[(&target, &png)])?;
+    writeln!(out, "wrote {target}")?;
     Ok(())
 }
 

@@ -4,12 +4,11 @@ mod rows;
 mod source;
 mod work;
 
-use super::output::write_whole;
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use rows::Row;
-use std::io::Write;
 use std::path::PathBuf;
+use welkin::output::{Target, write};
 use welkin_fitter::atmosphere::Atmosphere;
 use welkin_fitter::dataset::Store;
 use welkin_fitter::tracer::{self, Aerosol, Options, Tracer};
@@ -45,7 +44,7 @@ pub struct Args {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Output CSV; standard output if absent. Rows that are done are kept in FILE.unfinished until all are, and the same command goes
+    /// Output CSV; standard output if absent or -. Rows that are done are kept in FILE.unfinished until all are, and the same command goes
     /// on from there after an interruption.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -86,6 +85,10 @@ fn fraction(text: &str) -> Result<f64> {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
+    let target = Target::new(args.out.as_deref().unwrap_or("-".as_ref()));
+    if target != Target::Standard {
+        target.check()?;
+    }
     let source = args.source.load(args.aerosol)?;
     let (header, rows) = match &args.queries {
         Some(path) => rows::from_csv(path, &source)?,
@@ -99,22 +102,22 @@ pub fn run(args: &Args) -> Result<()> {
         target_error: args.target_error,
         max_seconds: args.max_seconds,
         seed: args.seed,
-        store: args.store(air, &rows)?,
+        store: args.store(&target, air, &rows)?,
     };
     let text = table(&header, &rows, air, &work.answers()?)?;
-    match &args.out {
-        Some(path) => write_whole(path, &text)?,
-        None => std::io::stdout().write_all(&text)?,
-    }
+    write(&[(&target, &text)])?;
     work.store.map_or(Ok(()), Store::clear)
 }
 
 impl Args {
-    /// Where finished rows are kept: beside the output, under all that decides about them.
-    fn store(&self, air: &Atmosphere, rows: &[Row]) -> Result<Option<Store>> {
-        let Some(out) = &self.out else {
+    /// Where finished rows are kept: beside the output if that is a file, under all that decides about them.
+    fn store(&self, target: &Target, air: &Atmosphere, rows: &[Row]) -> Result<Option<Store>> {
+        let Target::Path(out) = target else {
             return Ok(None);
         };
+        if target.is_stream() {
+            return Ok(None);
+        }
         let mut folder = out.clone().into_os_string();
         folder.push(".unfinished");
         let key = format!(

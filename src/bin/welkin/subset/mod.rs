@@ -12,8 +12,9 @@ use serde_json::{Value, json};
 use welkin::Model;
 use welkin::format::{
     Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, printable, printable_json, recode,
-    replace_file, unpack,
+    unpack,
 };
+use welkin::output::{self, Target};
 
 use crate::Source;
 use crate::failure::{Failure, Result, fixed, plain};
@@ -52,7 +53,7 @@ pub struct Options {
     /// Compress the chunks.
     #[arg(long)]
     zstd: bool,
-    /// The new file.
+    /// The new file; - for standard output.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Write the report as JSON.
@@ -81,6 +82,8 @@ impl Extra {
 }
 
 pub fn run(options: &Options) -> Result<()> {
+    let target = Target::new(&options.out);
+    target.check()?;
     let bytes = options.source.bytes()?;
     let name = options.source.name();
     let in_source = |error: welkin::Error| Failure::message(format!("{name}: {error}"));
@@ -117,7 +120,7 @@ pub fn run(options: &Options) -> Result<()> {
         false => ENCODING_RAW,
     };
     let file = recode(&encode(&head, &chunks)?, encoding)?;
-    replace_file(&options.out, &file)?;
+    output::write(&[(&target, &file)])?;
 
     report["file"] = json!(options.out.display().to_string());
     report["bytes"] = json!(file.len());
@@ -126,7 +129,7 @@ pub fn run(options: &Options) -> Result<()> {
     report["altitudes_m"] = json!(head.altitudes);
     report["visibilities_km"] = json!(kilometres(&head.visibilities));
     report["wavelengths_nm"] = json!(head.wavelengths);
-    print(&report, options.json)
+    print(&report, options.json, target.report())
 }
 
 fn wish(options: &Options, scope: Scope) -> Wish {
@@ -233,8 +236,7 @@ fn kilometres(metres: &[f64]) -> Vec<f64> {
     metres.iter().map(rounded).collect()
 }
 
-fn print(report: &Value, json: bool) -> Result<()> {
-    let mut out = std::io::stdout().lock();
+fn print(report: &Value, json: bool, mut out: impl Write) -> Result<()> {
     if json {
         writeln!(out, "{}", printable_json(&format!("{report:#}")))?;
         return Ok(());
