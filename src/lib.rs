@@ -30,8 +30,8 @@
 //! `format-spec/SPEC.md` and implemented in [`mod@format`].
 //!
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
-//! builds the command `welkin`, `signals` lets no signal leave temporary files behind ([`output`]). Without `std` (and with `libm`) what is left is [`General`], which needs neither the
-//! standard library nor an allocator.
+//! builds the command `welkin`, `signals` lets no signal leave temporary files behind (`welkin::output`). Without `std` (and
+//! with `libm`) what is left is [`General`], which needs neither the standard library nor an allocator.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without the standard library parts of the shared modules are not used.
