@@ -39,7 +39,8 @@ pub fn xyz(model: &Model, spectrum: &[f32]) -> [f32; 3] {
             sum = std::array::from_fn(|c| sum[c] + weights[c] * relative);
         }
     }
-    sum.map(|v| v as f32)
+    // Absurd files overflow; the result stays a number.
+    sum.map(|v| v.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32)
 }
 
 /// Sun and sky at one place.
