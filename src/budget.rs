@@ -3,8 +3,9 @@
 use crate::baked::{check_tolerance, largest_bytes};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
-use crate::general::{Chunks, General, HeadView};
+use crate::general::{Chunks, Factors, General, HeadView};
 use crate::model::{Key, Model};
+use crate::polarisation::PolarisedGeneral;
 
 /// What the skies of a scene are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,6 +142,33 @@ impl Model {
             chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
         }
         General::assemble(head, chunks)
+    }
+}
+
+impl Model {
+    /// Prepares general queries with Stokes vectors within a plan of this model for [`Channels::Stokes`], and reads what it asks for.
+    ///
+    /// # Errors
+    /// As [`Model::general`]; [`Error::MissingChunk`] for a plan without polarisation.
+    pub fn polarised_general(&self, plan: &Plan) -> Result<PolarisedGeneral<'_>> {
+        let general = self.general(plan)?;
+        let head = self.head();
+        let visibilities = head.visibilities.len();
+        let mut chunks = vec![None; head.altitudes.len() * visibilities];
+        if plan.budget.channels != Channels::Stokes {
+            return Err(Error::MissingChunk {
+                kind: Kind::Polarisation.name(),
+                altitude: None,
+                visibility: None,
+            });
+        }
+        let entries = plan.chunks.iter().map(|&i| &self.directory()[i]);
+        for entry in entries.filter(|entry| entry.kind == Kind::Polarisation) {
+            let [a, v] = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
+            chunks[a * visibilities + v] = Some(self.polarisation_chunk(a, v)?);
+        }
+        let factors = Factors::new(self.polarisation_basis()?, chunks, visibilities)?;
+        Ok(PolarisedGeneral::new(general, factors))
     }
 }
 

@@ -100,7 +100,7 @@ pub use model::DEFAULT_MODEL;
 #[cfg(feature = "std")]
 pub use model::Model;
 #[cfg(feature = "std")]
-pub use polarisation::{Frame, PolarisedSky, Stokes, StokesSpectra};
+pub use polarisation::{Frame, PolarisedGeneral, PolarisedSky, Stokes, StokesSpectra};
 #[cfg(feature = "std")]
 pub use sky::Sky;
 #[cfg(feature = "std")]

@@ -82,7 +82,12 @@ impl Row {
             false => random.between(-180.0, 180.0),
         };
         let radiance = quantity.contains("radiance");
-        let distance = match radiance || random.share() < 0.3 {
+        // A haze takes long to prepare.
+        let endless = match quantity {
+            "transmittance" | "in_scatter" => 0.3,
+            _ => 0.95,
+        };
+        let distance = match radiance || random.share() < endless {
             true => f64::INFINITY,
             false => 10f64.powf(random.between(0.0, 5.5)),
         };
@@ -215,7 +220,7 @@ fn random_rows_are_answered_as_by_what_is_prepared_for_them_alone() {
         // A haze takes twenty times as long to prepare as a sky.
         let count = match quantity {
             "transmittance" | "in_scatter" => 120,
-            "polarisation" | "stokes_q" | "stokes_u" => 150,
+            "polarisation" | "stokes_q" | "stokes_u" => 500,
             _ => 1500,
         };
         rows.extend((0..count).map(|_| (Row::random(quantity, &mut random), None)));

@@ -143,6 +143,42 @@ impl Light {
         }
     }
 
+    /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by wavelength.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub fn fields<const N: usize>(
+        &self,
+        place: &Place,
+        channels: &[f32; MOST_CHANNELS],
+        [sums, dipoles, grounds]: [&mut [f32; N]; 3],
+    ) {
+        let albedo = Lanes::splat(place.albedo as f32);
+        for b in 0..self.blocks {
+            let spherical = self.at(&self.spherical_albedo, 1, &place.visibilities.line, 0, b);
+            let ground = albedo / (Lanes::splat(1.0) - albedo * spherical);
+            let [mut sum, mut dipole] = [Lanes::splat(0.0); 2];
+            for f in 0..self.fields {
+                let (particles, reflected) = self.kind[f];
+                let mut value = load(channels, f * self.wavelengths + b * WIDTH);
+                if reflected {
+                    value = value * ground;
+                }
+                sum = sum + value * self.phase_at(place, f, b);
+                if !particles {
+                    dipole = dipole + value * self.phase[f * self.blocks + b][1];
+                }
+            }
+            let rows = [
+                (&mut *sums, sum),
+                (&mut *dipoles, dipole),
+                (&mut *grounds, ground),
+            ];
+            for (row, lanes) in rows {
+                row[b * WIDTH..][..WIDTH].copy_from_slice(&lanes.0);
+            }
+        }
+    }
+
     #[inline(always)]
     fn phase_at(&self, place: &Place, f: usize, b: usize) -> Block {
         let [p, q, r] = self.phase[f * self.blocks + b];

@@ -8,6 +8,8 @@ mod head;
 mod light;
 mod place;
 mod query;
+#[cfg(feature = "std")]
+mod stokes;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -22,10 +24,14 @@ use contract::{MOST_CHANNELS, MOST_RANK, WIDTH};
 pub(crate) use head::HeadView;
 use light::Light;
 use query::One;
+#[cfg(feature = "std")]
+pub(crate) use stokes::{Factors, Parts};
 
 /// Most wavelengths, in vectors, and most constituents that this evaluator has room for.
 const WAVELENGTH_BLOCKS: usize = 8;
 const MOST_CONSTITUENTS: usize = 16;
+#[cfg(feature = "std")]
+const MOST_WAVELENGTHS: usize = WAVELENGTH_BLOCKS * WIDTH;
 
 /// A model, evaluated where it stands: for queries that share nothing, like those of path vertices at any altitude.
 ///
@@ -130,6 +136,12 @@ impl<'a> General<'a> {
     /// Wavelengths of the results, nm.
     pub fn wavelengths(&self) -> impl ExactSizeIterator<Item = f64> {
         self.head.wavelengths.iter().map(|l| l.get())
+    }
+
+    /// Solar spectral irradiance (W m⁻² nm⁻¹) at a wavelength, nm.
+    #[cfg(feature = "std")]
+    pub(crate) fn solar_irradiance(&self, wavelength: f64) -> f32 {
+        self.head.solar_irradiance(wavelength)
     }
 
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at each of [`General::wavelengths`]; frame and meaning as of

@@ -35,19 +35,12 @@ impl Kernel for One<'_, '_> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
         let place = Place::new(model, &question);
-        let mut query = Query {
-            model,
-            place: &place,
-            columns: [None; MOST_ALTITUDES],
-            chunks: [None; MOST_AROUND],
-        };
-        query.look_around()?;
-        query.answer(instructions, self.out)
+        Query::around(model, &place)?.answer(instructions, self.out)
     }
 }
 
 /// Where a query stands, and the chunks around it.
-struct Query<'a, 'b> {
+pub(super) struct Query<'a, 'b> {
     model: &'b General<'a>,
     place: &'b Place,
     columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
@@ -55,7 +48,19 @@ struct Query<'a, 'b> {
 }
 
 impl<'a, 'b> Query<'a, 'b> {
-    /// Finds the chunks.
+    /// Finds the chunks around a place.
+    #[inline(always)]
+    pub fn around(model: &'b General<'a>, place: &'b Place) -> Result<Self> {
+        let mut query = Query {
+            model,
+            place,
+            columns: [None; MOST_ALTITUDES],
+            chunks: [None; MOST_AROUND],
+        };
+        query.look_around()?;
+        Ok(query)
+    }
+
     #[inline(always)]
     fn look_around(&mut self) -> Result<()> {
         let Self { model, place, .. } = *self;
@@ -95,9 +100,24 @@ impl<'a, 'b> Query<'a, 'b> {
         contract::fetch_level(instructions, chunk, n, &self.place.curve[1]);
     }
 
-    /// Sums the chunks, asking for each a few ahead of its turn.
     #[inline(always)]
     fn answer<I: Instructions>(&self, instructions: I, out: &mut [f32]) -> Result<()> {
+        let Self { model, place, .. } = self;
+        let mut channels = [0.0; MOST_CHANNELS];
+        let level = self.sum(instructions, &mut channels)?;
+        model
+            .light
+            .mix(place, &channels, &level, &self.densities(), out);
+        Ok(())
+    }
+
+    /// Sums the chunks in each channel, asking for each a few ahead of its turn; returns ln S.
+    #[inline(always)]
+    pub fn sum<I: Instructions>(
+        &self,
+        instructions: I,
+        channels: &mut contract::Channels,
+    ) -> Result<contract::Spectrum> {
         let Self { model, place, .. } = self;
         let basis = model.chunks.basis();
         let basis = basis.ok_or_else(|| model.missing("radiance basis", None, None))?;
@@ -122,13 +142,8 @@ impl<'a, 'b> Query<'a, 'b> {
             contract::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
         }
         contract::turn(instructions, basis, &place.phi, &mut components);
-        let mut channels = [0.0; MOST_CHANNELS];
-        contract::project(instructions, basis, &components, &mut channels);
-        let level = contract::level(&level, wavelengths, &place.curve[1]);
-        model
-            .light
-            .mix(place, &channels, &level, &self.densities(), out);
-        Ok(())
+        contract::project(instructions, basis, &components, channels);
+        Ok(contract::level(&level, wavelengths, &place.curve[1]))
     }
 
     /// The factor matrix on the ray's side of the horizon.
@@ -142,7 +157,7 @@ impl<'a, 'b> Query<'a, 'b> {
 
     /// ln n̄ of each constituent.
     #[inline(always)]
-    fn densities(&self) -> [f32; MOST_CONSTITUENTS] {
+    pub fn densities(&self) -> [f32; MOST_CONSTITUENTS] {
         let shape = &self.model.head.shape;
         let n = shape.constituents;
         let skipped = match self.place.ray.side {
@@ -169,7 +184,7 @@ impl<'a, 'b> Query<'a, 'b> {
 
 impl General<'_> {
     #[cold]
-    fn missing(
+    pub(super) fn missing(
         &self,
         kind: &'static str,
         altitude: Option<usize>,

@@ -174,13 +174,7 @@ impl PolarisedSky {
     ) -> Result<()> {
         let lookup = self.sky.lookup(direction)?;
         let aspect = self.sky.aspect(direction);
-        let (c, s) = aspect.plane.turn(frame)?;
-        let turn = |[q, u]: [f64; 2]| [c * q + s * u, c * u - s * q].map(|v| v as f32);
-        let mix = Mix {
-            single: turn(aspect.plane.single()),
-            from_q: turn([1.0, 0.0]),
-            from_u: turn([0.0, aspect.sine]),
-        };
+        let mix = Mix::new(&aspect, frame)?;
         self.polarisation
             .evaluate(self.sky.tables(), &lookup, &mix, emit);
         Ok(())

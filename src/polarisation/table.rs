@@ -1,5 +1,7 @@
 //! Multiply scattered Q and U of one sky, and the inner loop that adds the singly scattered light.
 
+use super::aspect::{Aspect, Frame};
+use crate::error::Result;
 use crate::math::{LANES, bound};
 use crate::tables::{Lookup, Polarisable, Tables};
 
@@ -48,6 +50,35 @@ pub(super) struct Mix {
     pub single: [f32; 2],
     pub from_q: [f32; 2],
     pub from_u: [f32; 2],
+}
+
+impl Mix {
+    /// In a direction seen from the sun.
+    #[inline(always)]
+    pub fn new(aspect: &Aspect, frame: Frame) -> Result<Self> {
+        let (c, s) = aspect.plane.turn(frame)?;
+        let turn = |[q, u]: [f64; 2]| [c * q + s * u, c * u - s * q].map(|v| v as f32);
+        Ok(Self {
+            single: turn(aspect.plane.single()),
+            from_q: turn([1.0, 0.0]),
+            from_u: turn([0.0, aspect.sine]),
+        })
+    }
+
+    /// Q or U, from what Rayleigh scattering polarises and the table's Q and U.
+    #[inline(always)]
+    pub fn part(
+        &self,
+        s: usize,
+        dipole: &[f32; LANES],
+        q: &[f32; LANES],
+        u: &[f32; LANES],
+    ) -> [f32; LANES] {
+        core::array::from_fn(|i| {
+            let scattered = self.from_q[s] * q[i] + self.from_u[s] * u[i];
+            self.single[s] * dipole[i] + scattered
+        })
+    }
 }
 
 impl Polarisation {

@@ -2,8 +2,8 @@
 
 use welkin::{
     BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Frame,
-    General, GeneralHaze, Haze, Interpolation, Model, PolarisedSky, Result, Sky, Stokes,
-    StokesSpectra, SunDisc,
+    General, GeneralHaze, Haze, Interpolation, Model, PolarisedGeneral, PolarisedSky, Result, Sky,
+    Stokes, StokesSpectra, SunDisc,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -113,7 +113,7 @@ impl Asker {
                     self.foreground(&haze, sky, polarised);
                 }
             }
-            self.plan(&model, &conditions);
+            self.plan(&model, &conditions, wavelength);
             if let Some(mut haze) = self.allowed("general haze", model.general_haze()) {
                 self.general_haze(&mut haze, &conditions, wavelength);
             }
@@ -351,7 +351,7 @@ impl Asker {
         }
     }
 
-    fn plan(&mut self, model: &Model, conditions: &Conditions) {
+    fn plan(&mut self, model: &Model, conditions: &Conditions, wavelength: f64) {
         for channels in [Channels::Spectral, Channels::Colour, Channels::Stokes] {
             let plan = model.plan(&Budget {
                 altitude: [conditions.altitude; 2],
@@ -362,6 +362,33 @@ impl Asker {
             });
             let plan = plan.expect("conditions of the model");
             self.finite("plan", [plan.error_median, plan.error_p99]);
+            if channels == Channels::Stokes {
+                let general = self.allowed("polarised general", model.polarised_general(&plan));
+                if let Some(general) = general {
+                    self.polarised_general(&general, conditions, wavelength);
+                }
+            }
+        }
+    }
+
+    fn polarised_general(
+        &mut self,
+        general: &PolarisedGeneral,
+        conditions: &Conditions,
+        wavelength: f64,
+    ) {
+        let mut out = vec![Stokes::default(); general.wavelengths().len()];
+        for direction in DIRECTIONS {
+            for frame in FRAMES {
+                let answer = general.stokes(conditions, direction, frame, &mut out);
+                if self.allowed("polarised general", answer).is_some() {
+                    self.stokes("polarised general", &out);
+                }
+                let at = general.stokes_at(conditions, direction, frame, wavelength);
+                if let Some(at) = self.allowed("polarised general", at) {
+                    self.stokes("polarised general, at a wavelength", &[at]);
+                }
+            }
         }
     }
 }

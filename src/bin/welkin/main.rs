@@ -4,9 +4,12 @@ mod camera;
 mod difference;
 mod failure;
 mod froxels;
+mod ground;
 mod image;
 mod info;
+mod irradiance;
 mod landscape;
+mod light;
 mod naming;
 mod picture;
 mod plan;
@@ -50,6 +53,8 @@ enum Command {
     ContactSheet(sheet::Options),
     /// Write aerial perspective as a camera-aligned volume for real-time engines.
     Froxels(froxels::Options),
+    /// Say what sun and sky give a level plane, and how bright the sun's disc is: lights to go with an environment map.
+    Light(light::Options),
     /// Answer the rows of a CSV table with values.
     Query(query::Options),
     /// Describe a model file.
@@ -118,6 +123,7 @@ fn main() -> ExitCode {
         Command::Render(options) => render::run(options).map(done),
         Command::ContactSheet(options) => sheet::run(options).map(done),
         Command::Froxels(options) => froxels::run(options).map(done),
+        Command::Light(options) => light::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),
         Command::Info(options) => info::run(options).map(done),
         Command::Plan(options) => plan::run(options).map(done),
@@ -145,7 +151,7 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             ExitCode::SUCCESS
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
-            "a command is missing: render, froxels, contact-sheet, query, info, plan, subset or verify (see welkin --help)",
+            "a command is missing: render, froxels, contact-sheet, light, query, info, plan, subset or verify (see welkin --help)",
         ),
         _ => {
             let text = error.render().to_string();

@@ -3,6 +3,7 @@
 use welkin::{PolarisedSky, Sky};
 
 use crate::failure::Result;
+use crate::ground::Ground;
 use crate::image::{Planes, exr, png, png_of_display};
 use crate::polarised::{self, Colouring};
 use crate::projection::Projection;
@@ -90,6 +91,8 @@ pub struct View {
     pub size: [usize; 2],
     /// Azimuth of the view, rad.
     pub azimuth: f64,
+    /// What is below the horizon; black if absent.
+    pub ground: Option<Ground>,
 }
 
 impl View {
@@ -107,9 +110,15 @@ impl View {
 
     /// Linear sRGB, cd m⁻²; black outside the fish-eye.
     pub fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
-        let pixel = |direction: Option<[f32; 3]>| match direction {
-            Some(direction) => sky.linear_srgb(direction),
-            None => Ok([0.0; 3]),
+        let pixel = |direction: Option<[f32; 3]>| {
+            let Some(direction) = direction else {
+                return Ok([0.0; 3]);
+            };
+            let mut rgb = sky.linear_srgb(direction)?;
+            if let Some(ground) = &self.ground {
+                ground.add_srgb(direction, &mut rgb)?;
+            }
+            Ok(rgb)
         };
         self.directions().map(pixel).collect()
     }
@@ -121,6 +130,9 @@ impl View {
         for (i, direction) in self.directions().enumerate() {
             if let Some(direction) = direction {
                 sky.radiance(direction, &mut radiance)?;
+                if let Some(ground) = &self.ground {
+                    ground.add(direction, &mut radiance)?;
+                }
                 planes
                     .iter_mut()
                     .zip(&radiance)

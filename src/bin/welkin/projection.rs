@@ -11,13 +11,17 @@ pub enum Projection {
     Side,
     /// Whole sphere, zenith in the top row, the view azimuth in the middle column.
     LatLong,
+    /// Faces of a cube one below the other: +X, −X, +Y, −Y, +Z, −Z, of a left-handed frame with +Z in the view azimuth and +Y at the
+    /// zenith.
+    Cube,
 }
 
 impl Projection {
-    /// Width and height in pixels of a picture of the given height.
+    /// Width and height in pixels of a picture, or of all faces of one, of the given height.
     pub fn dimensions(self, height: usize) -> [usize; 2] {
         match self {
             Projection::LatLong => [2 * height, height],
+            Projection::Cube => [height, 6 * height],
             _ => [height, height],
         }
     }
@@ -35,6 +39,7 @@ impl Projection {
                 let (y, x) = (-right * PI).sin_cos();
                 Some([horizontal * x, horizontal * y, z])
             }
+            Projection::Cube => Some(cube([column, row], width)),
         }
     }
 
@@ -52,6 +57,23 @@ impl Projection {
         let (sine, cosine) = (azimuth % TAU).sin_cos();
         Some([cosine * x - sine * y, sine * x + cosine * y, z].map(|v| v as f32))
     }
+}
+
+/// The centre of a pixel of a cube with edges of so many pixels.
+fn cube([column, row]: [usize; 2], size: usize) -> [f64; 3] {
+    let place = |pixel: usize| (pixel as f64 + 0.5) / size as f64 * 2.0 - 1.0;
+    let (s, t) = (place(column), place(row % size));
+    // The table of the OpenGL specification, 8.13.
+    let [right, up, forward] = match row / size {
+        0 => [1.0, -t, -s],
+        1 => [-1.0, -t, s],
+        2 => [s, 1.0, t],
+        3 => [s, -1.0, -t],
+        4 => [s, -t, 1.0],
+        _ => [-s, -t, -1.0],
+    };
+    let shrink = 1.0 / (1.0 + s * s + t * t).sqrt();
+    [forward * shrink, -right * shrink, up * shrink]
 }
 
 /// Components to the right, upwards and forwards of a hemisphere, equidistant.
@@ -114,5 +136,106 @@ mod tests {
             [0.0, 1.0, 0.0],
         );
         assert!(Projection::Up.direction([0, 0], [9, 9], 0.0).is_none());
+    }
+
+    /// Every pixel of a small lat-long picture.
+    fn lat_long(azimuth: f64) -> impl Iterator<Item = ([f64; 2], [f64; 3])> {
+        let size = [36, 18];
+        let pixels =
+            (0..size[0]).flat_map(move |column| (0..size[1]).map(move |row| [column, row]));
+        pixels.map(move |pixel| {
+            let direction = Projection::LatLong.direction(pixel, size, azimuth).unwrap();
+            let place = std::array::from_fn(|i| (pixel[i] as f64 + 0.5) / size[i] as f64);
+            (place, direction.map(f64::from))
+        })
+    }
+
+    /// Where renderers look up a direction, from the left and from the top, against where this program puts it.
+    fn assert_looked_up(look_up: impl Fn([f64; 3]) -> [f64; 2]) {
+        for (place, direction) in lat_long(0.0) {
+            let [u, v] = look_up(direction);
+            let across = (u - place[0]).rem_euclid(1.0);
+            assert!(
+                across.min(1.0 - across) < 1e-6,
+                "{direction:?} {u} {place:?}"
+            );
+            assert!((v - place[1]).abs() < 1e-6, "{direction:?} {v} {place:?}");
+        }
+    }
+
+    #[test]
+    fn blender_needs_no_rotation() {
+        // `direction_to_equirectangular` of Cycles, whose v counts from below.
+        assert_looked_up(|[x, y, z]| {
+            let u = -y.atan2(x) / TAU + 0.5;
+            let v = z.acos() / -PI + 1.0;
+            [u, 1.0 - v]
+        });
+    }
+
+    #[test]
+    fn mitsuba_turns_by_a_quarter_about_x_and_then_about_z() {
+        // `to_world` = rotate(z, 90°) · rotate(x, 90°), undone from left to right; then the look-up of `envmap`.
+        assert_looked_up(|[x, y, z]| {
+            let [x, y, z] = [y, -x, z];
+            let [x, y, z] = [x, z, -y];
+            [x.atan2(-z) / TAU, y.acos() / PI]
+        });
+    }
+
+    #[test]
+    fn lat_long_is_as_documented() {
+        let azimuth = 0.7;
+        for ([column, row], [x, y, z]) in lat_long(azimuth) {
+            let u = (0.5 - (y.atan2(x) - azimuth) / TAU).rem_euclid(1.0);
+            assert!((u - column).abs() < 1e-6 && (z.acos() / PI - row).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn cube_faces_look_where_they_should() {
+        // Odd, so that faces have a middle.
+        let n = 101;
+        let size = Projection::Cube.dimensions(n);
+        assert_eq!(size, [n, 6 * n]);
+        let at = |face: usize, column: usize, row: usize| {
+            let pixel = [column, face * n + row];
+            Projection::Cube.direction(pixel, size, 0.0).unwrap()
+        };
+        let (middle, last) = (n / 2, n - 1);
+        let forward = [1.0, 0.0, 0.0];
+        let [left, up] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let minus = |v: [f32; 3]| v.map(|v| -v);
+        // Middle, then what is at the right and at the top of each face.
+        let faces = [
+            [minus(left), minus(forward), up],
+            [left, forward, up],
+            [up, minus(left), minus(forward)],
+            [minus(up), minus(left), forward],
+            [forward, minus(left), up],
+            [minus(forward), left, up],
+        ];
+        let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
+        for (face, [centre, right, top]) in faces.into_iter().enumerate() {
+            assert!(dot(at(face, middle, middle), centre) > 0.999_99, "{face}");
+            for (pixel, towards) in [(at(face, last, middle), right), (at(face, middle, 0), top)] {
+                assert!((dot(pixel, centre) - 0.71).abs() < 0.01, "{face} {pixel:?}");
+                assert!((dot(pixel, towards) - 0.7).abs() < 0.01, "{face} {pixel:?}");
+            }
+        }
+        // Every pixel looks through the cell of the sphere that is its own: solid angles add up to all of it.
+        let mut sum = 0.0;
+        for row in 0..size[1] {
+            for column in 0..n {
+                let d = Projection::Cube
+                    .direction([column, row], size, 0.4)
+                    .unwrap();
+                let longest = Projection::Cube.local([column, row], size).unwrap();
+                let longest = longest.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+                sum += longest.powi(3) * (2.0 / n as f64).powi(2);
+                assert!((dot(d, d) - 1.0).abs() < 1e-5);
+            }
+        }
+        assert!((sum / (4.0 * PI) - 1.0).abs() < 1e-3, "{sum}");
     }
 }

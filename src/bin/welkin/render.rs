@@ -9,6 +9,7 @@ use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
 use crate::failure::{Failure, Result, fixed, plain};
+use crate::ground::Ground;
 use crate::landscape::{self, Landscape};
 use crate::naming::{self, Named};
 use crate::picture::{Picture, View, Wanted};
@@ -41,7 +42,7 @@ pub struct Options {
     /// How the sphere of directions is laid onto the picture.
     #[arg(long, value_enum, default_value = "up")]
     projection: Projection,
-    /// Height of the picture, pixels; lat-long is twice as wide.
+    /// Height of the picture or of a face of the cube, pixels; lat-long is twice as wide.
     #[arg(long, default_value_t = 768, value_parser = clap::value_parser!(u16).range(1..=16384), value_name = "PIXELS")]
     size: u16,
     /// Base name for an EXR and a PNG, or the name of one of them with its extension; - for standard output. What begins with a digit
@@ -57,6 +58,9 @@ pub struct Options {
     /// Write the EXR with Stokes layers: S0.R … S3.B, or S0.320nm … S3.760nm with --spectral.
     #[arg(long)]
     stokes: bool,
+    /// Fill what is below the horizon with the ground of the given albedo in the light of sun and sky; black if absent.
+    #[arg(long, conflicts_with_all = ["stokes", "terrain"])]
+    ground: bool,
     /// What the picture shows.
     #[arg(long, value_enum, default_value = "radiance")]
     quantity: Quantity,
@@ -153,12 +157,18 @@ impl Outputs {
 }
 
 impl Options {
-    fn view(&self, azimuth: f64) -> View {
-        View {
+    fn view(&self, model: &Model, conditions: &Conditions, azimuth: f64) -> Result<View> {
+        if self.ground && self.quantity != Quantity::Radiance {
+            let text = "the ground has no polarisation: --ground shows radiance only";
+            return Err(Failure::message(text));
+        }
+        let ground = self.ground.then(|| Ground::new(model, conditions));
+        Ok(View {
             projection: self.projection,
             size: self.projection.dimensions(self.size.into()),
             azimuth,
-        }
+            ground: ground.transpose()?,
+        })
     }
 
     /// The picture of a landscape and the number of its pixels.
@@ -212,7 +222,7 @@ pub fn run(options: &Options) -> Result<()> {
     };
     let prepared = start.elapsed();
     let azimuth = options.scene.view_azimuth()?;
-    let view = options.view(azimuth);
+    let view = options.view(&model, &conditions, azimuth)?;
     let rendering = Instant::now();
     let white = match options.exposure {
         Some(value) => WHITE_AT_EV_0 * value.exp2(),

@@ -4,8 +4,9 @@ use welkin::Conditions;
 
 use crate::failure::{Failure, Result};
 
+/// Where the sun stands, and what air and ground are like.
 #[derive(clap::Args)]
-pub struct Scene {
+pub struct Place {
     /// Solar elevation, degrees.
     #[arg(
         long,
@@ -22,14 +23,6 @@ pub struct Scene {
         value_name = "DEG"
     )]
     sun_azimuth: f64,
-    /// Azimuth that is looked to, degrees: in the middle of the picture, or at the top of the up fish-eye.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    view_azimuth: f64,
     /// Visibility (meteorological range) at the ground, km.
     #[arg(
         long,
@@ -48,7 +41,22 @@ pub struct Scene {
     albedo: f64,
 }
 
-impl Scene {
+/// A place and where one looks.
+#[derive(clap::Args)]
+pub struct Scene {
+    #[command(flatten)]
+    place: Place,
+    /// Azimuth that is looked to, degrees: in the middle of the picture, or at the top of the up fish-eye.
+    #[arg(
+        long,
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    view_azimuth: f64,
+}
+
+impl Place {
     /// For an observer at an altitude, m.
     pub fn conditions(&self, altitude: f64) -> Conditions {
         Conditions {
@@ -58,6 +66,13 @@ impl Scene {
             albedo: self.albedo,
             altitude,
         }
+    }
+}
+
+impl Scene {
+    /// For an observer at an altitude, m.
+    pub fn conditions(&self, altitude: f64) -> Conditions {
+        self.place.conditions(altitude)
     }
 
     /// Azimuth that is looked to, rad.

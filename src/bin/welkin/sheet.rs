@@ -65,6 +65,7 @@ impl Canvas {
             projection,
             size: [size, size],
             azimuth: 0.0,
+            ground: None,
         };
         let white = automatic_white(&sky)? as f32;
         let inside = view.directions().map(|direction| direction.is_some());

@@ -162,6 +162,9 @@ impl<'a> Answerer<'a> {
         let (model, wavelength) = (self.shared.model, question.wavelength);
         let conditions = &self.shared.reachable(&question.conditions)?;
         if question.ray.is_endless() {
+            if let Some(general) = self.shared.polarised() {
+                return general.stokes_at(conditions, question.ray.narrow(), frame, wavelength);
+            }
             let sky = kept(&mut self.polarised, question.place(), || {
                 model.polarised_sky(conditions)
             })?;

@@ -2,7 +2,10 @@
 
 use std::sync::OnceLock;
 
-use welkin::{Budget, Channels, Conditions, General, GeneralHaze, Interpolation, Model, Result};
+use welkin::{
+    Budget, Channels, Conditions, General, GeneralHaze, Interpolation, Model, Plan,
+    PolarisedGeneral, Result,
+};
 
 /// The model and what is prepared of it when it is first needed.
 ///
@@ -15,6 +18,7 @@ pub struct Shared<'a> {
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     general: OnceLock<Option<Box<General<'a>>>>,
+    polarised: OnceLock<Option<Box<PolarisedGeneral<'a>>>>,
     haze: OnceLock<Option<GeneralHaze<'a>>>,
 }
 
@@ -27,6 +31,7 @@ impl<'a> Shared<'a> {
             model,
             clamp,
             general: OnceLock::new(),
+            polarised: OnceLock::new(),
             haze: OnceLock::new(),
         }
     }
@@ -34,21 +39,32 @@ impl<'a> Shared<'a> {
     /// Radiance of any direction under any conditions, as exact as prepared skies.
     pub fn general(&self) -> Option<&General<'a>> {
         let prepared = self.general.get_or_init(|| {
-            let general = self.plan(Channels::Spectral).ok()?;
-            Some(Box::new(general.with_interpolation(Interpolation::Full)))
+            let general = self.model.general(&self.whole(Channels::Spectral).ok()?);
+            Some(Box::new(
+                general.ok()?.with_interpolation(Interpolation::Full),
+            ))
         });
         prepared.as_deref()
     }
 
-    fn plan(&self, channels: Channels) -> Result<General<'a>> {
-        let plan = self.model.plan(&Budget {
+    /// The same of Stokes vectors.
+    pub fn polarised(&self) -> Option<&PolarisedGeneral<'a>> {
+        let prepared = self.polarised.get_or_init(|| {
+            let plan = self.whole(Channels::Stokes).ok()?;
+            Some(Box::new(self.model.polarised_general(&plan).ok()?))
+        });
+        prepared.as_deref()
+    }
+
+    /// All conditions of the model.
+    fn whole(&self, channels: Channels) -> Result<Plan> {
+        self.model.plan(&Budget {
             altitude: self.model.altitude_range(),
             visibility: self.model.visibility_range(),
             solar_elevation: self.model.solar_elevation_range(),
             tolerance: 1.0,
             channels,
-        })?;
-        self.model.general(&plan)
+        })
     }
 
     /// Light of any segment under any conditions.

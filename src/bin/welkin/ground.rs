@@ -1,0 +1,131 @@
+//! The lit ground under a sky: what fills the lower half of an environment map.
+//!
+//! Lambertian, of the albedo of the conditions, in the light of sun and sky at the place that is seen: there the sun stands
+//! higher or lower than above the observer. The air before it takes some of that and adds its own, which the sky has already.
+
+use std::f64::consts::PI;
+
+use welkin::geometry::{Planet, Side};
+use welkin::{Air, Conditions, Model};
+
+use crate::failure::{Failure, Result};
+use crate::irradiance::{Light, xyz};
+
+/// Most degrees between the suns of the table.
+const STEP: f64 = 0.5;
+
+/// The ground that an observer sees.
+pub struct Ground {
+    air: Air,
+    planet: Planet,
+    altitude: f64,
+    sun: [f64; 3],
+    /// Lowest solar elevation of the table and distance of its rows, rad.
+    lowest: f64,
+    step: f64,
+    /// Logarithms of the radiance of the ground, `[sun][wavelength]`.
+    radiance: Vec<Vec<f32>>,
+    /// To linear sRGB from spectral radiance, `[wavelength]`.
+    srgb: Vec<[f32; 3]>,
+}
+
+impl Ground {
+    /// For an observer under these conditions.
+    pub fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
+        let planet = model.head().planet;
+        let conditions = conditions.checked(model)?;
+        // The farthest ground stands as far away, seen from the planet's centre, as the horizon dips.
+        let reach = planet.dip(conditions.altitude);
+        let [min, max] = model.solar_elevation_range();
+        let lowest = (conditions.solar_elevation - reach).clamp(min, max);
+        let highest = (conditions.solar_elevation + reach).clamp(min, max);
+        let intervals = ((highest - lowest).to_degrees() / STEP).ceil() as usize;
+        let step = (highest - lowest) / intervals.max(1) as f64;
+        let radiance = (0..=intervals).map(|i| {
+            let there = Conditions {
+                altitude: 0.0,
+                solar_elevation: (lowest + step * i as f64).clamp(min, max),
+                ..conditions
+            };
+            row(model, &there)
+        });
+        let unit = |w: usize| {
+            let mut spectrum = vec![0.0; model.wavelengths().len()];
+            spectrum[w] = 1.0;
+            welkin::xyz_to_linear_srgb(xyz(model, &spectrum))
+        };
+        Ok(Self {
+            radiance: radiance.collect::<Result<_>>()?,
+            air: model.air(conditions.visibility)?,
+            sun: conditions.sun_direction(),
+            altitude: conditions.altitude,
+            srgb: (0..model.wavelengths().len()).map(unit).collect(),
+            planet,
+            lowest,
+            step,
+        })
+    }
+
+    /// Adds its spectral radiance (W m⁻² sr⁻¹ nm⁻¹), seen through the air, to that of the sky; nothing above the horizon.
+    pub fn add(&self, direction: [f32; 3], radiance: &mut [f32]) -> welkin::Result<()> {
+        if let Some(ground) = self.seen(direction)? {
+            radiance
+                .iter_mut()
+                .zip(ground)
+                .for_each(|(sum, l)| *sum += l);
+        }
+        Ok(())
+    }
+
+    /// The same in linear sRGB, cd m⁻².
+    pub fn add_srgb(&self, direction: [f32; 3], rgb: &mut [f32; 3]) -> welkin::Result<()> {
+        if let Some(ground) = self.seen(direction)? {
+            for (weights, l) in self.srgb.iter().zip(ground) {
+                *rgb = std::array::from_fn(|c| rgb[c] + weights[c] * l);
+            }
+        }
+        Ok(())
+    }
+
+    fn seen(&self, direction: [f32; 3]) -> welkin::Result<Option<Vec<f32>>> {
+        let [x, y, z] = direction.map(f64::from);
+        let level = x.hypot(y);
+        let ray = self.planet.ray(self.altitude, z.atan2(level));
+        if ray.side == Side::Up {
+            return Ok(None);
+        }
+        let distance = ray.length / level.hypot(z);
+        let from = [0.0, 0.0, self.altitude];
+        let point = [x, y, z].map(|v| v * distance);
+        let point = [point[0], point[1], point[2] + self.altitude];
+        let mut ground = vec![0.0; self.srgb.len()];
+        self.air.transmittance(from, point, &mut ground)?;
+        let zenith = [point[0], point[1], point[2] + self.planet.radius];
+        let radius = zenith.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let sine: f64 = (0..3).map(|k| zenith[k] * self.sun[k]).sum::<f64>() / radius;
+        let elevation = sine.clamp(-1.0, 1.0).asin();
+        let last = self.radiance.len() - 1;
+        let u = match self.step > 0.0 {
+            true => ((elevation - self.lowest) / self.step).clamp(0.0, last as f64),
+            false => 0.0,
+        };
+        let i = (u as usize).min(last.saturating_sub(1));
+        let t = (u - i as f64) as f32;
+        let rows = self.radiance[i].iter().zip(&self.radiance[last.min(i + 1)]);
+        for (l, (low, high)) in ground.iter_mut().zip(rows) {
+            *l *= (low + t * (high - low)).exp();
+        }
+        Ok(Some(ground))
+    }
+}
+
+/// Logarithms of the radiance of the ground at one place.
+fn row(model: &Model, conditions: &Conditions) -> Result<Vec<f32>> {
+    let light = Light::new(model, conditions).map_err(|failure| match failure {
+        Failure::Message(text) => Failure::message(format!("the light on the ground: {text}")),
+        other => other,
+    })?;
+    let reflected = (conditions.albedo / PI) as f32;
+    let logarithm = |&e: &f32| (reflected * e).max(f32::MIN_POSITIVE).ln();
+    Ok(light.global_horizontal.0.iter().map(logarithm).collect())
+}
