@@ -7,6 +7,7 @@ use zerocopy::little_endian::{F32, U16};
 
 use super::WAVELENGTH_BLOCKS;
 use crate::axis::Taps;
+use crate::fade::mean_weight;
 use crate::format::{BasisView, FactorsView, widen};
 use crate::lanes::Lanes;
 use crate::simd::Instructions;
@@ -150,6 +151,28 @@ pub(super) fn turn<I: Instructions>(
     let azimuths = Rows::new(basis.phi, basis.stride, phi);
     for b in 0..(basis.stride / WIDTH).min(sum.len()) {
         sum[b] = sum[b] * azimuths.sum(instructions, b);
+    }
+}
+
+/// The same under a sun near the zenith, where azimuths fade.
+#[cold]
+pub(super) fn turn_faded(basis: &BasisView, phi: &Taps, fade: f64, sum: &mut Components) {
+    let rows = basis.phi.chunks_exact(basis.stride);
+    let intervals = rows.len() - 1;
+    let mut factors = [0.0; MOST_RANK];
+    for (i, row) in rows.enumerate() {
+        let mut weight = (1.0 - fade) * mean_weight(i, intervals);
+        for (&index, &tap) in phi.index.iter().zip(&phi.weight) {
+            if index == i {
+                weight += fade * f64::from(tap);
+            }
+        }
+        for (factor, &half) in factors.iter_mut().zip(row) {
+            *factor += weight as f32 * widen(half);
+        }
+    }
+    for (sum, factor) in sum.iter_mut().zip(factors.as_chunks().0) {
+        *sum = *sum * Lanes(*factor);
     }
 }
 

@@ -121,7 +121,10 @@ impl<'a, 'b> Query<'a, 'b> {
             let sun = &place.curve[1];
             contract::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
         }
-        contract::turn(instructions, basis, &place.phi, &mut components);
+        match place.fade < 1.0 {
+            true => contract::turn_faded(basis, &place.phi, place.fade, &mut components),
+            false => contract::turn(instructions, basis, &place.phi, &mut components),
+        }
         let mut channels = [0.0; MOST_CHANNELS];
         contract::project(instructions, basis, &components, &mut channels);
         let level = contract::level(&level, wavelengths, &place.curve[1]);

@@ -7,7 +7,7 @@ mod stokes;
 mod table;
 
 pub use aspect::Frame;
-pub(crate) use aspect::Plane;
+pub(crate) use aspect::{PARALLEL, Plane, cross};
 pub use sky::PolarisedSky;
 pub(crate) use stokes::between;
 pub use stokes::{Stokes, StokesSpectra};
