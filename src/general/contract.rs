@@ -154,25 +154,31 @@ pub(super) fn turn<I: Instructions>(
     }
 }
 
-/// The same under a sun near the zenith, where azimuths fade.
+/// Factors of an azimuth under a sun near the zenith, where azimuths fade.
 #[cold]
-pub(super) fn turn_faded(basis: &BasisView, phi: &Taps, fade: f64, sum: &mut Components) {
+pub(super) fn faded(basis: &BasisView, phi: Taps, fade: f64) -> Components {
     let rows = basis.phi.chunks_exact(basis.stride);
     let intervals = rows.len() - 1;
-    let mut factors = [0.0; MOST_RANK];
+    let mut factors = [Lanes::splat(0.0); MOST_RANK / WIDTH];
     for (i, row) in rows.enumerate() {
         let mut weight = (1.0 - fade) * mean_weight(i, intervals);
-        for (&index, &tap) in phi.index.iter().zip(&phi.weight) {
-            if index == i {
-                weight += fade * f64::from(tap);
+        for k in 0..phi.index.len() {
+            if phi.index[k] == i {
+                weight += fade * f64::from(phi.weight[k]);
             }
         }
-        for (factor, &half) in factors.iter_mut().zip(row) {
-            *factor += weight as f32 * widen(half);
+        for (j, &half) in row.iter().enumerate() {
+            factors[j / WIDTH].0[j % WIDTH] += weight as f32 * widen(half);
         }
     }
-    for (sum, factor) in sum.iter_mut().zip(factors.as_chunks().0) {
-        *sum = *sum * Lanes(*factor);
+    factors
+}
+
+/// Multiplies the components with factors.
+#[inline(always)]
+pub(super) fn multiply(sum: &mut Components, factors: &Components) {
+    for b in 0..sum.len() {
+        sum[b] = sum[b] * factors[b];
     }
 }
 

@@ -122,7 +122,10 @@ impl<'a, 'b> Query<'a, 'b> {
             contract::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
         }
         match place.fade < 1.0 {
-            true => contract::turn_faded(basis, &place.phi, place.fade, &mut components),
+            true => {
+                let factors = contract::faded(basis, place.phi, place.fade);
+                contract::multiply(&mut components, &factors);
+            }
             false => contract::turn(instructions, basis, &place.phi, &mut components),
         }
         let mut channels = [0.0; MOST_CHANNELS];
