@@ -2,14 +2,18 @@
 
 use super::General;
 use super::around::Nodes;
+use super::contract::{self, Components};
 use super::head::HeadView;
 use crate::axis::{Ends, Taps, alpha_coordinate, chord, spline};
-use crate::conditions::Conditions;
+use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
+use crate::fade::azimuthal;
+use crate::format::BasisView;
 use crate::geometry::{Ray, Side};
 use crate::phase::SunAngle;
 #[cfg(not(feature = "std"))]
 use crate::real::Real;
+use crate::simd::Instructions;
 
 /// Taps on every axis.
 pub(super) struct Place {
@@ -20,6 +24,8 @@ pub(super) struct Place {
     /// The same, coarser.
     pub chord: [Taps<2>; 2],
     pub phi: Taps,
+    /// What the azimuth counts.
+    pub fade: f64,
     pub ray: Ray,
     pub angle: SunAngle,
     pub albedo: f64,
@@ -84,9 +90,19 @@ impl Place {
             ],
             chord: [chord(alpha, intervals), chord(sun, axis.intervals)],
             phi: spline(phi, head.phi_intervals, Ends::Mirrored),
+            fade: azimuthal(sun_r),
             angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),
             ray,
             albedo: conditions.albedo,
+        }
+    }
+
+    /// Turns the components towards the azimuth.
+    #[inline(always)]
+    pub fn turn<I: Instructions>(&self, instructions: I, basis: &BasisView, sum: &mut Components) {
+        match self.fade < 1.0 {
+            true => contract::multiply(sum, &contract::faded(basis, self.phi, self.fade)),
+            false => contract::turn(instructions, basis, &self.phi, sum),
         }
     }
 }
@@ -128,6 +144,11 @@ fn checked(head: &HeadView, conditions: &Conditions) -> Result<Conditions> {
             "m",
         )?,
         albedo: check("albedo", conditions.albedo, [0.0, 1.0], "")?,
-        altitude: check("altitude", conditions.altitude, ends(head.altitudes), "m")?,
+        altitude: check(
+            "altitude",
+            grounded(conditions.altitude),
+            ends(head.altitudes),
+            "m",
+        )?,
     })
 }
