@@ -22,12 +22,26 @@ const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
+/// The same of files that show nothing new about evaluation.
+const BRIEF: usize = 2;
+
 /// All queries of a file.
 pub fn of(case: &Case) -> Vec<Value> {
-    let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
-    all.extend(special(&case.bytes));
+    let spread_queries = if case.brief { BRIEF } else { SPREAD };
+    let mut all: Vec<Query> = (0..spread_queries)
+        .map(|i| spread(&case.bytes, i))
+        .collect();
+    if !case.brief {
+        all.extend(special(&case.bytes));
+    }
     if let Some(&("transmittance" | "haze")) = case.needs.first() {
         all.retain(|query| query.direction != [0.0; 3]);
+        // Rounding beyond the last visibility is no error.
+        let visibility = ranges(&case.bytes).visibility[1] * (1.0 + 1e-12);
+        all.push(Query {
+            visibility,
+            ..spread(&case.bytes, 0)
+        });
         let asked = all.iter().enumerate();
         let mut queries: Vec<Value> = asked
             .flat_map(|(i, query)| segment(case, query, i))
@@ -35,8 +49,14 @@ pub fn of(case: &Case) -> Vec<Value> {
         queries.extend(segment_refusals(case, &all[0]));
         return queries;
     }
+    if case.name == "minimal" {
+        all.extend(lengths(&case.bytes));
+        all.extend(zeniths(&case.bytes));
+    }
     let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
-    queries.extend(refusals(&case.bytes));
+    if !case.brief {
+        queries.extend(refusals(&case.bytes));
+    }
     queries
 }
 
@@ -134,6 +154,28 @@ fn special(file: &[u8]) -> Vec<Query> {
     ]
 }
 
+/// The zenith under suns of every quadrant.
+fn zeniths(file: &[u8]) -> Vec<Query> {
+    let azimuths = [-2.5, -1.0, 1.0, 2.5].into_iter();
+    let query = |solar_azimuth| Query {
+        solar_azimuth,
+        direction: [0.0, 0.0, 1.0],
+        ..spread(file, 0)
+    };
+    azimuths.map(query).collect()
+}
+
+/// Directions of all lengths that readers take.
+fn lengths(file: &[u8]) -> Vec<Query> {
+    let queries = [1e-30, 1e-20, 1e20, 1e30].into_iter().enumerate();
+    let scaled = queries.map(|(i, length)| {
+        let query = spread(file, i);
+        let direction = query.direction.map(|v| f64::from((v * length) as f32));
+        Query { direction, ..query }
+    });
+    scaled.collect()
+}
+
 /// What is asked about one direction: everything, each with its tolerances.
 fn asked(case: &Case, query: &Query) -> Vec<Value> {
     let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
@@ -213,7 +255,8 @@ fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
 fn through(case: &Case, query: &Query, i: usize) -> Value {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
-    let expected = Oracle::new(&case.raw).transmittance(query, distance);
+    let within = clamped(query, &ranges(&case.bytes));
+    let expected = Oracle::new(&case.raw).transmittance(&within, distance);
     let absolute = vec![1e-9; expected.len()];
     let asked = over("transmittance", query, distance);
     with_values(asked, &expected, &absolute)
@@ -325,7 +368,7 @@ fn refusals(file: &[u8]) -> Vec<Value> {
         change(&mut query);
         with_error(value("relative_radiance", &query, 500.0), "range")
     };
-    vec![
+    let mut refusals = vec![
         ask(&|q| q.altitude = ranges.altitude[1] + 1.0),
         ask(&|q| q.altitude = -500.1),
         ask(&|q| q.visibility = ranges.visibility[0] * 0.9),
@@ -333,7 +376,31 @@ fn refusals(file: &[u8]) -> Vec<Value> {
         ask(&|q| q.albedo = 1.1),
         ask(&|q| q.solar_elevation = ranges.elevation[0] - 0.01),
         ask(&|q| q.solar_elevation = ranges.elevation[1] + 0.01),
-    ]
+    ];
+    if has_sky(file, &good()) {
+        let beyond = value("radiance_at", &good(), rounded_up(file));
+        refusals.push(with_error(beyond, "range"));
+    }
+    refusals
+}
+
+/// Whether the chunks that the query needs are there.
+fn has_sky(file: &[u8], query: &Query) -> bool {
+    let model = Model::from_bytes(file).expect("a valid model");
+    let conditions = Conditions {
+        altitude: query.altitude,
+        visibility: query.visibility,
+        albedo: query.albedo,
+        solar_elevation: query.solar_elevation,
+        solar_azimuth: query.solar_azimuth,
+    };
+    model.sky(&conditions).is_ok()
+}
+
+/// A wavelength beyond the last by no more than rounding.
+fn rounded_up(file: &[u8]) -> f64 {
+    let head = parse(file).expect("a valid file").head;
+    head.wavelengths[head.wavelengths.len() - 1] * (1.0 + 1e-12)
 }
 
 fn value(quantity: &str, query: &Query, wavelength: f64) -> Value {
@@ -361,6 +428,20 @@ fn with_values(mut query: Value, expected: &[f64], absolute: &[f64]) -> Value {
     query["expected"] = json!(expected.iter().map(long).collect::<Vec<_>>());
     query["absolute"] = json!(absolute.iter().map(short).collect::<Vec<_>>());
     query
+}
+
+/// The conditions and the direction of a query.
+pub fn scene(query: &Value) -> (Conditions, [f32; 3]) {
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let conditions = Conditions {
+        altitude: number(&query["altitude"]),
+        visibility: number(&query["visibility"]),
+        albedo: number(&query["albedo"]),
+        solar_elevation: number(&query["solar_elevation"]),
+        solar_azimuth: number(&query["solar_azimuth"]),
+    };
+    let direction = [0, 1, 2].map(|i| number(&query["direction"][i]) as f32);
+    (conditions, direction)
 }
 
 /// A query as readers get it.
