@@ -1,7 +1,7 @@
 //! The examples of README.md, run; and a check that they are those.
 #![cfg(feature = "default-model")]
 
-use welkin::{BakedSky, Budget, Channels, Directions, General, SunDisc};
+use welkin::{BakedSky, Budget, Channels, Directions, General};
 use welkin::{Conditions, Frame, Model};
 
 /// Code without comments, spaces, and the commas that a formatter adds.
@@ -74,7 +74,7 @@ fn fast() -> welkin::Result<()> {
     baked.radiance_batch(&directions, &mut radiance)?;
     let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
     let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
-    let sampler = colour.sampler().with_sun(&SunDisc::new(&sky));
+    let sampler = colour.sampler().with_sun(&model.sun_disc(sky.conditions())?);
     let general = General::new(welkin::DEFAULT_MODEL)?;
     let plan = model.plan(&budget)?;
 
