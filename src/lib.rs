@@ -84,7 +84,7 @@ mod tables;
 pub use air::Air;
 #[cfg(feature = "std")]
 pub use baked::{
-    BakeError, BakedColour, BakedPolarisedSky, BakedSky, Directions, Sample, SkySampler,
+    BakeError, BakedColour, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
 };
 #[cfg(feature = "std")]
 pub use budget::{Budget, Channels, Plan};

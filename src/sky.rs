@@ -187,14 +187,6 @@ impl Sky {
         (&self.solar, self.solar_axis)
     }
 
-    /// CIE XYZ per unit of radiance at each wavelength.
-    pub(crate) fn xyz_weights(&self) -> Vec<[f32; 3]> {
-        let lane = |w: usize| self.tables.xyz[w / LANES].map(|component| component[w % LANES]);
-        let solar = self.irradiance::<1>().map(|[e]| e).enumerate();
-        let weight = |w: usize, e: f32| lane(w).map(|v| if e > 0.0 { finite(v / e) } else { 0.0 });
-        solar.map(|(w, e)| weight(w, e)).collect()
-    }
-
     /// CIE XYZ of a spectrum of relative radiance.
     #[inline(always)]
     pub(crate) fn project_xyz(&self, radiance: &[f32]) -> [f32; 3] {

@@ -323,13 +323,6 @@ impl Tables {
         core::array::from_fn(|i| bound(opacity[i] * scale[i] * sum[i].max(0.0), 0.0, f32::MAX))
     }
 
-    /// Optical depth along a ray to its end, `[block]`.
-    pub fn optical_depths(&self, ray: &Ray) -> impl Iterator<Item = [f32; LANES]> {
-        let (side, alpha) = self.alpha(ray);
-        let lengths = side.depths(&alpha, ray.length);
-        (0..self.layout.blocks).map(move |block| self.depth(&lengths, block))
-    }
-
     #[inline(always)]
     fn depth(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
         let mut depth = [0.0; LANES];

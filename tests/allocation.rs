@@ -6,7 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 #[cfg(feature = "default-model")]
-use welkin::{BakedSky, Directions, StokesSpectra, SunDisc};
+use welkin::{BakedSky, Directions, StokesSpectra};
 use welkin::{Conditions, Frame, Model, Stokes};
 
 struct Counting;
@@ -83,7 +83,7 @@ fn baked_queries_do_not_allocate() {
     let mut rgb = [[0.0; 3]; 19];
     let mut heroes = [[0.0; 4]; 19];
     let mut stokes = [[Stokes::default(); 4]; 19];
-    let sun = SunDisc::new(&sky);
+    let sun = model.sun_disc(&Conditions::default()).unwrap();
     let sampler = colour.sampler().with_sun(&sun);
     let component: Vec<f32> = (0..19).map(|i| (i as f32).sin()).collect();
     let directions = Directions {

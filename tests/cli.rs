@@ -769,7 +769,7 @@ fn query_answers_finite_distances_and_the_sun() {
         .unwrap();
     close(value(3), light[nm(400.0)]);
     close(value(4), through[nm(400.0)]);
-    let disc = welkin::SunDisc::new(&model.sky(&place).unwrap());
+    let disc = model.sun_disc(&place).unwrap();
     disc.radiance(disc.direction(), &mut light).unwrap();
     close(value(5), light[nm(560.0)]);
     for (i, error) in [

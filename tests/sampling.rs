@@ -18,9 +18,13 @@ fn sky(elevation: f64, altitude: f64) -> Sky {
     MODEL.sky(&conditions).unwrap()
 }
 
+fn disc(sky: &Sky) -> SunDisc {
+    MODEL.sun_disc(sky.conditions()).unwrap()
+}
+
 fn samplers(sky: &Sky) -> [SkySampler; 2] {
     let without = sky.bake_colour(BakedSky::TOLERANCE).unwrap().sampler();
-    let with = without.clone().with_sun(&SunDisc::new(sky));
+    let with = without.clone().with_sun(&disc(sky));
     [without, with]
 }
 
@@ -208,7 +212,7 @@ fn irradiance_agrees_with_draws() {
 #[test]
 fn the_sun_above_the_air_gives_its_irradiance() {
     let sky = sky(50.0, 2000.0);
-    let sun = SunDisc::new(&sky);
+    let sun = disc(&sky);
     let n = sun.wavelengths().len();
     let (mut direct, mut across) = (vec![0.0; n], vec![0.0; n]);
     sun.irradiance(sun.direction(), &mut direct).unwrap();
@@ -233,7 +237,7 @@ fn the_sun_above_the_air_gives_its_irradiance() {
 
 #[test]
 fn the_disc_ends_at_its_limb_and_at_the_horizon() {
-    let sun = SunDisc::new(&sky(0.0, 0.0));
+    let sun = disc(&sky(0.0, 0.0));
     let mut out = vec![f32::NAN; sun.wavelengths().len()];
     let at = |elevation: f64, azimuth: f64| {
         let (z, r) = elevation.sin_cos();
@@ -262,7 +266,7 @@ fn the_disc_ends_at_its_limb_and_at_the_horizon() {
             "{elevation} {azimuth}"
         );
     }
-    let set = SunDisc::new(&sky(-4.0, 0.0));
+    let set = disc(&sky(-4.0, 0.0));
     assert!(!set.is_visible());
     set.radiance(set.direction(), &mut out).unwrap();
     assert!(out.iter().all(|&l| l == 0.0));

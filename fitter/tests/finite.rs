@@ -144,3 +144,112 @@ fn transmittance_agrees_with_the_outside_references() {
     }
     errors.judge("references");
 }
+
+/// Relative errors by the angle of the sun above the geometric horizon (the upper end of each class, degrees).
+struct Classes(Vec<(f64, [Vec<f64>; 3])>);
+
+impl Classes {
+    fn new() -> Self {
+        let ends = [0.01, 0.1, 0.53, 2.0, 10.0, 180.0];
+        Self(ends.map(|end| (end, Default::default())).into())
+    }
+
+    /// Of optical depth and transmittance of the air, and of the sun's disc.
+    fn add(&mut self, degrees: f64, errors: [f64; 3]) {
+        let class = self.0.iter_mut().find(|(end, _)| degrees <= *end).unwrap();
+        for (list, error) in class.1.iter_mut().zip(errors) {
+            list.push(error.abs());
+        }
+    }
+
+    fn print(&mut self) {
+        println!(
+            "| above the horizon up to | quantity | median | p95 | p99 | max |\n| --- | --- | --- | --- | --- | --- |"
+        );
+        for (end, lists) in &mut self.0 {
+            for (what, list) in ["optical depth", "transmittance", "sun"].iter().zip(lists) {
+                list.sort_by(f64::total_cmp);
+                let quantile = |p: f64| 100.0 * list[(p * (list.len() - 1) as f64) as usize];
+                let [median, p95, p99, max] = [0.5, 0.95, 0.99, 1.0].map(quantile);
+                println!(
+                    "| {end}° | {what} | {median:.3} % | {p95:.3} % | {p99:.3} % | {max:.3} % |"
+                );
+            }
+        }
+    }
+
+    fn largest(&self, quantity: usize) -> f64 {
+        let lists = self.0.iter().flat_map(|(_, lists)| &lists[quantity]);
+        lists.fold(0.0, |max: f64, error| max.max(*error))
+    }
+}
+
+/// The air and the sun's disc of the embedded model against exact columns: observers at 0 to 15 km, suns from the
+/// geometric horizon, which is below the horizontal for all but the lowest, to the zenith. Transmittances below 1e-9 do not
+/// count. Run with --nocapture for the table.
+#[test]
+fn the_way_to_the_sun_agrees_with_exact_columns() {
+    let model = Model::default_model().unwrap();
+    let mut classes = Classes::new();
+    let mut outside = [0.0; 12];
+    let mut bright: f64 = 0.0;
+    for &visibility in &model.head().visibilities {
+        let atmosphere = real(visibility, &WAVELENGTHS).unwrap();
+        let exact = ColumnIntegrator::new(&atmosphere);
+        let air = model.air(visibility).unwrap();
+        for i in 0..1500 {
+            let altitude = 15_000.0 * share(i, 0.754_877_666).powi(2);
+            let degrees = match i {
+                0 => 90.0,
+                _ => 90.0 * share(i, 0.618_033_989).powi(5),
+            };
+            let planet = air.planet();
+            let elevation = degrees.to_radians() - planet.dip(altitude);
+            let conditions = welkin::Conditions {
+                altitude,
+                visibility,
+                solar_elevation: elevation.max(model.solar_elevation_range()[0]),
+                ..welkin::Conditions::default()
+            };
+            let sun = model.sun_disc(&conditions).unwrap();
+            let direction = sun.direction().map(f64::from);
+            let sine = direction[2] / direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+            if sine < -planet.dip(altitude).sin() {
+                continue;
+            }
+            let whole = planet.ray(altitude, sine.asin()).length;
+            let columns = exact.along(altitude, sine, whole);
+            let start = [0.0, 0.0, altitude];
+            let end = std::array::from_fn(|k| start[k] + whole * direction[k]);
+            let [mut depths, mut light] = [[0.0; 12]; 2];
+            air.optical_depth(start, end, &mut depths).unwrap();
+            sun.radiance(sun.direction(), &mut light).unwrap();
+            for w in 0..12 {
+                let parts = atmosphere.constituents.iter().zip(columns);
+                let depth: f64 = parts.map(|(c, column)| c.extinction[w] * column).sum();
+                let light = f64::from(light[w]) * depth.exp();
+                if outside[w] == 0.0 {
+                    outside[w] = light;
+                }
+                if depth < 20.7 {
+                    let got = f64::from(depths[w]);
+                    let errors = [
+                        got / depth - 1.0,
+                        (depth - got).exp() - 1.0,
+                        light / outside[w] - 1.0,
+                    ];
+                    classes.add(degrees, errors);
+                    if depth < 100f64.ln() {
+                        bright = bright.max(errors[2].abs());
+                    }
+                }
+            }
+        }
+    }
+    classes.print();
+    let [depth, transmittance, sun] = [0, 1, 2].map(|i| classes.largest(i));
+    println!(
+        "largest: {depth:.5} {transmittance:.5} {sun:.5}; sun of which 1 % is left: {bright:.5}"
+    );
+    assert!(depth < 0.005 && bright < 0.01 && sun < 0.04);
+}

@@ -163,6 +163,16 @@ impl Layers {
         amounts
     }
 
+    /// Columns from an altitude (m) to space in a direction with this sine of its elevation, m; the ground is no obstacle.
+    pub fn to_space(&self, altitude: f64, sine: f64) -> Amounts {
+        let from = (self.planet.radius + altitude) * sine;
+        let line = Line {
+            lowest: self.planet.squared_altitude(altitude) - from * from / self.diameter,
+        };
+        let to = self.reach(line, self.layers.len()).max(0.0).sqrt();
+        self.columns(line, from, to.max(from))
+    }
+
     /// Starts on `line` at the distance `from` from its tangent point (negative before it).
     #[inline(always)]
     pub fn enter(&self, line: Line, from: f64) -> Walker<'_> {

@@ -3,7 +3,7 @@
 mod layers;
 mod segment;
 
-pub(crate) use layers::{Amounts, Layers, Line, Piece, QUADS};
+pub(crate) use layers::{Amounts, Layers, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
 use crate::axis::linear;

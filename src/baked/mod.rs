@@ -26,7 +26,7 @@ pub use batch::Directions;
 pub use colour::BakedColour;
 pub use polarised::BakedPolarisedSky;
 pub use quality::BakeError;
-pub use sampler::{Sample, SkySampler};
+pub use sampler::{Part, Sample, SkySampler};
 pub use spectral::BakedSky;
 
 use crate::conditions::Conditions;

@@ -2,17 +2,15 @@
 
 use super::disc::visible_rise;
 use super::places::{BATCH, Places};
-use crate::air::{Amounts, Layers, Line, QUADS};
+use crate::air::{Layers, QUADS};
 use crate::geometry::Planet;
 use crate::lanes::Lanes;
 use crate::math::{LANES, bound, sqrt};
+use crate::sun::SUN_RADIUS;
 
 type Heights = Lanes<BATCH>;
 /// Columns at two places: four constituents at the one, then at the other.
 pub(crate) type Two = [Lanes<8>; QUADS];
-
-/// Angular radius of the sun, rad: 0.2667°.
-const SUN_RADIUS: f64 = 0.004_654_793;
 
 /// Columns towards the sun, tabulated around where it stands.
 #[derive(Clone, Debug)]
@@ -71,7 +69,7 @@ impl Beam {
         let [low, high] = self.range;
         let h = planet.top * share(node / ANGLES, ALTITUDES).powi(2);
         let angle = low + (high - low) * share(node % ANGLES, ANGLES).powi(2);
-        let columns = towards(layers, h, (angle - planet.dip(h)).sin());
+        let columns = layers.to_space(h, (angle - planet.dip(h)).sin());
         let rows = &mut self.columns[node * self.quads..][..self.quads];
         for (row, column) in rows.iter_mut().zip(columns.0) {
             *row = column.map(|c| (c + NOTHING).ln());
@@ -96,7 +94,7 @@ impl Beam {
             }
             for (half, i) in two.into_iter().enumerate() {
                 let sine = f64::from(angle.0[i] - dip.0[i]).sin();
-                let columns = towards(layers, f64::from(places.altitude.0[i]), sine);
+                let columns = layers.to_space(f64::from(places.altitude.0[i]), sine);
                 for (out, quad) in out.iter_mut().zip(&columns.0) {
                     out.0[4 * half..][..4].copy_from_slice(quad);
                 }
@@ -191,15 +189,68 @@ fn share(i: usize, count: usize) -> f64 {
     i as f64 / (count - 1) as f64
 }
 
-/// Columns from altitude `h` (m) to space in a direction with this sine of its elevation.
-fn towards(layers: &Layers, h: f64, sine: f64) -> Amounts {
-    let planet = layers.planet();
-    let diameter = 2.0 * planet.radius;
-    let from = (planet.radius + h) * sine;
-    let line = Line {
-        lowest: planet.squared_altitude(h) - from * from / diameter,
-    };
-    let top = (planet.squared_altitude(planet.top) - line.lowest) * diameter;
-    let to = top.max(0.0).sqrt();
-    layers.columns(line, from, to.max(from))
+#[cfg(all(test, feature = "default-model"))]
+mod tests {
+    use super::*;
+    use crate::haze::disc::mean_shares;
+    use crate::{Conditions, Model};
+
+    /// D of section 7.7, which is the transmittance towards one point, and the irradiance of the disc. They agree where
+    /// more than a twentieth of the light comes through; run with --nocapture for the rest.
+    #[test]
+    fn sunlight_is_the_light_of_the_disc() {
+        let model = Model::default_model().unwrap();
+        let mut report = String::new();
+        for altitude in [0.0, 2000.0, 12_000.0] {
+            for above in [0.3, 1.0, 2.0, 4.0, 6.0, 10.0, 30.0, 80.0f64] {
+                let elevation = above.to_radians() - model.head().planet.dip(altitude);
+                let conditions = Conditions {
+                    altitude,
+                    solar_elevation: elevation,
+                    ..Conditions::default()
+                };
+                let air = model.air(conditions.visibility).unwrap();
+                let beam = Beam::new(&air.layers, elevation);
+                let places = Places {
+                    altitude: Lanes::splat(altitude as f32),
+                    sun: Lanes::splat(elevation.sin() as f32),
+                    ..Places::default()
+                };
+                let mut columns = [[Lanes::splat(0.0); QUADS]; BATCH / 2];
+                let rise = beam.at(&air.layers, &places, 1, &mut columns);
+                let share = mean_shares(rise, rise).0[0];
+                let depth = |w: usize| -> f32 {
+                    let column = |k: usize| columns[0][k / LANES].0[k % LANES];
+                    let row = |k: usize| air.extinction.row(k, w / LANES)[w % LANES];
+                    let constituents = model.head().constituents;
+                    (0..constituents).map(|k| row(k) * column(k)).sum()
+                };
+                let sun = model.sun_disc(&conditions).unwrap();
+                let [mut disc, mut centre] = [[0.0; 12]; 2];
+                sun.irradiance(sun.direction(), &mut disc).unwrap();
+                air.transmittance_to_space(
+                    [0.0, 0.0, altitude],
+                    sun.direction().map(f64::from),
+                    &mut centre,
+                )
+                .unwrap();
+                for w in [0, 6, 11] {
+                    let outside = model.head().solar_irradiance_at(sun.wavelengths()[w]) as f32;
+                    let got = share * (-depth(w)).exp();
+                    let [disc, centre] = [disc[w] / outside, centre[w]];
+                    let nm = sun.wavelengths()[w];
+                    if got > 0.05 {
+                        assert!((got / disc - 1.0).abs() < 0.005, "{conditions:?} {nm} nm");
+                        assert!((got / centre - 1.0).abs() < 0.005, "{conditions:?} {nm} nm");
+                    }
+                    report += &format!(
+                        "{altitude:6} m, {above:4}° above the horizon, {nm} nm: D {got:.3e}, {:+.3} % of the disc, {:+.3} % of T towards its centre\n",
+                        100.0 * (got / disc - 1.0),
+                        100.0 * (got / centre - 1.0),
+                    );
+                }
+            }
+        }
+        println!("{report}");
+    }
 }

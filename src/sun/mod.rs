@@ -1,79 +1,79 @@
-//! The disc of the sun: limb darkening, the air before it and the planet's edge.
+//! The disc of the sun: limb darkening, the air before it and the planet's edge. Format specification, section 7.8.
+//!
+//! `cap` knows where the disc is and what of it is above the horizon, `depths` the air before it, `limb` how bright it
+//! is without air; `quadrature` sums over it.
 
+mod cap;
+mod depths;
 mod limb;
+mod quadrature;
 
-use core::f64::consts::FRAC_PI_2;
-
+use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::geometry::Side;
-use crate::math::{bound, finite};
-use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
+use crate::model::Model;
+use crate::sky::{MOST_WAVELENGTHS, check_length};
+use cap::Cap;
+use depths::Depths;
+use quadrature::each_line;
 
-/// Angular radius of the sun at its mean distance, rad: 959.63″ (Neckel & Labs 1994).
-pub const SUN_RADIUS: f64 = 4.652_4e-3;
-
-/// Angles from the horizon at which the transmittance is kept, over the visible part of the disc.
-const HEIGHTS: usize = 17;
-/// Rings and points per ring of the quadrature over the disc.
-const RINGS: usize = 8;
-const POINTS: usize = 16;
-const QUADRATURE: f64 = (RINGS * POINTS) as f64;
+/// Angular radius of the sun, rad: 0.2667°, as in the published model.
+pub const SUN_RADIUS: f64 = 0.004_654_793;
 
 /// The disc of the sun as an observer sees it through the air, at the wavelengths of the model.
 ///
-/// The radiance at the centre follows from the solar irradiance of the model, limb darkening from Neckel & Labs 1994.
-/// Light is not refracted. The part of the disc below the geometric horizon is black. Queries do not allocate.
+/// Its radiance is that outside the air, which follows from the solar irradiance of the model, with limb darkening from
+/// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Air`](crate::Air) and
+/// [`Haze`](crate::Haze). Light is not refracted. The part of the disc below the geometric horizon is black. Queries do
+/// not allocate. `Send + Sync`.
+///
+/// In a file without transmittance the air before the disc is what the sky takes it for, which is much less exact where
+/// the sun is low: see `tests/sun.rs`.
 #[derive(Clone, Debug)]
 pub struct SunDisc {
-    direction: [f64; 3],
+    cap: Cap,
     wavelengths: Vec<f64>,
-    /// Radiance without air over the profile's value, W m⁻² sr⁻¹ nm⁻¹.
-    mean: Vec<f32>,
+    /// Outside the air, W m⁻² nm⁻¹.
+    irradiance: Vec<f32>,
     profile: Vec<[f32; 6]>,
-    /// XYZ per unit of radiance.
+    /// XYZ per unit of relative radiance.
     xyz: Vec<[f32; 3]>,
-    /// Lowest visible elevation of the disc and the step between heights, rad.
-    lowest: f64,
-    step: f64,
-    /// ln T, `[height][wavelength]`; empty where the sun has set.
-    transmittance: Vec<f32>,
+    /// None where the sun has set.
+    depths: Option<Depths>,
+}
+
+impl Model {
+    /// The disc of the sun under some conditions, of which the albedo does not count. Needs no sky, and takes about as
+    /// long as a few dozen queries of one.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for conditions outside the model; [`Error::MissingChunk`] if the file has neither
+    /// transmittance nor the columns of these altitudes; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or
+    /// [`Error::Invalid`] if what is needed is damaged; [`Error::Read`].
+    pub fn sun_disc(&self, conditions: &Conditions) -> Result<SunDisc> {
+        SunDisc::new(self, &conditions.checked(self)?)
+    }
 }
 
 impl SunDisc {
-    /// The disc of the sun of a sky.
-    pub fn new(sky: &Sky) -> Self {
-        let conditions = sky.conditions();
-        let solid_angle = core::f64::consts::TAU * (1.0 - SUN_RADIUS.cos());
-        let wavelengths = sky.wavelengths().to_vec();
-        let mean = |irradiance: f32| (f64::from(irradiance) / solid_angle) as f32;
-        let top = (conditions.solar_elevation + SUN_RADIUS).min(FRAC_PI_2);
-        let lowest = (conditions.solar_elevation - SUN_RADIUS).max(-sky.dip());
-        let mut disc = Self {
-            direction: conditions.sun_direction(),
-            xyz: sky.xyz_weights(),
-            mean: sky.irradiance::<1>().map(|[e]| mean(e)).collect(),
-            profile: wavelengths.iter().map(|&l| limb::profile(l)).collect(),
-            lowest,
-            step: (top - lowest) / (HEIGHTS - 1) as f64,
-            transmittance: Vec::new(),
-            wavelengths,
+    fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
+        let head = model.head();
+        let cap = Cap::new(conditions, head.planet.dip(conditions.altitude));
+        let depths = match cap.is_visible() {
+            true => Some(Depths::new(model, conditions, cap.band())?),
+            false => None,
         };
-        if top > lowest {
-            disc.look_up(sky);
-        }
-        disc
-    }
-
-    fn look_up(&mut self, sky: &Sky) {
-        let altitude = sky.conditions().altitude;
-        for i in 0..HEIGHTS {
-            let angle = self.lowest + self.step * i as f64 + sky.dip();
-            let ray = sky.planet().ray_beside_horizon(altitude, Side::Up, angle);
-            let depths = sky.tables().optical_depths(&ray);
-            let depths = depths.flatten().take(self.wavelengths.len());
-            self.transmittance
-                .extend(depths.map(|depth| -bound(depth, 0.0, f32::MAX)));
-        }
+        let wavelengths = head.wavelengths.iter();
+        Ok(Self {
+            irradiance: wavelengths
+                .clone()
+                .map(|&l| head.solar_irradiance_at(l) as f32)
+                .collect(),
+            profile: wavelengths.map(|&l| limb::profile(l)).collect(),
+            xyz: head.xyz.iter().map(|xyz| xyz.map(|v| v as f32)).collect(),
+            wavelengths: head.wavelengths.clone(),
+            cap,
+            depths,
+        })
     }
 
     /// Wavelengths of the results, nm.
@@ -83,12 +83,12 @@ impl SunDisc {
 
     /// Unit vector towards the centre.
     pub fn direction(&self) -> [f32; 3] {
-        self.direction.map(|v| v as f32)
+        self.cap.centre().map(|v| v as f32)
     }
 
     /// Whether any of the disc is above the geometric horizon.
     pub fn is_visible(&self) -> bool {
-        !self.transmittance.is_empty()
+        self.depths.is_some()
     }
 
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ of the disc alone, zero beside it and below the horizon. Add that of the
@@ -99,28 +99,10 @@ impl SunDisc {
     /// per wavelength.
     pub fn radiance(&self, direction: [f32; 3], out: &mut [f32]) -> Result<()> {
         check_length(out.len(), self.wavelengths.len())?;
-        let unit = unit(direction).ok_or(Error::Direction { got: direction })?;
-        self.radiance_along(unit, out);
+        self.relative_radiance(direction, out)?;
+        let pairs = out.iter_mut().zip(&self.irradiance);
+        pairs.for_each(|(out, irradiance)| *out = (*out * irradiance).min(f32::MAX));
         Ok(())
-    }
-
-    fn radiance_along(&self, unit: [f64; 3], out: &mut [f32]) {
-        let distance = self.distance(unit);
-        let elevation = unit[2].clamp(-1.0, 1.0).asin();
-        if distance > 1.0 || elevation < self.lowest || !self.is_visible() {
-            return out.fill(0.0);
-        }
-        let mu = (1.0 - distance * distance).max(0.0).sqrt() as f32;
-        let u = ((elevation - self.lowest) / self.step).clamp(0.0, (HEIGHTS - 1) as f64);
-        let i = (u as usize).min(HEIGHTS - 2);
-        let t = (u - i as f64) as f32;
-        let n = self.wavelengths.len();
-        let (low, high) = self.transmittance[i * n..(i + 2) * n].split_at(n);
-        for (w, out) in out.iter_mut().enumerate() {
-            let transmittance = (low[w] + t * (high[w] - low[w])).exp();
-            let light = self.mean[w] * limb::evaluate(&self.profile[w], mu) * transmittance;
-            *out = bound(light, 0.0, f32::MAX);
-        }
     }
 
     /// CIE 1931 XYZ of the disc alone; Y is the luminance in cd m⁻².
@@ -128,87 +110,92 @@ impl SunDisc {
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.
     pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
-        let mut radiance = [0.0; MOST_WAVELENGTHS];
-        let radiance = &mut radiance[..self.wavelengths.len()];
-        self.radiance(direction, radiance)?;
-        let component =
-            |c: usize| finite(radiance.iter().zip(&self.xyz).map(|(l, w)| l * w[c]).sum());
+        let mut relative = [0.0; MOST_WAVELENGTHS];
+        let relative = &mut relative[..self.wavelengths.len()];
+        self.relative_radiance(direction, relative)?;
+        let component = |c: usize| relative.iter().zip(&self.xyz).map(|(l, w)| l * w[c]).sum();
         Ok(core::array::from_fn(component))
     }
 
-    /// Luminance times solid angle, cd sr m⁻².
-    pub(crate) fn flux(&self) -> f64 {
-        let luminance = |(point, _): ([f64; 3], f64)| {
-            let xyz = self.xyz(point.map(|v| v as f32));
-            xyz.map_or(0.0, |xyz| f64::from(xyz[1].max(0.0)))
+    /// Per unit of solar irradiance, sr⁻¹.
+    fn relative_radiance(&self, direction: [f32; 3], out: &mut [f32]) -> Result<()> {
+        let unit = unit(direction).ok_or(Error::Direction { got: direction })?;
+        let square = self.cap.square(unit);
+        let elevation = unit[2].clamp(-1.0, 1.0).asin();
+        let seen = square <= 1.0 && elevation >= self.cap.band()[0];
+        let Some(depths) = self.depths.as_ref().filter(|_| seen) else {
+            out.fill(0.0);
+            return Ok(());
         };
-        self.solid_angle() * quadrature().map(|p| luminance(self.point(p))).sum::<f64>()
-            / QUADRATURE
+        depths.transmittance(elevation, out);
+        let mu = (1.0 - square).max(0.0).sqrt() as f32;
+        let mean = (1.0 / self.cap.solid_angle()) as f32;
+        for (out, profile) in out.iter_mut().zip(&self.profile) {
+            *out *= mean * limb::evaluate(profile, mu);
+        }
+        Ok(())
     }
 
-    /// Whether the disc, visible or not, is in this direction.
-    pub(crate) fn covers(&self, direction: [f32; 3]) -> bool {
-        let unit = unit(direction);
-        unit.is_some_and(|unit| self.distance(unit) <= 1.0)
-    }
-
-    /// Distance from the centre over the radius: the chord is exact where the cosine is not.
-    fn distance(&self, unit: [f64; 3]) -> f64 {
-        let chord: f64 = (0..3).map(|i| (unit[i] - self.direction[i]).powi(2)).sum();
-        chord.sqrt() / (2.0 * (0.5 * SUN_RADIUS).sin())
-    }
-
-    /// Spectral irradiance in W m⁻² nm⁻¹ that the disc gives a plane with this normal, by quadrature over the disc.
+    /// Spectral irradiance in W m⁻² nm⁻¹ that the visible part of the disc gives one side of a plane with this normal.
     ///
     /// # Errors
     /// As [`SunDisc::radiance`].
     pub fn irradiance(&self, normal: [f32; 3], out: &mut [f32]) -> Result<()> {
         check_length(out.len(), self.wavelengths.len())?;
         let normal = unit(normal).ok_or(Error::Direction { got: normal })?;
-        out.fill(0.0);
-        let mut radiance = [0.0; MOST_WAVELENGTHS];
-        let radiance = &mut radiance[..out.len()];
-        for place in quadrature() {
-            let (point, weight) = self.point(place);
-            let cosine: f64 = (0..3).map(|i| point[i] * normal[i]).sum();
-            let weight = (weight / QUADRATURE * cosine.max(0.0)) as f32;
-            self.radiance_along(point, radiance);
-            let pairs = out.iter_mut().zip(radiance.iter());
-            pairs.for_each(|(sum, l)| *sum = (*sum + weight * l).min(f32::MAX));
+        let sums = self.integrate(Some(normal));
+        for (out, (sum, irradiance)) in out.iter_mut().zip(sums.iter().zip(&self.irradiance)) {
+            *out = (sum * f64::from(*irradiance)).min(f64::from(f32::MAX)) as f32;
         }
         Ok(())
     }
 
+    /// Luminance times solid angle, cd sr m⁻².
+    pub(crate) fn flux(&self) -> f64 {
+        let luminances = self.xyz.iter().map(|xyz| f64::from(xyz[1]));
+        let sums = self.integrate(None);
+        let flux: f64 = luminances.zip(sums).map(|(y, sum)| y * sum).sum();
+        flux.max(0.0)
+    }
+
+    /// Light of the visible part, with a normal that on its plane, per unit of irradiance outside the air.
+    fn integrate(&self, normal: Option<[f64; 3]>) -> [f64; MOST_WAVELENGTHS] {
+        let mut sums = [0.0; MOST_WAVELENGTHS];
+        let Some(depths) = &self.depths else {
+            return sums;
+        };
+        let mut transmittance = [0.0; MOST_WAVELENGTHS];
+        let transmittance = &mut transmittance[..self.wavelengths.len()];
+        each_line(&self.cap, normal, |elevation, moments| {
+            depths.transmittance(elevation, transmittance);
+            let terms = transmittance.iter().zip(&self.profile);
+            for (sum, (transmittance, profile)) in sums.iter_mut().zip(terms) {
+                let products = profile.iter().zip(moments).map(|(&a, m)| f64::from(a) * m);
+                *sum += f64::from(*transmittance) * products.sum::<f64>();
+            }
+        });
+        sums
+    }
+
     /// Solid angle of the whole disc, sr.
     pub fn solid_angle(&self) -> f64 {
-        core::f64::consts::TAU * (1.0 - SUN_RADIUS.cos())
+        self.cap.solid_angle()
     }
 
-    /// Maps the unit square to the whole disc, uniformly in solid angle: the point and the solid angle of the disc.
-    pub(crate) fn point(&self, [a, b]: [f64; 2]) -> ([f64; 3], f64) {
-        let versine = a * (1.0 - SUN_RADIUS.cos());
-        let (cosine, sine) = (1.0 - versine, (versine * (2.0 - versine)).sqrt());
-        let [x, y, z] = self.direction;
-        // Two vectors across the direction (Duff et al. 2017).
-        let sign = 1f64.copysign(z);
-        let (p, q) = (-1.0 / (sign + z), x * y * (-1.0 / (sign + z)));
-        let first = [1.0 + sign * x * x * p, sign * q, -sign * x];
-        let second = [q, sign + y * y * p, -y];
-        let (v, u) = (core::f64::consts::TAU * b).sin_cos();
-        let point = core::array::from_fn(|i| {
-            cosine * self.direction[i] + sine * (u * first[i] + v * second[i])
-        });
-        (point, self.solid_angle())
+    /// Maps the unit square to the visible part of the disc, uniformly in solid angle.
+    pub(crate) fn draw(&self, place: [f64; 2]) -> [f32; 3] {
+        self.cap.draw(place).map(|v| v as f32)
     }
-}
 
-/// Points of the unit square, even over the disc.
-fn quadrature() -> impl Iterator<Item = [f64; 2]> {
-    (0..RINGS * POINTS).map(|i| {
-        let (ring, point) = (i / POINTS, i % POINTS);
-        let turned = point as f64 + 0.5 * (ring % 2) as f64;
-        [(ring as f64 + 0.5) / RINGS as f64, turned / POINTS as f64]
-    })
+    /// The density of [`SunDisc::draw`], sr⁻¹. Reaches a little beyond the disc, so that rounding a direction never gives
+    /// one that is bright and has the density of the sky.
+    pub(crate) fn density(&self, direction: [f32; 3]) -> f32 {
+        let covered = unit(direction).is_some_and(|unit| self.cap.covers(unit));
+        match covered {
+            true => (1.0 / self.cap.drawn_solid_angle()) as f32,
+            false => 0.0,
+        }
+    }
 }
 
 fn unit(vector: [f32; 3]) -> Option<[f64; 3]> {

@@ -152,7 +152,7 @@ impl<'a> Answerer<'a> {
     fn sun(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
         let model = self.shared.model;
         let disc = kept(&mut self.disc, question.place(), || {
-            Ok(SunDisc::new(&model.sky(conditions)?))
+            model.sun_disc(conditions)
         })?;
         disc.radiance(question.ray.narrow(), &mut self.spectrum.values)
     }

@@ -1,0 +1,163 @@
+//! Optical depths of the air before the disc.
+
+use crate::air::{Amounts, Extinction, Layers};
+use crate::axis::{Ends, alpha_coordinate, spline};
+use crate::conditions::Conditions;
+use crate::error::{Error, Result};
+use crate::format::{AlphaAxis, Kind};
+use crate::geometry::{Planet, Side};
+use crate::math::{LANES, exp};
+use crate::model::Model;
+use crate::prepare::Place;
+
+/// Elevations at which depths are kept, over the visible part of the disc.
+const NODES: usize = 33;
+/// More lets nothing through, and its differences stay exact.
+const OPAQUE: f32 = 1e4;
+
+/// Optical depths to space over a narrow band of elevations.
+#[derive(Clone, Debug)]
+pub(super) struct Depths {
+    lowest: f64,
+    nodes_per_radian: f64,
+    wavelengths: usize,
+    /// `[node][wavelength]`.
+    depths: Vec<f32>,
+}
+
+impl Depths {
+    /// Of an observer, between two elevations (rad) that are not below the geometric horizon.
+    pub fn new(model: &Model, conditions: &Conditions, [low, high]: [f64; 2]) -> Result<Self> {
+        let head = model.head();
+        let wavelengths = head.wavelengths.len();
+        let extinction = Extinction::new(head, conditions.visibility);
+        let columns = Columns::new(model, conditions)?;
+        let mut depths = Vec::with_capacity(NODES * wavelengths);
+        for i in 0..NODES {
+            let elevation = low + (high - low) * (i as f64 / (NODES - 1) as f64);
+            let amounts = columns.to_space(elevation);
+            for first in (0..wavelengths).step_by(LANES) {
+                let block = extinction.depth(&amounts, first / LANES);
+                let bounded = block.map(|depth| if depth < OPAQUE { depth } else { OPAQUE });
+                depths.extend(&bounded[..LANES.min(wavelengths - first)]);
+            }
+        }
+        Ok(Self {
+            lowest: low,
+            nodes_per_radian: (NODES - 1) as f64 / (high - low).max(f64::MIN_POSITIVE),
+            wavelengths,
+            depths,
+        })
+    }
+
+    /// Transmittance at an elevation (rad): cubic in four depths.
+    pub fn transmittance(&self, elevation: f64, out: &mut [f32]) {
+        let last = (NODES - 1) as f64;
+        let u = ((elevation - self.lowest) * self.nodes_per_radian).clamp(0.0, last);
+        let first = (u as usize).clamp(1, NODES - 3) - 1;
+        let [a, b, c, d] = cubic((u - first as f64) as f32);
+        let row = |i: usize| &self.depths[(first + i) * self.wavelengths..][..out.len()];
+        let (p, q, r, s) = (row(0), row(1), row(2), row(3));
+        for (w, out) in out.iter_mut().enumerate() {
+            let depth = a * p[w] + b * q[w] + c * r[w] + d * s[w];
+            *out = exp(-depth.max(0.0));
+        }
+    }
+}
+
+/// Weights of the nodes 0, 1, 2 and 3 at `u` (Lagrange).
+fn cubic(u: f32) -> [f32; 4] {
+    let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|node| u - node);
+    [
+        b * c * d * (-1.0 / 6.0),
+        a * c * d * 0.5,
+        a * b * d * -0.5,
+        a * b * c * (1.0 / 6.0),
+    ]
+}
+
+/// Columns from an observer to space.
+enum Columns {
+    /// Those of [`Model::air`].
+    Air { layers: Layers, altitude: f64 },
+    /// Where a file has none: what the sky uses, far less exact near the horizon.
+    Mean(MeanDensities),
+}
+
+impl Columns {
+    fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
+        let (head, altitude) = (model.head(), conditions.altitude);
+        if model.find(Kind::Transmittance, None, None).is_ok() {
+            let layers = Layers::new(&model.density_chunk()?, head.planet, head.constituents);
+            return Ok(Self::Air { layers, altitude });
+        }
+        MeanDensities::new(model, conditions).map(Self::Mean)
+    }
+
+    fn to_space(&self, elevation: f64) -> Amounts {
+        match self {
+            Self::Air { layers, altitude } => layers.to_space(*altitude, elevation.sin()),
+            Self::Mean(densities) => densities.to_space(elevation),
+        }
+    }
+}
+
+/// Logarithms of mean densities along rays. Format specification, section 7.2.
+struct MeanDensities {
+    planet: Planet,
+    altitude: f64,
+    axis: AlphaAxis,
+    constituents: usize,
+    /// Spline coefficients, `[up][constituent]`.
+    coefficients: Vec<f64>,
+}
+
+impl MeanDensities {
+    fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
+        let head = model.head();
+        let place = Place::new(head, conditions);
+        let keys = place
+            .altitudes
+            .taps()
+            .map(|(a, _)| (Kind::Column, Some(a), None));
+        model.prefetch(keys)?;
+        let mut coefficients = vec![0.0; head.shape().up * head.constituents];
+        for (a, weight) in place.altitudes.taps() {
+            let column = model.column_chunk(a)?;
+            for (sum, value) in coefficients.iter_mut().zip(column.values) {
+                *sum += weight * f64::from(value.get());
+            }
+        }
+        if coefficients.iter().any(|c| !c.is_finite()) {
+            return Err(Error::invalid("model", "its columns overflow"));
+        }
+        Ok(Self {
+            planet: head.planet,
+            altitude: conditions.altitude,
+            axis: head.up,
+            constituents: head.constituents,
+            coefficients,
+        })
+    }
+
+    fn to_space(&self, elevation: f64) -> Amounts {
+        let angle = elevation + self.planet.dip(self.altitude);
+        let ray = self
+            .planet
+            .ray_beside_horizon(self.altitude, Side::Up, angle);
+        let AlphaAxis {
+            intervals,
+            exponent,
+        } = self.axis;
+        let u = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
+        let taps = spline(u, intervals, Ends::Free);
+        let mut amounts = Amounts::default();
+        for k in 0..self.constituents {
+            let terms = taps.index.iter().zip(taps.weight);
+            let at = |i: usize| self.coefficients[i * self.constituents + k];
+            let logarithm: f64 = terms.map(|(&i, w)| f64::from(w) * at(i)).sum();
+            amounts.0[k / LANES][k % LANES] = (ray.length * logarithm.exp()) as f32;
+        }
+        amounts
+    }
+}
