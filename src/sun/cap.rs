@@ -30,6 +30,8 @@ pub(super) struct Cap {
     horizon: f64,
     /// What is drawn from lies above this; at or below the horizon everywhere.
     floor: f64,
+    /// The area of what is drawn from.
+    area: f64,
     /// Lines of equal elevation are y = y₀ + ½ bend x².
     bend: f64,
 }
@@ -46,6 +48,7 @@ impl Cap {
             true => 2.0 * half.sin() * elevation.tan(),
             false => 0.0,
         };
+        let floor = horizon + 0.5 * bend.min(0.0) * (1.0 - horizon * horizon);
         Self {
             centre: [cz * ca, cz * sa, sz],
             left: [-sa, ca, 0.0],
@@ -54,7 +57,8 @@ impl Cap {
             elevation,
             lowest: -dip,
             horizon,
-            floor: horizon + 0.5 * bend.min(0.0) * (1.0 - horizon * horizon),
+            floor,
+            area: segment(angle(floor)),
             bend,
         }
     }
@@ -66,6 +70,11 @@ impl Cap {
     /// Whether any of the disc is above the geometric horizon.
     pub fn is_visible(&self) -> bool {
         self.horizon < 1.0
+    }
+
+    /// Elevation of the geometric horizon, rad.
+    pub fn lowest(&self) -> f64 {
+        self.lowest
     }
 
     /// Lowest and highest elevation of what is visible, rad.
@@ -103,16 +112,20 @@ impl Cap {
 
     /// Solid angle that is drawn from, sr: that of the visible part, and at most 1e-4 of the disc more.
     pub fn drawn_solid_angle(&self) -> f64 {
-        self.solid_angle() * segment(angle(self.floor)) / PI
+        self.area * self.chord * self.chord
     }
 
     /// Maps the unit square to the visible part, uniformly in solid angle: upright, then across. What would fall into the
     /// outermost [`MARGIN`] is moved to its inner edge.
     pub fn draw(&self, [a, b]: [f64; 2]) -> [f64; 3] {
-        let theta = segment_angle((1.0 - a) * segment(angle(self.floor)));
+        let theta = segment_angle((1.0 - a) * self.area);
         let (x, y) = theta.sin_cos();
         let x = (2.0 * b - 1.0) * x;
-        let shrink = ((1.0 - MARGIN) / x.hypot(y).max(1e-300)).min(1.0);
+        let square = x * x + y * y;
+        let shrink = match square > (1.0 - MARGIN) * (1.0 - MARGIN) {
+            true => (1.0 - MARGIN) / square.sqrt(),
+            false => 1.0,
+        };
         self.direction([shrink * x, shrink * y])
     }
 
@@ -200,7 +213,8 @@ fn segment_angle(area: f64) -> f64 {
     // Kepler's equation with eccentricity 1: e − sin e = 2 · area; its series, refined twice by Newton's rule.
     let s = (12.0 * small).cbrt();
     let square = s * s;
-    let mut e = s * (1.0 + square / 60.0 * (1.0 + square * 3.0 / 70.0));
+    let series = 1.0 / 1400.0 + square * (1.0 / 25_200.0 + square * (43.0 / 17_248_000.0));
+    let mut e = s * (1.0 + square * (1.0 / 60.0 + square * series));
     if e > 0.05 {
         for _ in 0..2 {
             let (sine, cosine) = e.sin_cos();

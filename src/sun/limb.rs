@@ -144,7 +144,8 @@ pub(crate) fn profile(wavelength: f64) -> [f32; 6] {
 
 /// The polynomial at μ.
 pub(crate) fn evaluate(profile: &[f32; 6], mu: f32) -> f32 {
-    profile.iter().rev().fold(0.0, |sum, a| sum * mu + a)
+    let [a, b, c, d, e, f] = profile;
+    a + mu * (b + mu * (c + mu * (d + mu * (e + mu * f))))
 }
 
 #[cfg(test)]

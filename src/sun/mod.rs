@@ -99,7 +99,11 @@ impl SunDisc {
     /// per wavelength.
     pub fn radiance(&self, direction: [f32; 3], out: &mut [f32]) -> Result<()> {
         check_length(out.len(), self.wavelengths.len())?;
-        self.relative_radiance(direction, out)?;
+        let Some(spot) = self.spot(direction)? else {
+            out.fill(0.0);
+            return Ok(());
+        };
+        self.relative_radiance(&spot, out);
         let pairs = out.iter_mut().zip(&self.irradiance);
         pairs.for_each(|(out, irradiance)| *out = (*out * irradiance).min(f32::MAX));
         Ok(())
@@ -110,30 +114,41 @@ impl SunDisc {
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.
     pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+        let Some(spot) = self.spot(direction)? else {
+            return Ok([0.0; 3]);
+        };
         let mut relative = [0.0; MOST_WAVELENGTHS];
         let relative = &mut relative[..self.wavelengths.len()];
-        self.relative_radiance(direction, relative)?;
-        let component = |c: usize| relative.iter().zip(&self.xyz).map(|(l, w)| l * w[c]).sum();
-        Ok(core::array::from_fn(component))
+        self.relative_radiance(&spot, relative);
+        let mut sums = [0.0; 3];
+        for (l, weights) in relative.iter().zip(&self.xyz) {
+            sums = core::array::from_fn(|c| sums[c] + l * weights[c]);
+        }
+        Ok(sums)
+    }
+
+    /// Where in the visible part of the disc a direction is, if it is.
+    fn spot(&self, direction: [f32; 3]) -> Result<Option<Spot<'_>>> {
+        let unit = unit(direction).ok_or(Error::Direction { got: direction })?;
+        let square = self.cap.square(unit);
+        let Some(depths) = self.depths.as_ref().filter(|_| square <= 1.0) else {
+            return Ok(None);
+        };
+        let elevation = unit[2].clamp(-1.0, 1.0).asin();
+        Ok((elevation >= self.cap.lowest()).then_some(Spot {
+            depths,
+            elevation,
+            mu: (1.0 - square).sqrt() as f32,
+        }))
     }
 
     /// Per unit of solar irradiance, sr⁻¹.
-    fn relative_radiance(&self, direction: [f32; 3], out: &mut [f32]) -> Result<()> {
-        let unit = unit(direction).ok_or(Error::Direction { got: direction })?;
-        let square = self.cap.square(unit);
-        let elevation = unit[2].clamp(-1.0, 1.0).asin();
-        let seen = square <= 1.0 && elevation >= self.cap.band()[0];
-        let Some(depths) = self.depths.as_ref().filter(|_| seen) else {
-            out.fill(0.0);
-            return Ok(());
-        };
-        depths.transmittance(elevation, out);
-        let mu = (1.0 - square).max(0.0).sqrt() as f32;
+    fn relative_radiance(&self, spot: &Spot, out: &mut [f32]) {
+        spot.depths.transmittance(spot.elevation, out);
         let mean = (1.0 / self.cap.solid_angle()) as f32;
         for (out, profile) in out.iter_mut().zip(&self.profile) {
-            *out *= mean * limb::evaluate(profile, mu);
+            *out *= mean * limb::evaluate(profile, spot.mu);
         }
-        Ok(())
     }
 
     /// Spectral irradiance in W m⁻² nm⁻¹ that the visible part of the disc gives one side of a plane with this normal.
@@ -196,6 +211,15 @@ impl SunDisc {
             false => 0.0,
         }
     }
+}
+
+/// A place in the visible part of the disc.
+struct Spot<'a> {
+    depths: &'a Depths,
+    /// rad.
+    elevation: f64,
+    /// Cosine of the heliocentric angle.
+    mu: f32,
 }
 
 fn unit(vector: [f32; 3]) -> Option<[f64; 3]> {

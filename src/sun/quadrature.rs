@@ -1,13 +1,13 @@
 //! Sums over the visible part of the disc: along lines of equal elevation, where the air is the same, and over those.
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_6};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::cap::{Cap, Line};
 
 /// Nodes and weights of the 8-point Gauss-Legendre rule on −1..1, of which the other half mirrors these.
 const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362_0),
-    (0.525_532_409_916_329_0, 0.313_706_645_877_887_3),
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
@@ -24,7 +24,7 @@ pub(super) fn each_line(cap: &Cap, normal: Option<[f64; 3]>, mut visit: impl FnM
     let [a, b] = edges.unwrap_or([0.0; 2]).map(|edge| edge.min(last));
     let stops = [0.0, a.min(b), a.max(b), last];
     for pair in stops.windows(2) {
-        let panels = ((pair[1] - pair[0]) / FRAC_PI_6).ceil();
+        let panels = ((pair[1] - pair[0]) / FRAC_PI_4).ceil();
         let width = (pair[1] - pair[0]) / panels;
         for i in 0..panels as usize {
             let start = pair[0] + width * i as f64;
