@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use welkin::{Conditions, Frame, Model, Stokes, SunDisc};
+use welkin::{Conditions, Frame, Model, Stokes};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
 const QUANTITIES: [&str; 8] = [
@@ -164,7 +164,7 @@ impl Row {
                 own(sky.relative_radiance_at(direction, wavelength).unwrap())
             }
             "sun_radiance" => {
-                let disc = SunDisc::new(&model.sky(&conditions).unwrap());
+                let disc = model.sun_disc(&conditions).unwrap();
                 let mut light = vec![0.0; nodes.len()];
                 disc.radiance(direction, &mut light).unwrap();
                 own(irradiance * over_sun(&mut light))

@@ -324,7 +324,7 @@ fn irradiance_of_planes_that_cut_the_disc() {
         let sun = MODEL.sun_disc(&conditions).unwrap();
         let e = conditions.solar_elevation;
         let up = direction(e + FRAC_PI_2, 0.0);
-        for turn in [0.0f64, 0.02, 1.0, 2.5, 3.14] {
+        for turn in [0.0f64, 0.02, 1.0, 2.5, 3.1] {
             for rise in [-0.6, -0.05, 0.0, 0.3, 0.9] {
                 let (y, x) = turn.sin_cos();
                 let across = [x * up[0], y, x * up[2]];

@@ -152,7 +152,8 @@ impl Cap {
         let square = self.chord * self.chord;
         let across = self.chord * (1.0 - 0.25 * square).sqrt();
         let cosine = -(1.0 - 0.5 * square) * along / (across * left.hypot(up));
-        if !(cosine.abs() < 1.0) {
+        // NaN where the plane faces the sun.
+        if cosine.is_nan() || cosine.abs() >= 1.0 {
             return None;
         }
         let (turn, open) = (left.atan2(up), cosine.acos());
