@@ -6,6 +6,7 @@ use super::BakedColour;
 use super::frame::{Frame, prepared};
 use crate::error::{Error, Result};
 use crate::lanes::Lanes;
+use crate::math::finite;
 use crate::sun::SunDisc;
 
 /// Rows of cells above and below the horizon, and columns from the sun's azimuth to the opposite one.
@@ -148,7 +149,7 @@ impl SkySampler {
         let mut xyz = self.sky.xyz(direction)?;
         if let Some((sun, _)) = &self.sun {
             let disc = sun.xyz(direction)?;
-            xyz = core::array::from_fn(|c| (xyz[c] + disc[c]).min(f32::MAX));
+            xyz = core::array::from_fn(|c| finite(xyz[c] + disc[c]));
         }
         Ok(xyz)
     }

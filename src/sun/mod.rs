@@ -10,6 +10,7 @@ mod quadrature;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use cap::Cap;
@@ -124,7 +125,7 @@ impl SunDisc {
         for (l, weights) in relative.iter().zip(&self.xyz) {
             sums = core::array::from_fn(|c| sums[c] + l * weights[c]);
         }
-        Ok(sums)
+        Ok(sums.map(finite))
     }
 
     /// Where in the visible part of the disc a direction is, if it is.

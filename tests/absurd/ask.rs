@@ -98,7 +98,11 @@ impl Asker {
             self.general(&general, &conditions);
             let sky = self.allowed("sky", model.sky(&conditions));
             if let Some(sky) = &sky {
-                self.sky(sky, wavelength);
+                let disc = self.allowed("sun", model.sun_disc(&conditions));
+                if let Some(disc) = &disc {
+                    self.disc(disc);
+                }
+                self.sky(sky, disc.as_ref(), wavelength);
             }
             let polarised = self.allowed("polarised sky", model.polarised_sky(&conditions));
             if let Some(sky) = &polarised {
@@ -135,7 +139,7 @@ impl Asker {
         let _ = Interpolation::Full;
     }
 
-    fn sky(&mut self, sky: &Sky, wavelength: f64) {
+    fn sky(&mut self, sky: &Sky, disc: Option<&SunDisc>, wavelength: f64) {
         let mut out = vec![0.0; sky.wavelengths().len()];
         for direction in DIRECTIONS {
             sky.radiance(direction, &mut out).unwrap();
@@ -153,13 +157,11 @@ impl Asker {
             self.finite("XYZ", sky.xyz(direction).unwrap());
             self.finite("RGB", sky.linear_srgb(direction).unwrap());
         }
-        let disc = SunDisc::new(sky);
-        self.disc(&disc);
         if let Some(baked) = self.allowed("bake", sky.bake(0.1)) {
             self.baked(&baked, wavelength as f32);
         }
         if let Some(baked) = self.allowed("bake colour", sky.bake_colour(0.1)) {
-            self.colour(&baked, &disc);
+            self.colour(&baked, disc);
         }
     }
 
@@ -202,17 +204,19 @@ impl Asker {
         assert!(errors.iter().all(|e| e.is_finite()), "{error:?}");
     }
 
-    fn colour(&mut self, baked: &BakedColour, disc: &SunDisc) {
+    fn colour(&mut self, baked: &BakedColour, disc: Option<&SunDisc>) {
         for direction in DIRECTIONS {
             self.finite("baked XYZ", baked.xyz(direction).unwrap());
             self.finite("baked RGB", baked.linear_srgb(direction).unwrap());
         }
         let sampler = baked.sampler();
-        for sampler in [sampler.clone(), sampler.with_sun(disc)] {
+        let with_sun = disc.map(|disc| sampler.clone().with_sun(disc));
+        for sampler in with_sun.into_iter().chain([sampler]) {
             for i in 0..16 {
                 let place = [i as f32 / 15.0, (i * 7 % 16) as f32 / 16.0];
                 let sample = sampler.sample(place);
                 self.finite("sample", sample.direction);
+                self.finite("XYZ of a sample", sample.xyz);
                 self.light("pdf of a sample", &[sample.pdf]);
             }
             for direction in DIRECTIONS {
