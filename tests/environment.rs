@@ -7,7 +7,7 @@ use std::process::Command;
 
 use exr::prelude::read_first_flat_layer_from_file;
 use serde_json::Value;
-use welkin::{Conditions, Model, SunDisc};
+use welkin::{Conditions, Model};
 
 fn welkin(arguments: &[&str], folder: &Path) -> std::process::Output {
     Command::new(env!("CARGO_BIN_EXE_welkin"))
@@ -132,7 +132,7 @@ fn sunlight_is_that_of_the_disc() {
             albedo: number("albedo"),
             altitude: 0.0,
         };
-        let disc = SunDisc::new(&model.sky(&conditions).unwrap());
+        let disc = model.sun_disc(&conditions).unwrap();
         let mut expected = vec![0.0; model.wavelengths().len()];
         disc.irradiance(disc.direction(), &mut expected).unwrap();
         for (got, expected) in numbers(&light["direct_normal"]["spectral"])
@@ -237,7 +237,9 @@ fn the_ground_far_below_is_seen_through_the_air_under_its_own_sun() {
             .unwrap();
         sky.radiance(way.map(|v| v as f32), &mut light).unwrap();
         air.transmittance(from, point, &mut through).unwrap();
-        SunDisc::new(&there)
+        model
+            .sun_disc(there.conditions())
+            .unwrap()
             .irradiance([0.0, 0.0, 1.0], &mut direct)
             .unwrap();
         let baked = there.bake(1e-3).unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use welkin::{Conditions, Model, Sky, SunDisc, xyz_to_linear_srgb};
+use welkin::{Conditions, Model, Sky, xyz_to_linear_srgb};
 
 use crate::failure::Result;
 
@@ -61,7 +61,7 @@ pub struct Light {
 impl Light {
     pub fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let sky = model.sky(conditions)?;
-        let disc = SunDisc::new(&sky);
+        let disc = model.sun_disc(sky.conditions())?;
         let zeros = || vec![0.0; model.wavelengths().len()];
         let [mut normal, mut level, mut centre] = [zeros(), zeros(), zeros()];
         disc.irradiance(disc.direction(), &mut normal)?;
