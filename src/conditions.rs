@@ -17,7 +17,8 @@ pub struct Conditions {
     pub visibility: f64,
     /// Albedo of the ground, 0..=1, the same at all wavelengths.
     pub albedo: f64,
-    /// Altitude of the observer above the ground, m.
+    /// Altitude of the observer above the ground, m. Down to [`Conditions::LOWEST_ALTITUDE`] an observer under the sphere, in a polder or
+    /// by rounding, stands on the ground: the altitude counts as 0, and so does that of the checked conditions.
     pub altitude: f64,
 }
 
@@ -35,6 +36,9 @@ impl Default for Conditions {
 }
 
 impl Conditions {
+    /// Altitude below which no land lies, m.
+    pub const LOWEST_ALTITUDE: f64 = -500.0;
+
     #[cfg(feature = "std")]
     /// Moves every parameter into the range of `model`.
     ///
@@ -79,7 +83,10 @@ impl Conditions {
     /// # Errors
     /// [`Error::OutOfRange`] for the first parameter that the model does not reach.
     pub fn checked(&self, model: &Model) -> Result<Self> {
-        let mut checked = *self;
+        let mut checked = Self {
+            altitude: grounded(self.altitude),
+            ..*self
+        };
         for (parameter, value, [min, max]) in checked.ranges(model) {
             let slack = 1e-9 * min.abs().max(max.abs()).min(1e12);
             if !value.is_finite() || *value < min - slack || *value > max + slack {
@@ -116,6 +123,15 @@ impl Conditions {
                 model.altitude_range(),
             ),
         ]
+    }
+}
+
+/// The altitude (m) of an observer, on the ground if not far under it.
+#[inline]
+pub(crate) fn grounded(altitude: f64) -> f64 {
+    match (Conditions::LOWEST_ALTITUDE..0.0).contains(&altitude) {
+        true => 0.0,
+        false => altitude,
     }
 }
 

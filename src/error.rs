@@ -114,6 +114,13 @@ pub enum Error {
         /// The refused point, m.
         got: [f64; 3],
     },
+    /// The air of a segment goes too far from where a haze was prepared.
+    Reach {
+        /// The end of that air that is too far, m.
+        got: [f64; 3],
+        /// How far it may be, as an angle at the planet's centre, rad.
+        reach: f64,
+    },
     /// A model is too large for the fixed arrays of an evaluator without allocation.
     Limit {
         /// What there is too much of.
@@ -148,7 +155,7 @@ impl Error {
             Error::Tolerance { .. } => "tolerance",
             Error::Limit { .. } => "limit",
             Error::Direction { .. } => "direction",
-            Error::Point { .. } => "point",
+            Error::Point { .. } | Error::Reach { .. } => "point",
         }
     }
 
@@ -296,6 +303,13 @@ impl fmt::Display for Error {
                 Number(*x),
                 Number(*y),
                 Number(*z)
+            ),
+            Error::Reach {
+                got: [x, y, z],
+                reach,
+            } => write!(
+                f,
+                "the air of a segment must lie within {reach} rad (angle at the planet's centre) of where the haze was prepared, got ({x}, {y}, {z}): prepare one nearer to it"
             ),
             Error::Direction { got: [x, y, z] } => write!(
                 f,

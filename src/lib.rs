@@ -48,6 +48,7 @@ mod budget;
 mod colour;
 mod conditions;
 mod error;
+mod fade;
 pub mod format;
 mod general;
 pub mod geometry;
@@ -60,6 +61,7 @@ mod model;
 #[cfg(feature = "std")]
 pub mod output;
 mod phase;
+mod place;
 #[cfg(feature = "std")]
 mod polarisation;
 #[cfg(feature = "std")]
@@ -99,6 +101,7 @@ pub use haze::{Foreground, GeneralHaze, Haze, PolarisedForeground};
 pub use model::DEFAULT_MODEL;
 #[cfg(feature = "std")]
 pub use model::Model;
+pub use place::Place;
 #[cfg(feature = "std")]
 pub use polarisation::{Frame, PolarisedGeneral, PolarisedSky, Stokes, StokesSpectra};
 #[cfg(feature = "std")]

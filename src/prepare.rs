@@ -3,6 +3,7 @@
 use crate::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::fade::{azimuthal, fade_rows};
 use crate::format::{
     BasisView, FactorsView, Field, Head, Kind, Payload16, PhaseFunction, altitude_node,
     visibility_node, widen,
@@ -56,6 +57,8 @@ pub(crate) struct Place {
     visibilities_linear: Stencil,
     /// Coordinate on the elevation axis.
     pub elevation: f64,
+    /// What the azimuth counts.
+    pub fade: f64,
 }
 
 impl Place {
@@ -67,6 +70,7 @@ impl Place {
             visibilities: hermite(&visibilities, x),
             visibilities_linear: linear(&visibilities, x),
             elevation: head.elevation.coordinate(conditions.solar_elevation),
+            fade: azimuthal(conditions.solar_elevation.cos()),
         }
     }
 
@@ -238,11 +242,9 @@ impl Baker<'_> {
                 channel[r * cells + cell].0[place] += fold * widen(value);
             }
         }
-        Patterns {
-            rank,
-            phi: widen_rows(basis.phi, basis.stride, rank),
-            channel,
-        }
+        let mut phi = widen_rows(basis.phi, basis.stride, rank);
+        fade_rows(&mut phi, rank, self.place.fade);
+        Patterns { rank, phi, channel }
     }
 }
 

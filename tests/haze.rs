@@ -296,8 +296,10 @@ fn bad_questions_are_refused() {
     for bad in [f64::NAN, f64::INFINITY, 2e9] {
         assert!(matches!(ask([0.0, bad, 0.0]), Err(Error::Point { .. })));
     }
-    // Deep underground and far away there is still an answer.
-    ask([0.0, 0.0, -9e8]).unwrap();
+    // Deep underground there is still an answer, beyond the planet's centre there is none.
+    ask([0.0, 0.0, -6e6]).unwrap();
+    let beyond = ask([0.0, 0.0, -9e8]).unwrap_err();
+    assert!(matches!(beyond, Error::Reach { .. }) && beyond.class() == "point");
     assert!(through.iter().chain(&light).all(|v| v.is_finite()));
     let mut short = [0.0; 2];
     let wrong = haze.in_scatter([0.0; 3], [1.0; 3], &mut short, &mut through);

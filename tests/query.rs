@@ -111,7 +111,7 @@ impl Row {
         let (column, value, error) = [
             (0, 5.0, "visibility must be in"),
             (1, f64::NAN, "albedo must be in"),
-            (2, -1.0, "altitude must be in"),
+            (2, -501.0, "altitude must be in"),
             (3, -4.3, "solar elevation must be in"),
             (4, 180.5, "view_zenith_deg must be in 0..=180"),
             (5, f64::INFINITY, "view_azimuth_deg must be finite"),

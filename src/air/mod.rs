@@ -18,7 +18,7 @@ use crate::simd::{Instructions, Kernel, dispatch};
 /// The air at one visibility: transmittance along straight lines, without refraction.
 ///
 /// Points are in metres in a world frame whose origin lies on the ground, with +z up there; the planet's centre is at
-/// (0, 0, −R). Nothing blocks the way: the caller has seen what is at its end. Below the ground the air is as
+/// (0, 0, −R). Nothing blocks the way: the caller has seen what is at its end. Below the ground, at any depth, the air is as
 /// dense as at the ground.
 ///
 /// Whatever the file holds, transmittance is 1 over no distance, never grows with distance, is the same in both
@@ -163,7 +163,8 @@ impl Air {
         Ok(())
     }
 
-    /// Transmittance from a point to space in a direction (need not be normalised); zero where the ground is in the way.
+    /// Transmittance from a point to space in a direction (need not be normalised); zero where the ground is in the way, which it is for
+    /// whatever goes down from the ground or from under it.
     ///
     /// # Errors
     /// As [`Air::transmittance`]; [`Error::Direction`] for a vector that is zero or not finite.

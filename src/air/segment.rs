@@ -36,7 +36,8 @@ impl Segment {
         Ok(Self::along(planet, a, direction, length))
     }
 
-    /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true.
+    /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true. A point on the ground or
+    /// under it is met at once by lines that go down, and never by others.
     pub fn to_end(planet: &Planet, a: Point, direction: [f64; 3]) -> Result<(Self, bool)> {
         let a = checked(a)?;
         let square = dot(direction, direction);
@@ -48,9 +49,10 @@ impl Segment {
         let endless = Self::along(planet, a, unit, 0.0);
         let lowest = endless.line.lowest;
         let reach = |w: f64| (w - lowest) * (2.0 * planet.radius);
-        let ground = reach(0.0);
-        if lowest < 0.0 && endless.from < 0.0 && endless.from * endless.from >= ground {
-            let length = -endless.from - ground.sqrt();
+        if lowest < 0.0 && endless.from < 0.0 {
+            // Without the difference of two long ways. From the ground or under it, down is the ground at once.
+            let height = squared_altitude(planet, a).max(0.0) * (2.0 * planet.radius);
+            let length = height / (reach(0.0).sqrt() - endless.from);
             return Ok((Self::along(planet, a, unit, length), true));
         }
         let top = reach(planet.squared_altitude(planet.top));
@@ -63,10 +65,8 @@ impl Segment {
         let start = [a[0], a[1], a[2] + planet.radius];
         let from = dot(start, direction);
         let per_diameter = 0.5 / planet.radius;
-        // r² − R² over the diameter, without the cancellation of the squares.
-        let w = dot(a, a) * per_diameter + a[2];
         let line = Line {
-            lowest: w - from * from * per_diameter,
+            lowest: squared_altitude(planet, a) - from * from * per_diameter,
         };
         Self {
             line,
@@ -86,9 +86,22 @@ impl Segment {
         }
     }
 
+    /// At a distance from the tangent point, relative to the planet's centre, m.
+    #[inline(always)]
+    pub fn point(&self, s: f64) -> Point {
+        let way = s - self.from;
+        core::array::from_fn(|i| self.start[i] + way * self.direction[i])
+    }
+
     pub fn to(&self) -> f64 {
         self.from + self.length
     }
+}
+
+/// r² − R² over the diameter, without the cancellation of the squares.
+#[inline(always)]
+fn squared_altitude(planet: &Planet, a: Point) -> f64 {
+    dot(a, a) * (0.5 / planet.radius) + a[2]
 }
 
 #[inline(always)]

@@ -6,7 +6,9 @@
 use zerocopy::little_endian::{F32, U16};
 
 use super::WAVELENGTH_BLOCKS;
+use super::place::Place;
 use crate::axis::Taps;
+use crate::fade::mean_weight;
 use crate::format::{BasisView, FactorsView, widen};
 use crate::lanes::Lanes;
 use crate::simd::Instructions;
@@ -144,13 +146,40 @@ pub(super) fn level(rows: &LevelRows, wavelengths: usize, elevation: &Taps) -> S
 pub(super) fn turn<I: Instructions>(
     instructions: I,
     basis: &BasisView,
-    phi: &Taps,
+    place: &Place,
     sum: &mut Components,
 ) {
-    let azimuths = Rows::new(basis.phi, basis.stride, phi);
+    if place.fade < 1.0 {
+        let factors = faded(basis, place.phi, place.fade);
+        for b in 0..sum.len() {
+            sum[b] = sum[b] * factors[b];
+        }
+        return;
+    }
+    let azimuths = Rows::new(basis.phi, basis.stride, &place.phi);
     for b in 0..(basis.stride / WIDTH).min(sum.len()) {
         sum[b] = sum[b] * azimuths.sum(instructions, b);
     }
+}
+
+/// Factors of an azimuth under a sun near the zenith, where azimuths fade.
+#[cold]
+fn faded(basis: &BasisView, phi: Taps, fade: f64) -> Components {
+    let rows = basis.phi.chunks_exact(basis.stride);
+    let intervals = rows.len() - 1;
+    let mut factors = [Lanes::splat(0.0); MOST_RANK / WIDTH];
+    for (i, row) in rows.enumerate() {
+        let mut weight = (1.0 - fade) * mean_weight(i, intervals);
+        for k in 0..phi.index.len() {
+            if phi.index[k] == i {
+                weight += fade * f64::from(phi.weight[k]);
+            }
+        }
+        for (j, &half) in row.iter().enumerate() {
+            factors[j / WIDTH].0[j % WIDTH] += weight as f32 * widen(half);
+        }
+    }
+    factors
 }
 
 /// Sums the components in each channel.

@@ -4,8 +4,9 @@ use super::General;
 use super::around::Nodes;
 use super::head::HeadView;
 use crate::axis::{Ends, Taps, alpha_coordinate, chord, spline};
-use crate::conditions::Conditions;
+use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
+use crate::fade::azimuthal;
 use crate::geometry::{Ray, Side};
 use crate::phase::SunAngle;
 #[cfg(not(feature = "std"))]
@@ -20,6 +21,8 @@ pub(super) struct Place {
     /// The same, coarser.
     pub chord: [Taps<2>; 2],
     pub phi: Taps,
+    /// What the azimuth counts.
+    pub fade: f64,
     pub ray: Ray,
     pub angle: SunAngle,
     pub albedo: f64,
@@ -84,6 +87,7 @@ impl Place {
             ],
             chord: [chord(alpha, intervals), chord(sun, axis.intervals)],
             phi: spline(phi, head.phi_intervals, Ends::Mirrored),
+            fade: azimuthal(sun_r),
             angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),
             ray,
             albedo: conditions.albedo,
@@ -128,6 +132,11 @@ fn checked(head: &HeadView, conditions: &Conditions) -> Result<Conditions> {
             "m",
         )?,
         albedo: check("albedo", conditions.albedo, [0.0, 1.0], "")?,
-        altitude: check("altitude", conditions.altitude, ends(head.altitudes), "m")?,
+        altitude: check(
+            "altitude",
+            grounded(conditions.altitude),
+            ends(head.altitudes),
+            "m",
+        )?,
     })
 }

@@ -141,7 +141,7 @@ impl<'a, 'b> Query<'a, 'b> {
             let sun = &place.curve[1];
             contract::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
         }
-        contract::turn(instructions, basis, &place.phi, &mut components);
+        contract::turn(instructions, basis, place, &mut components);
         contract::project(instructions, basis, &components, channels);
         Ok(contract::level(&level, wavelengths, &place.curve[1]))
     }

@@ -106,9 +106,11 @@ impl Kernel for Polarised<'_, '_> {
         let mut channels = [0.0; MOST_CHANNELS];
         self.scattered(instructions, &place, &mut channels)?;
         for (part, out) in parts.scattered.iter_mut().enumerate() {
+            // U is odd in the azimuth: nothing of it stays under a vertical sun.
+            let share = [1.0, place.fade as f32][part];
             let (sky, reflected) = (&channels[part * n..], &channels[(part + 2) * n..]);
             for w in 0..n {
-                out[w] = sky[w] + ground[w] * reflected[w];
+                out[w] = share * (sky[w] + ground[w] * reflected[w]);
             }
         }
         Ok(parts)
@@ -140,7 +142,7 @@ impl Polarised<'_, '_> {
                 contract::add_chunk(instructions, chunk, rows, &place.curve, weight, sum);
             }
         }
-        contract::turn(instructions, &factors.basis, &place.phi, &mut components);
+        contract::turn(instructions, &factors.basis, place, &mut components);
         contract::project(instructions, &factors.basis, &components, channels);
         Ok(())
     }

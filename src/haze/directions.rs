@@ -3,9 +3,12 @@
 use core::f64::consts::PI;
 
 use super::harmonics::orders;
+use crate::air::{Segment, dot};
+use crate::fade::azimuthal_per_sine;
 use crate::format::{MAX_MOMENTS, SourceBasisView, TENSOR};
 use crate::lanes::Lanes;
 use crate::math::asin;
+use crate::polarisation::{PARALLEL, cross};
 
 /// Components in a vector.
 pub(crate) const WIDE: usize = 8;
@@ -17,24 +20,71 @@ const ANGLES: usize = 120;
 /// One number per component.
 pub(crate) type Components = [Lanes<WIDE>; MOST_VECTORS];
 
+/// A straight line, its vertical plane, and the sun.
+pub(crate) struct Sightline {
+    /// How near it comes to the planet's centre, m.
+    pub nearest: f64,
+    /// The sun's direction along the line, across it in the vertical plane (away from the centre), and to the right of that.
+    sun: [f32; 3],
+}
+
+impl Sightline {
+    /// `sun` is the unit vector towards it. Vertical lines are in the plane of the sun.
+    #[inline(always)]
+    pub fn new(segment: &Segment, sun: [f64; 3]) -> Self {
+        let (v, start) = (segment.direction, segment.start);
+        let along = dot(v, sun);
+        let across: [f64; 3] = core::array::from_fn(|i| start[i] - segment.from * v[i]);
+        let square = dot(across, across);
+        if square <= PARALLEL * dot(start, start) {
+            let level: [f64; 3] = core::array::from_fn(|i| sun[i] - along * v[i]);
+            let across = -dot(level, level).sqrt().copysign(segment.from);
+            return Self {
+                nearest: 0.0,
+                sun: [along, across, 0.0].map(|v| v as f32),
+            };
+        }
+        let nearest = square.sqrt();
+        let per_metre = 1.0 / nearest;
+        let right = dot(cross(v, across), sun) * per_metre;
+        Self {
+            nearest,
+            sun: [along, dot(across, sun) * per_metre, right].map(|v| v as f32),
+        }
+    }
+
+    /// Where the line has this cosine and sine of its zenith angle.
+    #[inline(always)]
+    pub fn local(&self, view: f32, slope: f32) -> Local {
+        let [along, across, right] = self.sun;
+        // The sun's horizontal direction from its components: zenith angles of next to nothing have no digits in their cosine.
+        let ahead = slope * along - view * across;
+        let gain = azimuthal_per_sine((ahead * ahead + right * right).sqrt());
+        Local {
+            view,
+            slope,
+            azimuth: [ahead * gain, right * gain],
+        }
+    }
+}
+
 /// A direction and the sun in the local frame of a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Local {
-    /// Cosine of the zenith angle of the view direction.
-    pub view: f64,
-    /// Cosine of the azimuth of the view direction less that of the sun.
-    pub cos_azimuth: f64,
+    /// Cosine and sine of the zenith angle of the view direction.
+    pub view: f32,
+    pub slope: f32,
+    /// Cosine and sine of the azimuth of the view direction less that of the sun, both times what azimuths count.
+    pub azimuth: [f32; 2],
 }
 
 impl Local {
-    /// From the zenith cosines of view direction and sun and the cosine of the angle between them.
-    pub fn new(view: f64, sun: f64, between: f64) -> Self {
-        let sines = ((1.0 - view * view) * (1.0 - sun * sun)).max(0.0).sqrt();
-        let cos_azimuth = match sines > 1e-9 {
-            true => ((between - view * sun) / sines).clamp(-1.0, 1.0),
-            false => 1.0,
-        };
-        Self { view, cos_azimuth }
+    /// Squares of cosine and sine of the azimuth, as far as azimuths count: half each at a vertical sun.
+    #[inline(always)]
+    fn squares(&self) -> [f32; 2] {
+        let [x, y] = self.azimuth;
+        let double = x * x - y * y;
+        [0.5 * (1.0 + double), 0.5 * (1.0 - double)]
     }
 }
 
@@ -90,20 +140,17 @@ impl Directions {
         [self.molecules(local), self.particles(local)]
     }
 
-    /// Q and U of what molecules send from each component, in the vertical frame; `sine` is that of the azimuth.
+    /// Q and U of what molecules send from each component, in the vertical frame.
     #[inline(always)]
-    pub fn polarised(&self, local: &Local, sine: f64) -> [Components; 2] {
-        // Where the azimuth fades, at vertical views, the two need not agree.
-        let square = local.cos_azimuth * local.cos_azimuth + sine * sine;
-        let length = square.sqrt().max(f64::MIN_POSITIVE);
-        let [view, cosine, sine] =
-            [local.view, local.cos_azimuth / length, sine / length].map(|v| v as f32);
-        let slope = (1.0 - view * view).max(0.0).sqrt();
+    pub fn polarised(&self, local: &Local) -> [Components; 2] {
+        let Local { view, slope, .. } = *local;
+        let [cosine, sine] = local.azimuth;
+        let [along, across] = local.squares();
         let mixed = 2.0 * view * sine * cosine;
         [
             self.tensor([
-                view * view * cosine * cosine - sine * sine,
-                view * view * sine * sine - cosine * cosine,
+                view * view * along - across,
+                view * view * across - along,
                 slope * slope,
                 -2.0 * slope * view * cosine,
             ]),
@@ -113,14 +160,13 @@ impl Directions {
 
     #[inline(always)]
     fn molecules(&self, local: &Local) -> Components {
-        let (view, azimuth) = (local.view as f32, local.cos_azimuth as f32);
-        let (view2, azimuth2) = (view * view, azimuth * azimuth);
-        let sine = (1.0 - view2).max(0.0).sqrt();
+        let Local { view, slope, .. } = *local;
+        let [along, across] = local.squares();
         self.tensor([
-            view2 * azimuth2 + (1.0 - azimuth2),
-            view2 * (1.0 - azimuth2) + azimuth2,
-            1.0 - view2,
-            -2.0 * sine * view * azimuth,
+            view * view * along + across,
+            view * view * across + along,
+            slope * slope,
+            -2.0 * slope * view * local.azimuth[0],
         ])
     }
 
@@ -138,16 +184,16 @@ impl Directions {
 
     #[inline(always)]
     fn particles(&self, local: &Local) -> Components {
-        let zenith = core::f32::consts::FRAC_PI_2 - asin(local.view as f32);
+        let zenith = core::f32::consts::FRAC_PI_2 - asin(local.view);
         let u = zenith * (ANGLES as f32 / core::f32::consts::PI);
         let i = (u as usize).min(ANGLES - 1);
         let t = u - i as f32;
         let stride = (self.orders + 1) * self.vectors;
         let rows = &self.particles[i * stride..(i + 2) * stride];
         let (near, far) = rows.split_at(stride);
-        let azimuth = local.cos_azimuth as f32;
-        // cos mφ by recursion from cos(−φ) and 1.
-        let (mut before, mut cosine) = (azimuth, 1.0);
+        let [x, y] = local.azimuth;
+        // Powers of a complex number: each order fades as its own power.
+        let (mut cosine, mut sine) = (1.0, 0.0);
         let mut out = [Lanes::splat(0.0); MOST_VECTORS];
         let orders = near
             .chunks_exact(self.vectors)
@@ -156,7 +202,7 @@ impl Directions {
             for ((out, near), far) in out.iter_mut().zip(near).zip(far) {
                 *out = *out + (*near + (*far - *near) * t) * cosine;
             }
-            (before, cosine) = (cosine, 2.0 * azimuth * cosine - before);
+            (cosine, sine) = (cosine * x - sine * y, cosine * y + sine * x);
         }
         out
     }

@@ -6,7 +6,6 @@
 use super::Haze;
 use super::colours::Colours;
 use super::integral::{Block, Integral, UNPOLARISED};
-use crate::air::Segment;
 use crate::colour::xyz_to_linear_srgb;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -136,8 +135,7 @@ impl Foreground<'_> {
 
     /// Hands what the segment does to `emit` block by block.
     fn integrate(&self, to: [f64; 3], mut emit: impl FnMut(usize, Block)) -> Result<()> {
-        let planet = self.haze.air.planet();
-        let segment = Segment::between(&planet, self.camera(), to)?;
+        let segment = self.haze.segment(self.camera(), to)?;
         let direction = segment.direction.map(|v| v as f32);
         let (mut whole, mut looked_up) = (None, Ok(()));
         dispatch(Integral::<UNPOLARISED, _> {

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::expansion::{Expansion, Fill, Scratch};
-use super::source::{ground_factor, overflow, sun_nodes};
+use super::source::{ground_factor, overflow, reach, sun_nodes};
 use super::sunlight::NODES;
 use super::{Haze, Species, sun_direction};
 use crate::air::{Extinction, Segment};
@@ -92,7 +92,7 @@ impl GeneralHaze<'_> {
         transmittance: &mut [f32],
     ) -> Result<()> {
         self.set(conditions)?;
-        let segment = Segment::between(&self.haze.air.planet(), from, to)?;
+        let segment = self.haze.segment(from, to)?;
         self.fill(&segment)?;
         self.haze.in_scatter(from, to, in_scatter, transmittance)
     }
@@ -128,7 +128,7 @@ impl GeneralHaze<'_> {
         wavelength: f64,
     ) -> Result<Stokes> {
         self.set(conditions)?;
-        let segment = Segment::between(&self.haze.air.planet(), from, to)?;
+        let segment = self.haze.segment(from, to)?;
         self.fill(&segment)?;
         self.haze.relative_stokes_at(from, to, frame, wavelength)
     }
@@ -170,7 +170,7 @@ impl GeneralHaze<'_> {
         haze.air.extinction = Extinction::new(head, visibility);
         haze.grey = haze.air.grey();
         haze.beam.turn(&haze.air.planet(), solar_elevation);
-        self.suns = sun_nodes(solar_elevation);
+        self.suns = sun_nodes(solar_elevation, reach(&head.planet));
         haze.source.turn(&self.suns);
         let nodes = haze.source.altitudes() * self.suns.len();
         // Near the zenith the sun has fewer nodes; room for more stays.
@@ -247,7 +247,7 @@ impl Kernel for Needs<'_, '_> {
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> Result<()> {
         let Self { general, segment } = self;
-        let (panels, places) = general.haze.panels(segment);
+        let (panels, places, _) = general.haze.panels(segment);
         let planet = general.haze.air.planet();
         let ends = 2 * (panels.count + 1).div_ceil(2);
         for (i, places) in places.iter().enumerate() {

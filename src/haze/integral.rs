@@ -6,14 +6,14 @@
 
 use super::Haze;
 use super::beams::{Beams, Pair, Sun, Sunlight};
-use super::directions::{Components, Local, MOST_VECTORS};
+use super::directions::{Components, MOST_VECTORS, Sightline};
 use super::marks::Heaven;
 use super::panels::{MOST_PLACES, Panels};
 use super::places::{BATCH, Places};
 use super::scattering::{Air, Scattered, sunlit_beyond};
 use super::source::Spot;
 use super::stations::MOST_STATIONS;
-use crate::air::{QUADS, Segment, dot};
+use crate::air::{QUADS, Segment};
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::phase::SunAngle;
@@ -60,16 +60,16 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     fn run<I: Instructions>(mut self, _: I) {
         let (haze, segment) = (self.haze, self.segment);
         let layers = &haze.air.layers;
-        let (panels, places) = haze.panels(segment);
+        let (panels, places, line) = haze.panels(segment);
         let pairs = panels.count.div_ceil(2);
         let stations = panels.stations;
         let sunlight = Sunlight::new(haze, &places, panels.count);
         let mut views = [View::<M>::default(); MOST_STATIONS];
         let views = &mut views[..stations.shares.len()];
-        let between = dot(segment.direction, haze.sun);
         for (i, view) in views.iter_mut().enumerate() {
             let i = panels.count + 1 + i;
-            view.look(haze, &self.plane, between, &places[i / BATCH], i % BATCH);
+            let places = &places[i / BATCH];
+            view.look(haze, &line, places, i % BATCH);
         }
         let beyond = self
             .beyond
@@ -134,20 +134,21 @@ pub(super) type AllPlaces = [Places; MOST_PLACES / BATCH];
 impl Haze {
     /// Where light is evaluated along a segment.
     #[inline(always)]
-    pub(super) fn panels(&self, segment: &Segment) -> (Panels, AllPlaces) {
+    pub(super) fn panels(&self, segment: &Segment) -> (Panels, AllPlaces, Sightline) {
         let layers = &self.air.layers;
         let sky = Heaven {
             sun: self.sun,
             low: self.conditions.solar_elevation < LOW_SUN,
         };
         let panels = Panels::place(layers, segment, &self.grey, &sky);
+        let line = Sightline::new(segment, self.sun);
         let mut places = [Places::default(); MOST_PLACES / BATCH];
         let used = panels.count + 1 + panels.stations.shares.len();
         let (at, _) = panels.places.as_chunks();
         for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
-            *places = Places::new(&layers.planet(), segment, self.sun, at);
+            *places = Places::new(&layers.planet(), segment, self.sun, line.nearest, at);
         }
-        (panels, places)
+        (panels, places, line)
     }
 }
 
@@ -207,17 +208,14 @@ impl<const M: usize> Default for View<M> {
 }
 
 impl<const M: usize> View<M> {
-    /// Looks along a segment from one of its places; `between` is the cosine of the angle between its direction and the sun.
+    /// Looks along a segment from one of its places.
     #[inline(always)]
-    fn look(&mut self, haze: &Haze, plane: &Plane, between: f64, places: &Places, i: usize) {
-        let [zenith, sun] = [places.zenith, places.sun].map(|lanes| f64::from(lanes.0[i]));
-        let local = Local::new(zenith, sun, between);
+    fn look(&mut self, haze: &Haze, line: &Sightline, places: &Places, i: usize) {
+        let local = line.local(places.zenith.0[i], places.slope.0[i]);
         let directions = &haze.source.directions;
         self.seen[..2].copy_from_slice(&directions.at(&local));
         if M == POLARISED {
-            let level = (1.0 - sun * sun).max(1e-18).sqrt();
-            let sine = (plane.sun[1] / level).clamp(-1.0, 1.0);
-            self.seen[2..].copy_from_slice(&directions.polarised(&local, sine));
+            self.seen[2..].copy_from_slice(&directions.polarised(&local));
         }
         self.spot = haze.source.spot(places.altitude.0[i], places.sun.0[i]);
     }

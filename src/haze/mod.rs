@@ -14,6 +14,7 @@ mod panels;
 mod places;
 mod polarised;
 mod polarised_foreground;
+mod reach;
 mod scattering;
 mod source;
 mod species;
@@ -34,6 +35,7 @@ pub use foreground::Foreground;
 pub use general::GeneralHaze;
 use integral::{Block, Integral, UNPOLARISED};
 pub use polarised_foreground::PolarisedForeground;
+use reach::Reach;
 use source::{SourceTable, blocks, ground_factor};
 use species::Species;
 use sunlight::Beam;
@@ -42,7 +44,11 @@ use sunlight::Beam;
 ///
 /// Points are in metres in the frame of [`Air`]: the origin on the ground, +z up there. The conditions hold at the
 /// origin; the sun is so far away that its direction is the same everywhere, while its elevation above the local horizon is not.
-/// The altitude of the conditions plays no part: one haze serves all observers. Nothing blocks a segment.
+/// The altitude of the conditions plays no part: one haze serves all observers. Nothing blocks a segment. Points on the ground or under
+/// it, at any depth, are points like others: the air goes on down there, and its light, as they are at the ground. A ray to its end
+/// ([`Haze::to_end`]) that goes down from there ends at once.
+///
+/// It holds for air up to [`Haze::reach`] from the origin.
 ///
 /// The light is integrated along the segment: sunlight scattered once, with the sun's disc setting behind the planet, and a stored
 /// source function of all other light. So it is never negative, vanishes with the length of the segment, adds up along
@@ -57,6 +63,7 @@ pub struct Haze {
     species: Species,
     source: SourceTable,
     beam: Beam,
+    reach: Reach,
     /// Extinction at a typical wavelength, m⁻¹: a polynomial of each layer.
     grey: Vec<[f32; 3]>,
     irradiance: Vec<[f32; LANES]>,
@@ -94,6 +101,7 @@ impl Model {
             species: Species::new(head, around.into_iter()),
             sun: sun_direction(elevation, azimuth),
             beam: Beam::new(&air.layers, elevation),
+            reach: Reach::new(&head.planet),
             grey: air.grey(),
             irradiance: blocks(&irradiance(head)).collect(),
             xyz: xyz(head),
@@ -155,8 +163,8 @@ impl Haze {
     /// each of [`Haze::wavelengths`].
     ///
     /// # Errors
-    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Length`] unless both outputs have
-    /// one element per wavelength.
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`Haze::reach`];
+    /// [`Error::Length`] unless both outputs have one element per wavelength.
     pub fn in_scatter(
         &self,
         from: [f64; 3],
@@ -165,13 +173,13 @@ impl Haze {
         transmittance: &mut [f32],
     ) -> Result<()> {
         self.check_outputs(1, in_scatter, transmittance)?;
-        let segment = Segment::between(&self.air.planet(), from, to)?;
+        let segment = self.segment(from, to)?;
         self.spectral(&segment, in_scatter, transmittance);
         Ok(())
     }
 
     /// As [`Haze::in_scatter`], from a point in a direction (need not be normalised) through all of the air, up to the ground where
-    /// that is in the way.
+    /// that is in the way. From a point on the ground or under it, rays that go down end at once: no light, transmittance 1.
     ///
     /// # Errors
     /// As [`Haze::in_scatter`]; [`Error::Direction`] for a vector that is zero or not finite.
@@ -183,7 +191,9 @@ impl Haze {
         transmittance: &mut [f32],
     ) -> Result<()> {
         self.check_outputs(1, in_scatter, transmittance)?;
-        let (segment, _) = Segment::to_end(&self.air.planet(), from, direction)?;
+        let planet = self.air.planet();
+        let (segment, _) = Segment::to_end(&planet, from, direction)?;
+        self.reach.check(&planet, &segment)?;
         self.spectral(&segment, in_scatter, transmittance);
         Ok(())
     }
@@ -205,7 +215,7 @@ impl Haze {
             .chunks_exact_mut(n)
             .zip(transmittance.chunks_exact_mut(n));
         for (&point, (light, through)) in points.iter().zip(rows) {
-            let segment = Segment::between(&self.air.planet(), camera, point)?;
+            let segment = self.segment(camera, point)?;
             self.spectral(&segment, light, through);
         }
         Ok(())
@@ -215,9 +225,9 @@ impl Haze {
     /// things in the colour of the sun.
     ///
     /// # Errors
-    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m.
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`Haze::reach`].
     pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
-        let segment = Segment::between(&self.air.planet(), from, to)?;
+        let segment = self.segment(from, to)?;
         let mut colours = Colours::default();
         self.integrate(&segment, |block, result| {
             colours.add(&self.xyz[block], &result);
@@ -234,6 +244,15 @@ impl Haze {
         let (light, through) = self.xyz(from, to)?;
         let light = crate::colour::xyz_to_linear_srgb(light);
         Ok((light, self.srgb_factors(through)))
+    }
+
+    /// A segment within reach.
+    #[inline(always)]
+    fn segment(&self, from: [f64; 3], to: [f64; 3]) -> Result<Segment> {
+        let planet = self.air.planet();
+        let segment = Segment::between(&planet, from, to)?;
+        self.reach.check(&planet, &segment)?;
+        Ok(segment)
     }
 
     /// Factors of red, green and blue from those of X, Y and Z.

@@ -12,27 +12,35 @@ pub(crate) const BATCH: usize = 8;
 pub(crate) struct Places {
     /// m.
     pub altitude: Lanes<BATCH>,
-    /// Cosine of the zenith angle of the segment there.
+    /// Cosine and sine of the zenith angle of the segment there.
     pub zenith: Lanes<BATCH>,
+    pub slope: Lanes<BATCH>,
     /// Sine of the sun's elevation there.
     pub sun: Lanes<BATCH>,
 }
 
 impl Default for Places {
     fn default() -> Self {
-        let [altitude, zenith, sun] = [Lanes::splat(0.0); 3];
+        let [altitude, zenith, slope, sun] = [Lanes::splat(0.0); 4];
         Self {
             altitude,
             zenith,
+            slope,
             sun,
         }
     }
 }
 
 impl Places {
-    /// At these distances from the tangent point (m); `sun` is the unit vector towards it.
+    /// At these distances from the tangent point (m), which is `nearest` to the planet's centre; `sun` is the unit vector towards it.
     #[inline(always)]
-    pub fn new(planet: &Planet, segment: &Segment, sun: [f64; 3], at: &[f64; BATCH]) -> Self {
+    pub fn new(
+        planet: &Planet,
+        segment: &Segment,
+        sun: [f64; 3],
+        nearest: f64,
+        at: &[f64; BATCH],
+    ) -> Self {
         let (lowest, radius) = (segment.line.lowest, planet.radius);
         let (per_radius, per_metre) = (1.0 / radius, dot(segment.direction, sun));
         let towards = dot(segment.start, sun) - segment.from * per_metre;
@@ -44,6 +52,7 @@ impl Places {
             let per_distance = 1.0 / (radius * root);
             out.altitude.0[i] = (2.0 * w / (1.0 + root)) as f32;
             out.zenith.0[i] = (s * per_distance).clamp(-1.0, 1.0) as f32;
+            out.slope.0[i] = (nearest * per_distance).min(1.0) as f32;
             out.sun.0[i] = ((towards + s * per_metre) * per_distance).clamp(-1.0, 1.0) as f32;
         }
         out

@@ -6,7 +6,6 @@
 use super::Haze;
 use super::foreground::sky_weights;
 use super::integral::{Block, Integral, POLARISED};
-use crate::air::Segment;
 use crate::colour::xyz_to_linear_srgb;
 use crate::error::Result;
 use crate::math::{LANES, bound, finite};
@@ -186,7 +185,7 @@ impl Haze {
         frame: Frame,
         mut emit: impl FnMut(usize, [[f32; LANES]; 3], [f32; LANES]),
     ) -> Result<()> {
-        let segment = Segment::between(&self.air.planet(), from, to)?;
+        let segment = self.segment(from, to)?;
         let plane = Plane::new(segment.direction, segment.zenith(), self.sun);
         let (c, s) = plane.turn(frame)?;
         let (c, s) = (c as f32, s as f32);

@@ -7,17 +7,20 @@ use crate::error::{Error, Result};
 use crate::format::{
     Head, SOURCE_FIELDS, SourceBasisView, SourceView, altitude_node, visibility_node, widen,
 };
+use crate::geometry::Planet;
 use crate::lanes::Lanes;
 use crate::math::LANES;
 use crate::model::Model;
 
-/// Sun nodes of the table.
+/// Sun nodes of the table around that of the scene.
 const SUNS: usize = 29;
-/// How far the sun's local elevation may be from that at the origin, rad: the farthest points of the atmosphere that
-/// are seen from 15 km stand 14° away.
-const REACH: f64 = 0.25;
-/// How much denser the sun nodes are around the sun of the scene.
+/// How far these are from it, rad: the farthest points of the atmosphere that are seen from 15 km stand 14° away.
+const NEAR: f64 = 0.25;
+/// How much denser they are close to it.
 const CROWDING: f64 = 2.0;
+/// Distance of the nodes beyond them, rad, and how far these may go.
+const STEP: f64 = 0.036;
+const FAR: f64 = 0.5;
 
 /// The source over altitude and the sun's local elevation.
 #[derive(Clone, Debug)]
@@ -50,7 +53,7 @@ impl SourceTable {
         let head = model.head();
         let basis = model.source_basis_chunk()?;
         let altitude = refine(&basis);
-        let sun = sun_nodes(sun);
+        let sun = sun_nodes(sun, reach(&head.planet));
         let weights = Weights::new(&basis, &altitude, &sun);
         let nw = head.wavelengths.len();
         let mut values = vec![0.0; altitude.len() * sun.len() * nw * basis.ranks[2]];
@@ -210,20 +213,30 @@ pub(super) fn refine(basis: &SourceBasisView) -> Vec<f64> {
     out
 }
 
-/// Sines of the elevations around that of the scene's sun (rad).
-pub(super) fn sun_nodes(elevation: f64) -> Vec<f64> {
-    let half = (SUNS / 2) as f64;
-    let angle = |i: usize| {
-        let v = i as f64 / half - 1.0;
-        elevation + REACH * v.signum() * v.abs().powf(CROWDING)
+/// How far from the origin the source holds, as an angle at the planet's centre, rad: to all air that can be seen from air above the
+/// origin.
+pub(crate) fn reach(planet: &Planet) -> f64 {
+    (2.0 * planet.dip(planet.top)).clamp(NEAR, FAR)
+}
+
+/// Sines of the elevations around that of the scene's sun (rad), up to `reach` from it.
+pub(super) fn sun_nodes(elevation: f64, reach: f64) -> Vec<f64> {
+    let half = SUNS / 2;
+    let beyond = ((reach - NEAR) / STEP).ceil() as usize;
+    let distance = |i: usize| match i.checked_sub(half) {
+        None | Some(0) => NEAR * (i as f64 / half as f64).powf(CROWDING),
+        Some(k) => NEAR + (reach - NEAR) * k as f64 / beyond as f64,
     };
+    let last = half + beyond;
+    let below = (1..=last).rev().map(|i| elevation - distance(i));
+    let above = (0..=last).map(|i| elevation + distance(i));
     let quarter = core::f64::consts::FRAC_PI_2;
-    let mut nodes: Vec<f64> = (0..SUNS)
-        .map(angle)
+    let mut nodes: Vec<f64> = below
+        .chain(above)
         .filter(|a| a.abs() < quarter - 1e-3)
         .map(f64::sin)
         .collect();
-    if elevation + REACH >= quarter - 1e-3 {
+    if elevation + reach >= quarter - 1e-3 {
         nodes.push(1.0);
     }
     nodes
@@ -286,7 +299,7 @@ impl Weights {
         })
     }
 
-    /// Adds `share` times the source of a visibility to `[altitude][sun][wavelength][component]`.
+    /// Adds `share` times the source of a visibility to `[altitude][sun][component][wavelength]`.
     fn add(
         &self,
         basis: &SourceBasisView,
@@ -310,15 +323,16 @@ impl Weights {
                     channel[c * nw + w] = factor(w) + ground[w] * ratio * factor(nw + w);
                 }
             }
-            // `[altitude component][wavelength][moment component]`.
+            // `[altitude component][moment component][wavelength]`.
             let mut seen = vec![0.0; ra * nw * rm];
             for a in 0..ra {
                 for m in 0..rm {
                     for c in 0..rc {
                         let at = |s: usize| core[((a * rs + s) * rm + m) * rc + c];
                         let sum: f64 = (0..rs).map(|s| sun[s] * at(s)).sum();
-                        for w in 0..nw {
-                            seen[(a * nw + w) * rm + m] += sum * channel[c * nw + w];
+                        let row = &mut seen[(a * rm + m) * nw..][..nw];
+                        for (seen, channel) in row.iter_mut().zip(&channel[c * nw..]) {
+                            *seen += sum * channel;
                         }
                     }
                 }
@@ -336,7 +350,7 @@ impl Weights {
     }
 }
 
-/// `[row][wavelength][component]` as `[row][block][pair of components][component of the pair][wavelength of the block]`.
+/// `[row][component][wavelength]` as `[row][block][pair of components][component of the pair][wavelength of the block]`.
 fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<Lanes<8>> {
     let mut out = Vec::with_capacity(values.len().div_ceil(2 * nw * rank) * nw);
     for row in values.chunks_exact(nw * rank) {
@@ -345,7 +359,7 @@ fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<Lanes<8>> {
                 let lane = |i: usize| {
                     let (w, r) = (block * LANES + i % LANES, 2 * pair + i / LANES);
                     if w < nw && r < rank {
-                        row[w * rank + r] as f32
+                        row[r * nw + w] as f32
                     } else {
                         0.0
                     }

@@ -94,7 +94,7 @@ impl Beam {
             }
             for (half, i) in two.into_iter().enumerate() {
                 let sine = f64::from(angle.0[i] - dip.0[i]).sin();
-                let columns = layers.to_space(f64::from(places.altitude.0[i]), sine);
+                let columns = layers.to_space(f64::from(places.altitude.0[i].max(0.0)), sine);
                 for (out, quad) in out.iter_mut().zip(&columns.0) {
                     out.0[4 * half..][..4].copy_from_slice(quad);
                 }

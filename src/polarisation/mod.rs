@@ -8,7 +8,7 @@ mod stokes;
 mod table;
 
 pub use aspect::Frame;
-pub(crate) use aspect::Plane;
+pub(crate) use aspect::{PARALLEL, Plane, cross};
 pub use general::PolarisedGeneral;
 pub use sky::PolarisedSky;
 pub(crate) use stokes::between;

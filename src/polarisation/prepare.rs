@@ -3,6 +3,7 @@
 use super::table::{Pair, Polarisation};
 use crate::axis::{Ends, spline};
 use crate::error::{Error, Result};
+use crate::fade::fade_rows;
 use crate::format::{BasisView, widen};
 use crate::math::LANES;
 use crate::model::Model;
@@ -39,7 +40,7 @@ pub(super) fn prepare(
             own.add_to(&mut alpha, basis.rank, &elevation, weight);
         }
     }
-    let applied = Basis::new(&basis, &place.ground(head, albedo), layout);
+    let applied = Basis::new(&basis, &place.ground(head, albedo), place.fade, layout);
     let [up, down] = alpha.map(|alpha| applied.apply(&alpha));
     let polarisation = Polarisation { up, down };
     let mut pairs = polarisation.up.iter().chain(&polarisation.down);
@@ -61,8 +62,8 @@ struct Basis<'a> {
 }
 
 impl<'a> Basis<'a> {
-    /// `ground` is what the light from the ground is multiplied with at each wavelength.
-    fn new(view: &BasisView, ground: &[f32], layout: &'a Layout) -> Self {
+    /// `ground` is what the light from the ground is multiplied with at each wavelength, `fade` what the azimuth counts.
+    fn new(view: &BasisView, ground: &[f32], fade: f64, layout: &'a Layout) -> Self {
         let (rank, nw) = (view.rank, ground.len());
         let mut channel = vec![Pair::ZERO; layout.blocks() * rank];
         for r in 0..rank {
@@ -73,13 +74,16 @@ impl<'a> Basis<'a> {
                     widen(row[part * nw + w]) + ground * widen(row[(part + 2) * nw + w])
                 };
                 pair[w % LANES] = sum(0);
-                pair[LANES + w % LANES] = sum(1);
+                // U is odd in the azimuth: nothing of it stays under a vertical sun.
+                pair[LANES + w % LANES] = fade as f32 * sum(1);
             }
         }
+        let mut phi = widen_rows(view.phi, view.stride, rank);
+        fade_rows(&mut phi, rank, fade);
         Self {
             rank,
             layout,
-            phi: widen_rows(view.phi, view.stride, rank),
+            phi,
             channel,
         }
     }

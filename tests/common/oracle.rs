@@ -212,7 +212,8 @@ impl<'a> Oracle<'a> {
         } else {
             y.atan2(x) - q.solar_azimuth
         };
-        let azimuth = mirrored(n.p as f64 * phi.cos().acos() / PI, n.p);
+        let fade = fade(q.solar_elevation.cos());
+        let azimuth = faded(mirrored(n.p as f64 * phi.cos().acos() / PI, n.p), n.p, fade);
         let sun = [
             q.solar_elevation.cos() * q.solar_azimuth.cos(),
             q.solar_elevation.cos() * q.solar_azimuth.sin(),
@@ -316,7 +317,7 @@ impl<'a> Oracle<'a> {
                 let q = dipole * (along[0].powi(2) - along[1].powi(2));
                 let u = dipole * 2.0 * along[0] * along[1];
                 let q = outside * (q + multiple[0] + ground * multiple[2]);
-                let u = outside * (u + phi.sin() * (multiple[1] + ground * multiple[3]));
+                let u = outside * (u + fade * phi.sin() * (multiple[1] + ground * multiple[3]));
                 let share = (light / q.hypot(u)).min(1.0);
                 [light, share * q, share * u]
             })
@@ -507,6 +508,21 @@ fn mirrored(u: f64, n: usize) -> Vec<(usize, f64)> {
     (0..4)
         .map(|k| (reflect((i + k) as i64 - 1), w[k]))
         .collect()
+}
+
+/// What the azimuth counts where the sun's zenith angle has this sine.
+fn fade(sine: f64) -> f64 {
+    let t = (20.0 * sine).min(1.0);
+    t * (3.0 - t.powi(2)) / 2.0
+}
+
+/// The taps of a mirrored spline, and its mean as far as they fade.
+fn faded(taps: Vec<(usize, f64)>, n: usize, fade: f64) -> Vec<(usize, f64)> {
+    let mean =
+        (0..2 * n as i64).map(|i| (n - (i - n as i64).unsigned_abs() as usize, 0.5 / n as f64));
+    let fading = taps.into_iter().map(|(i, w)| (i, fade * w));
+    let staying = mean.map(|(i, w)| (i, (1.0 - fade) * w));
+    fading.chain(staying).collect()
 }
 
 fn interval(nodes: &[f64], x: f64) -> usize {

@@ -128,6 +128,9 @@ fn special(file: &[u8]) -> Vec<Query> {
         // Rounding beyond the ends is no error.
         at(high * (1.0 + 1e-12), noon + 1e-12, [0.2, 0.1, 0.3]),
         at(low, 0.5, [0.0; 3]),
+        // Azimuths fade, for observers in a depression and on a ground that is rounded under the sphere.
+        at(-430.0, noon - 1e-4, [0.8, 0.3, 0.6]),
+        at(-1e-9, noon - 0.02, [-0.2, 0.9, 0.1]),
     ]
 }
 
@@ -230,14 +233,11 @@ fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
             .powf(farthest * (0.618_034 * i as f64).fract())
             .round(),
     };
-    // Under a vertical sun there is no azimuth.
-    let solar_elevation = query.solar_elevation.min(1.5);
-    let query = &Query {
-        solar_elevation,
-        ..*query
-    };
     let asked = ["in_scatter", "in_scatter_stokes"].map(|name| over(name, query, distance));
-    let query = clamped(query, &ranges(&case.bytes));
+    let query = Query {
+        altitude: query.altitude,
+        ..clamped(query, &ranges(&case.bytes))
+    };
     let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
     // Only the oracle makes numbers; the library says whether the chunks are there.
     if let Err(error) = model.haze(&Conditions {
@@ -327,6 +327,7 @@ fn refusals(file: &[u8]) -> Vec<Value> {
     };
     vec![
         ask(&|q| q.altitude = ranges.altitude[1] + 1.0),
+        ask(&|q| q.altitude = -500.1),
         ask(&|q| q.visibility = ranges.visibility[0] * 0.9),
         ask(&|q| q.albedo = -0.1),
         ask(&|q| q.albedo = 1.1),

@@ -64,7 +64,7 @@ typedef struct welkin_file {
 } welkin_file;
 
 typedef struct welkin_conditions {
-    double altitude;        /* m */
+    double altitude;        /* m; from -500 up to 0 it counts as 0 */
     double visibility;      /* m */
     double albedo;          /* 0..=1 */
     double solar_elevation; /* rad, geometric */
@@ -85,7 +85,7 @@ typedef struct welkin_table {
 /* A sky under fixed conditions; private. May be shared by threads. */
 typedef struct welkin_sky {
     const welkin_file *file;
-    double altitude, dip, sun[3], cos_azimuth, sin_azimuth;
+    double altitude, dip, sun[3], cos_azimuth, sin_azimuth, fade;
     float *column, *extinction, *level, *bounce, *phase;
     welkin_table radiance, polarisation;
     unsigned flags;
@@ -1224,6 +1224,25 @@ static welkin_error welkin__add_cells(const welkin_file *f, welkin_table *t, con
     return WELKIN_OK;
 }
 
+/* What the azimuth counts where the sine of the sun's zenith angle is this: nothing under a vertical sun. */
+static double welkin__azimuthal_fade(double sine)
+{
+    double t = fmin(20 * sine, 1);
+    return t * (3 - t * t) / 2;
+}
+
+/* Fades coefficients over the azimuth towards their mean. */
+static void welkin__fade(const welkin_file *f, welkin_table *t, double fade)
+{
+    size_t n = f->phi_intervals, a, i;
+    if (fade >= 1) return;
+    for (i = 0; i < t->row; i++) {
+        double mean = 0;
+        for (a = 0; a <= n; a++) mean += (a == 0 || a == n ? 0.5 : 1.0) / (double)n * (double)t->phi[a * t->row + i];
+        for (a = 0; a <= n; a++) t->phi[a * t->row + i] = welkin__narrow(mean + fade * ((double)t->phi[a * t->row + i] - mean));
+    }
+}
+
 static welkin_error welkin__read_basis(const welkin_file *f, const welkin__entry *entry, uint32_t channels, welkin_table *t)
 {
     const unsigned char *p, *channel;
@@ -1279,6 +1298,7 @@ static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scen
     if (!error) error = welkin__add_cells(f, &sky->radiance, scene->radiance, scene->radiances, elevation, level);
     if (error) return error;
     for (w = 0; w < f->wavelengths; w++) sky->level[w] = welkin__narrow(exp(level[w]));
+    welkin__fade(f, &sky->radiance, sky->fade);
     if (sky->radiance.dense) welkin__make_dense(f, &sky->radiance);
     return WELKIN_OK;
 }
@@ -1289,12 +1309,15 @@ static welkin_error welkin__prepare_polarisation(welkin_sky *sky, const welkin__
     welkin_error error = welkin__read_basis(f, &scene->polarisation_basis, 4 * f->wavelengths, &sky->polarisation);
     if (!error) error = welkin__add_cells(f, &sky->polarisation, scene->polarisation, scene->radiances, elevation, NULL);
     if (error) return error;
+    welkin__fade(f, &sky->polarisation, sky->fade);
     if (sky->polarisation.dense) welkin__make_dense(f, &sky->polarisation);
     return WELKIN_OK;
 }
 
 static int welkin__conditions_into_range(const welkin_file *f, welkin_conditions *c)
 {
+    /* An observer in a depression stands on the ground. */
+    if (c->altitude >= -500 && c->altitude < 0) c->altitude = 0;
     return welkin__into_axis(f->bytes + f->altitude_at, f->altitudes, &c->altitude) &&
            welkin__into_axis(f->bytes + f->visibility_at, f->visibilities, &c->visibility) && welkin__into_range(&c->albedo, 0, 1) &&
            welkin__into_range(&c->solar_elevation, f->elevation_min, f->elevation_max) &&
@@ -1308,6 +1331,7 @@ static void welkin__prepare_geometry(welkin_sky *sky, const welkin_conditions *c
     sky->dip = atan(sqrt(c->altitude * (2 * radius + c->altitude)) / radius);
     sky->cos_azimuth = cos(c->solar_azimuth);
     sky->sin_azimuth = sin(c->solar_azimuth);
+    sky->fade = welkin__azimuthal_fade(cos(c->solar_elevation));
     sky->sun[0] = cos(c->solar_elevation) * sky->cos_azimuth;
     sky->sun[1] = cos(c->solar_elevation) * sky->sin_azimuth;
     sky->sun[2] = sin(c->solar_elevation);
@@ -1603,7 +1627,7 @@ WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direct
     for (w = 0; w < nw && !error; w++) {
         double d = (double)polarising[w], bounce = (double)sky->bounce[w], size = (double)envelope[w];
         double q_sum = d * (p2 * p2 - p1 * p1) + (double)multiple[w] + bounce * (double)multiple[2 * nw + w];
-        double u_sum = -2 * d * p1 * p2 + view.sin_phi * ((double)multiple[nw + w] + bounce * (double)multiple[3 * nw + w]);
+        double u_sum = -2 * d * p1 * p2 + sky->fade * view.sin_phi * ((double)multiple[nw + w] + bounce * (double)multiple[3 * nw + w]);
         error = welkin__limit_polarisation(radiance[w], size * q_sum, size * u_sum, &q[w], &u[w]);
     }
     return error;
@@ -2093,6 +2117,7 @@ typedef struct welkin__azimuth {
 /* A point of a segment, and what is where there. */
 typedef struct welkin__spot {
     double up[3], altitude, sine, cos_theta, sin_theta; /* sine of the sun's elevation; the view direction from the vertical */
+    double fade;                                        /* what the azimuth counts */
     welkin__azimuth phi;
 } welkin__spot;
 
@@ -2137,7 +2162,7 @@ static void welkin__find_sun(welkin__sight *sight, const double *sun)
 static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, const double v[3], double s)
 {
     welkin__spot spot;
-    double radius = haze->air.file->planet_radius, distance;
+    double radius = haze->air.file->planet_radius, distance, level[3];
     int i;
     for (i = 0; i < 3; i++) spot.up[i] = s * v[i];
     spot.up[2] += radius + altitude;
@@ -2148,6 +2173,7 @@ static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, co
     spot.cos_theta = fmin(fmax(welkin__dot(spot.up, v), -1), 1);
     spot.sin_theta = sqrt(1 - spot.cos_theta * spot.cos_theta);
     spot.phi = welkin__azimuth_between(v, haze->sun, spot.up);
+    spot.fade = welkin__azimuthal_fade(welkin__across(haze->sun, spot.up, level));
     return spot;
 }
 
@@ -2216,23 +2242,24 @@ static welkin__stencil welkin__at_nodes(const unsigned char *axis, uint32_t n, d
     return welkin__cubic(axis, n, value, scale);
 }
 
-/* N_lm P_lm(cos theta) cos(m phi) in the order of the file. */
+/* N_lm P_lm(cos theta) fade^m cos(m phi) in the order of the file. */
 static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot, double *values)
 {
-    double diagonal = sqrt(0.25 / WELKIN__PI), azimuthal = 1, before_azimuthal = spot->phi.cosine, x = spot->cos_theta;
+    double diagonal = sqrt(0.25 / WELKIN__PI), cosine = 1, sine = 0, x = spot->cos_theta;
+    double cp = spot->fade * spot->phi.cosine, sp = spot->fade * spot->phi.sine;
     uint32_t m, l;
     for (m = 0; m <= haze->orders; m++) {
         double value, before = 0, last = 0;
         if (m > 0) {
-            double next = 2 * spot->phi.cosine * azimuthal - before_azimuthal;
-            before_azimuthal = azimuthal;
-            azimuthal = next;
+            double next = cosine * cp - sine * sp;
+            sine = cosine * sp + sine * cp;
+            cosine = next;
             diagonal *= sqrt((2.0 * m + 1) / (2.0 * m)) * spot->sin_theta;
         }
         value = diagonal;
         for (l = m; l <= haze->degree; l++) {
             double next, a = sqrt((4.0 * (l + 1) * (l + 1) - 1) / ((double)(l + 1) * (l + 1) - (double)m * m));
-            *values++ = value * azimuthal * (m > 0 ? sqrt(2) : 1);
+            *values++ = value * cosine * (m > 0 ? sqrt(2) : 1);
             next = a * (x * value - before * last);
             before = 1 / a;
             last = value;
@@ -2247,11 +2274,12 @@ enum { WELKIN__MOLECULES, WELKIN__PARTICLES, WELKIN__Q, WELKIN__U, WELKIN__LOOKS
 /* Factors of the tensor's components xx, yy, zz, xz. */
 static void welkin__tensor_looks(const welkin__spot *spot, double (*looks)[4])
 {
-    double c = spot->cos_theta, s = spot->sin_theta, cp = spot->phi.cosine, sp = spot->phi.sine;
-    looks[WELKIN__MOLECULES][0] = c * c * cp * cp + sp * sp;
-    looks[WELKIN__MOLECULES][1] = c * c * sp * sp + cp * cp;
-    looks[WELKIN__Q][0] = c * c * cp * cp - sp * sp;
-    looks[WELKIN__Q][1] = c * c * sp * sp - cp * cp;
+    double c = spot->cos_theta, s = spot->sin_theta, cp = spot->fade * spot->phi.cosine, sp = spot->fade * spot->phi.sine;
+    double cp2 = (1 + cp * cp - sp * sp) / 2, sp2 = 1 - cp2;
+    looks[WELKIN__MOLECULES][0] = c * c * cp2 + sp2;
+    looks[WELKIN__MOLECULES][1] = c * c * sp2 + cp2;
+    looks[WELKIN__Q][0] = c * c * cp2 - sp2;
+    looks[WELKIN__Q][1] = c * c * sp2 - cp2;
     looks[WELKIN__MOLECULES][2] = looks[WELKIN__Q][2] = s * s;
     looks[WELKIN__MOLECULES][3] = looks[WELKIN__Q][3] = -2 * s * c * cp;
     looks[WELKIN__U][0] = -2 * c * sp * cp;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Oracle, Query, cross, dot, hermite, phase, piecewise, vertical_frame};
+use super::{Oracle, Query, cross, dot, fade, hermite, phase, piecewise, vertical_frame};
 
 const SOLAR_RADIUS: f64 = 0.004_654_793;
 /// Nodes and weights of a Gauss-Legendre rule on −1..1, exact for the fifth degree.
@@ -285,10 +285,16 @@ impl Oracle<'_> {
             true => (dot(view, sun) / both).clamp(-1.0, 1.0).acos(),
             false => 0.0,
         };
-        let x = sun.map(|v| v / dot(sun, sun).sqrt().max(f64::MIN_POSITIVE));
+        let length = dot(sun, sun).sqrt();
+        // Around a vertical sun all axes are alike.
+        let x = match length > 0.0 {
+            true => sun.map(|v| v / length),
+            false => scene.frame[1],
+        };
         let axes = [x, cross(up, x), up];
         let frame = scene.frame.map(|e| axes.map(|axis| dot(e, axis)));
-        let moments = self.moments(source, lift.clamp(-1.0, 1.0).acos(), phi, frame);
+        let theta = lift.clamp(-1.0, 1.0).acos();
+        let moments = self.moments(source, [theta, phi, fade(length)], frame);
         (0..self.n.w)
             .map(|w| {
                 let mut sum = [0.0; 4];
@@ -375,8 +381,7 @@ impl Oracle<'_> {
     fn moments(
         &self,
         source: &Source,
-        theta: f64,
-        phi: f64,
+        [theta, phi, fade]: [f64; 3],
         [e1, e2]: [Vector; 2],
     ) -> Vec<[f64; 4]> {
         let rank = source.ranks[2];
@@ -384,12 +389,15 @@ impl Oracle<'_> {
         let mut harmonics = Vec::new();
         for m in 0..=source.orders {
             for l in m..=source.degree {
-                harmonics.push(harmonic(l, m, theta.cos()) * (m as f64 * phi).cos());
+                let azimuthal = fade.powi(m as i32) * (m as f64 * phi).cos();
+                harmonics.push(harmonic(l, m, theta.cos()) * azimuthal);
             }
         }
         (0..rank)
             .map(|b| {
                 let [xx, yy, zz, xz] = [0, 1, 2, 3].map(|row| factor(row, b));
+                let (mean, half) = (0.5 * (xx + yy), 0.5 * fade * fade * (xx - yy));
+                let (xx, yy, xz) = (mean + half, mean - half, fade * xz);
                 let tensor = |v: Vector| [xx * v[0] + xz * v[2], yy * v[1], xz * v[0] + zz * v[2]];
                 let (along, across) = (dot(e1, tensor(e1)), dot(e2, tensor(e2)));
                 let rows = harmonics.iter().enumerate();

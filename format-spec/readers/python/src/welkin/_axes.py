@@ -39,6 +39,16 @@ def mirrored_spline(u, coefficients):
     return _combine(weights, np.where(m > n, 2 * n - m, m), coefficients)
 
 
+def faded_rows(coefficients, fade):
+    """Coefficients (n + 1, M) of an azimuth axis, faded towards their mean over the azimuth."""
+    if fade == 1.0:
+        return coefficients
+    rows = coefficients.astype(np.float64)
+    ends = 0.5 * (rows[0] + rows[-1])
+    mean = (ends + np.sum(rows[1:-1], axis=0)) / (len(rows) - 1)
+    return mean + fade * (rows - mean)
+
+
 def node_weights(nodes, x):
     """Weights of the nodes by the rule *between chunks*: nodes (n,) increase, x (P,) → (P, n).
 

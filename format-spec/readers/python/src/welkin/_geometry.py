@@ -29,6 +29,12 @@ def sun_vector(elevation, azimuth):
     )
 
 
+def azimuthal_fade(sine):
+    """What the azimuth counts where the sine of the sun's zenith angle is `sine` (7.1)."""
+    t = np.minimum(1.0, 20.0 * sine)
+    return t * (3.0 - t * t) / 2.0
+
+
 def azimuth_from_sun(units, azimuth):
     """Signed azimuth of units (N, 3) less that of the sun, −π..=π; 0 at zenith and nadir."""
     x, y = units[:, 0], units[:, 1]

@@ -7,7 +7,7 @@ import numpy as np
 from . import _head
 from ._air import altitude_on_line, path_integrals, profile_at
 from ._axes import linear_weights, node_weights
-from ._geometry import elevation_of, horizon_dip, sun_across, sun_vector
+from ._geometry import azimuthal_fade, elevation_of, horizon_dip, sun_across, sun_vector
 from ._head import PHASE_RAYLEIGH, check_phase, require, require_increasing, require_within
 from ._phase import Angle, phase_function, rayleigh_share
 
@@ -96,15 +96,15 @@ def _harmonics(degree, orders):
     return [(l, m) for m in range(orders + 1) for l in range(m, degree + 1)]
 
 
-def _harmonic_values(degree, orders, cos_theta, phi):
-    """N_lm P_lm(cos θ) cos mφ: (P, nh)."""
+def _harmonic_values(degree, orders, cos_theta, phi, fade):
+    """N_lm P_lm(cos θ) f^m cos mφ: (P, nh)."""
     sin_theta = np.sqrt(np.maximum(0.0, 1.0 - cos_theta**2))
     diagonal = np.full_like(cos_theta, np.sqrt(0.25 / np.pi))
     columns = []
     for m in range(orders + 1):
         if m > 0:
             diagonal = np.sqrt((2 * m + 1) / (2 * m)) * sin_theta * diagonal
-        azimuthal = np.sqrt(2.0) * np.cos(m * phi) if m > 0 else 1.0
+        azimuthal = np.sqrt(2.0) * fade**m * np.cos(m * phi) if m > 0 else 1.0
         before, value = 0.0, diagonal
         for l in range(m, degree + 1):
             columns.append(value * azimuthal)
@@ -279,6 +279,7 @@ class _Points:
         self.sin_sun = up @ haze._sun
         self.cos_view = np.sum(up * units, axis=1)
         self.phi = _azimuth(up, units, haze._sun)
+        self.fade = azimuthal_fade(np.linalg.norm(np.cross(up, haze._sun), axis=1))
         start = _azimuth(np.array([[0.0, 0.0, 1.0]]), units, haze._sun)
         elevation = elevation_of(units), np.arctan2(haze._sun[2], np.hypot(*haze._sun[:2]))
         self.sun_across = [part[:, None] for part in sun_across(*elevation, start)]
@@ -286,19 +287,22 @@ class _Points:
     @property
     def tensor_moments(self):
         """Factors of M_xx, M_yy, M_zz and M_xz in S_R, Q_R and U_R: (P, 4) each."""
-        cos, cos_phi, sin_phi = self.cos_view, np.cos(self.phi), np.sin(self.phi)
+        cos = self.cos_view
         sin = np.sqrt(np.maximum(0.0, 1.0 - cos**2))
-        xx, yy = (cos * cos_phi) ** 2, (cos * sin_phi) ** 2
+        cos_phi, sin_phi = self.fade * np.cos(self.phi), self.fade * np.sin(self.phi)
+        double = cos_phi**2 - sin_phi**2
+        cos2, sin2 = 0.5 * (1.0 + double), 0.5 * (1.0 - double)
+        xx, yy = cos**2 * cos2, cos**2 * sin2
         zz, xz = sin**2, -2.0 * sin * cos * cos_phi
         mixed = 2.0 * cos * sin_phi * cos_phi
         return (
-            np.stack([xx + sin_phi**2, yy + cos_phi**2, zz, xz], axis=1),
-            np.stack([xx - sin_phi**2, yy - cos_phi**2, zz, xz], axis=1),
+            np.stack([xx + sin2, yy + cos2, zz, xz], axis=1),
+            np.stack([xx - sin2, yy - cos2, zz, xz], axis=1),
             np.stack([-mixed, mixed, 0.0 * mixed, 2.0 * sin * sin_phi], axis=1),
         )
 
     def harmonics(self, basis):
-        return _harmonic_values(basis.degree, basis.orders, self.cos_view, self.phi)
+        return _harmonic_values(basis.degree, basis.orders, self.cos_view, self.phi, self.fade)
 
 
 def _azimuth(up, units, sun):

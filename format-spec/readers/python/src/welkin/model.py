@@ -21,6 +21,9 @@ from .sky import Conditions, Sky, bounded_stokes
 FARTHEST = 1e9
 """Largest coordinate of an end of a segment, m."""
 
+LOWEST = -500.0
+"""Altitude below which no land lies, m."""
+
 
 def open(path, in_memory=False):
     """Opens a welkin file, and reads its head.
@@ -108,7 +111,7 @@ class Model:
         solar_elevation: rad, of the sun's centre above the horizontal of the observer
         visibility: m, horizontal meteorological range at the ground
         albedo: 0 to 1, of the ground, the same at all wavelengths
-        altitude: m, of the observer above the ground
+        altitude: m, of the observer above the ground; from −500 up to 0 it counts as 0
         solar_azimuth: rad, counter-clockwise from +x seen from above
         """
         conditions = self._conditions(solar_elevation, visibility, albedo, altitude, solar_azimuth)
@@ -174,7 +177,7 @@ class Model:
             solar_elevation=_clamp(solar_elevation, self.solar_elevation_range, "solar_elevation"),
             visibility=_clamp(visibility, self.visibility_range, "visibility"),
             albedo=_clamp(albedo, (0.0, 1.0), "albedo"),
-            altitude=_clamp(altitude, self.altitude_range, "altitude"),
+            altitude=_clamp(_grounded(altitude), self.altitude_range, "altitude"),
             solar_azimuth=float(solar_azimuth),
         )
 
@@ -205,6 +208,12 @@ def _finite(values):
     if not np.all(np.isfinite(values)):
         raise InvalidValueError("numbers of the file overflow")
     return values
+
+
+def _grounded(altitude):
+    """An observer in a depression stands on the ground (section 7)."""
+    altitude = float(altitude)
+    return 0.0 if LOWEST <= altitude < 0.0 else altitude
 
 
 def _clamp(value, limits, name):

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from . import _head
-from ._axes import free_spline, linear_weights, mirrored_spline, node_weights
-from ._geometry import Observer, azimuth_from_sun, elevation_of, sun_across
+from ._axes import faded_rows, free_spline, linear_weights, mirrored_spline, node_weights
+from ._geometry import Observer, azimuth_from_sun, azimuthal_fade, elevation_of, sun_across
 from ._geometry import sun_vector, unit_vectors
 from ._head import GROUND_BIT, PHASE_RAYLEIGH
 from ._phase import Angle, phase_function, rayleigh_share
@@ -62,6 +62,7 @@ class Sky:
         self._sun = sun_vector(conditions.solar_elevation, conditions.solar_azimuth)
         self._altitudes, self._visibilities = self._stencils()
         self._elevation = self._elevation_coordinate()
+        self._fade = azimuthal_fade(np.cos(conditions.solar_elevation))
         self._factors, self._level, self._column = self._load_radiance()
         inverse = linear_weights(-1.0 / head.visibility, [-1.0 / conditions.visibility])[0]
         self._extinction = np.tensordot(inverse, head.extinction, 1)
@@ -183,7 +184,7 @@ class Sky:
         m = self._polarisation.at(view).reshape(-1, 4, self._head.counts["nw"])
         lead = self._lead(view)
         q = dipole * (p2**2 - p1**2) + m[:, 0] + self._bounce * m[:, 2]
-        side = np.sin(view.phi)[:, None]
+        side = self._fade * np.sin(view.phi)[:, None]
         u = -2.0 * dipole * p1 * p2 + side * (m[:, 1] + self._bounce * m[:, 3])
         return bounded_stokes(radiance, lead * q, lead * u)
 
@@ -251,7 +252,8 @@ class Sky:
             down[:, :rank] += share * chunk.down
             if chunk.level is not None:
                 level = level + weight * free_spline(self._elevation, chunk.level.astype(float))[0]
-        return Factors(up, down, basis.phi[:, :used], basis.channel[:used]), level
+        phi = faded_rows(basis.phi[:, :used], self._fade)
+        return Factors(up, down, phi, basis.channel[:used]), level
 
 
 class _View:

@@ -1,0 +1,203 @@
+//! Places anywhere on the planet: their skies and segments are those of the origin under a sun that is turned with them.
+#![cfg(feature = "default-model")]
+
+mod common;
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::LazyLock;
+
+use proptest::prelude::*;
+use welkin::{
+    Conditions, DEFAULT_MODEL, Error, Frame, General, Haze, Interpolation, Model, Place, Stokes,
+};
+
+static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
+
+fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
+    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
+    [ce * ca, ce * sa, se]
+}
+
+/// A turn of the world, from a quaternion of any length.
+fn turned([a, b, c, d]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
+    let n = a * a + b * b + c * c + d * d;
+    let rows = [
+        [
+            a * a + b * b - c * c - d * d,
+            2.0 * (b * c - a * d),
+            2.0 * (b * d + a * c),
+        ],
+        [
+            2.0 * (b * c + a * d),
+            a * a - b * b + c * c - d * d,
+            2.0 * (c * d - a * b),
+        ],
+        [
+            2.0 * (b * d - a * c),
+            2.0 * (c * d + a * b),
+            a * a - b * b - c * c + d * d,
+        ],
+    ];
+    rows.map(|row| row.iter().zip(v).map(|(r, v)| r * v).sum::<f64>() / n)
+}
+
+fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+fn in_scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) -> welkin::Result<Vec<f32>> {
+    let n = haze.wavelengths().len();
+    let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+    haze.in_scatter(from, to, &mut light, &mut through)?;
+    light.extend(through);
+    Ok(light)
+}
+
+proptest! {
+    #![proptest_config(common::cases(64))]
+
+    #[test]
+    fn a_place_anywhere_is_the_origin_under_a_turned_sun(
+        turn in proptest::array::uniform4(-1.0..1.0f64).prop_filter("a turn", |q| {
+            q.iter().map(|v| v * v).sum::<f64>() > 0.01
+        }),
+        centre in proptest::array::uniform3(-1e7..1e7f64),
+        altitude in 0.0..15e3f64,
+        sun in (-0.07..1.5f64, -3.0..3.0f64),
+        view in (-1.5..1.5f64, -3.0..3.0f64),
+        axis in proptest::array::uniform3(-1.0..1.0f64),
+    ) {
+        let planet = MODEL.head().planet;
+        let home = Conditions {
+            altitude,
+            solar_elevation: sun.0,
+            solar_azimuth: sun.1,
+            ..Conditions::default()
+        };
+        let world = |v| turned(turn, v);
+        let position = add(centre, world([0.0, 0.0, planet.radius + altitude]));
+        let place = Place::new(&planet, centre, position).unwrap();
+        let (sun, view, axis) = (world(unit(sun.0, sun.1)), unit(view.0, view.1), axis);
+        let there = place.conditions(sun, &home).unwrap();
+        prop_assert!((there.altitude - altitude).abs() < 1e-6);
+        prop_assert!((there.solar_elevation - home.solar_elevation).abs() < 1e-12);
+
+        // Not where a view along the horizon would be one beside it.
+        let dip = planet.dip(altitude);
+        prop_assume!((view[2].asin() + dip).abs() > 1e-3);
+        let n = MODEL.wavelengths().len();
+        let [mut here, mut away] = [(); 2].map(|()| vec![Stokes::default(); n]);
+        let frame = Frame::Axis(axis.map(|v| v as f32));
+        let sky = MODEL.polarised_sky(&home).unwrap();
+        sky.relative_stokes(view.map(|v| v as f32), frame, &mut here).unwrap();
+        let sky = MODEL.polarised_sky(&there).unwrap();
+        let direction = place.direction(world(view));
+        sky.relative_stokes(direction, place.frame(world(axis)), &mut away).unwrap();
+        // Rounded directions: near the horizon and the sun light changes fast.
+        for (a, b) in here.iter().zip(&away) {
+            prop_assert!((a.i - b.i).abs() < 2e-4 * a.i, "{a:?} {b:?}");
+            prop_assert!((a.q - b.q).hypot(a.u - b.u) < 4e-4 * a.i, "{a:?} {b:?}");
+        }
+        let general = General::new(DEFAULT_MODEL).unwrap();
+        let general = general.with_interpolation(Interpolation::Full);
+        let mut at_once = vec![0.0; n];
+        general.relative_radiance(&there, direction, &mut at_once).unwrap();
+        for (a, b) in here.iter().zip(&at_once) {
+            prop_assert!((a.i - b).abs() < 3e-4 * a.i, "{a:?} {b}");
+        }
+
+        let from = [0.0, 0.0, altitude];
+        let to = add(from, view.map(|v| 8e3 * v));
+        let beneath = add(centre, world([0.0, 0.0, planet.radius]));
+        let haze = MODEL.haze(&home).unwrap();
+        let here = in_scatter(&haze, from, to).unwrap();
+        let local = |p| place.point_to_local(add(beneath, world(p)));
+        let haze = MODEL.haze(&there).unwrap();
+        let away = in_scatter(&haze, local(from), local(to)).unwrap();
+        for (a, b) in here.iter().zip(&away) {
+            prop_assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+        }
+    }
+
+    /// Within its reach a haze agrees with one that is prepared where the segment is.
+    #[test]
+    fn hazes_agree_as_far_as_they_reach(
+        away in 0.05..0.33f64,
+        around in -3.1..3.1f64,
+        sun in 0.2..1.2f64,
+        view in (-0.1..1.5f64, -3.1..3.1f64),
+        height in 100.0..9e3f64,
+    ) {
+        let planet = MODEL.head().planet;
+        let home = Conditions { solar_elevation: sun, ..Conditions::default() };
+        let haze = MODEL.haze(&home).unwrap();
+        let centre = [0.0, 0.0, -planet.radius];
+        let from = add(centre, unit(FRAC_PI_2 - away, around).map(|v| (planet.radius + height) * v));
+        let place = Place::new(&planet, centre, from).unwrap();
+        let there = place.conditions(haze.sun_direction(), &home).unwrap();
+        prop_assume!(there.solar_elevation > 0.0);
+        let to = add(from, place.to_world(unit(view.0, view.1).map(|v| 900.0 * v)));
+        let far = in_scatter(&haze, from, to).unwrap();
+        let near = MODEL.haze(&there).unwrap();
+        let near = in_scatter(&near, place.point_to_local(from), place.point_to_local(to)).unwrap();
+        for (a, b) in far.iter().zip(&near) {
+            prop_assert!((a / b - 1.0).abs() < 0.03, "{a} {b}, sun {}", there.solar_elevation);
+        }
+    }
+}
+
+#[test]
+fn all_that_is_seen_from_the_air_above_the_origin_is_within_reach() {
+    let haze = MODEL.haze(&Conditions::default()).unwrap();
+    let n = haze.wavelengths().len();
+    let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
+    let top = MODEL.head().planet.top;
+    for height in [0.0, 100.0, 15e3, 40e3, top] {
+        for i in 0..=200 {
+            let direction = unit(-0.3 + 0.003 * f64::from(i), 0.7);
+            haze.to_end([0.0, 0.0, height], direction, &mut light, &mut through)
+                .unwrap();
+        }
+    }
+    assert!((0.34..0.36).contains(&haze.reach()), "{}", haze.reach());
+}
+
+#[test]
+fn air_beyond_the_reach_is_refused_and_space_is_not() {
+    let haze = MODEL.haze(&Conditions::default()).unwrap();
+    let planet = haze.air().planet();
+    let at = |away: f64, height: f64| {
+        let up = unit(FRAC_PI_2 - away, 1.0);
+        add(
+            [0.0, 0.0, -planet.radius],
+            up.map(|v| (planet.radius + height) * v),
+        )
+    };
+    let reach = haze.reach();
+    for side in [0.5, 0.999] {
+        in_scatter(&haze, at(side * reach, 10.0), at(side * reach, 2000.0)).unwrap();
+    }
+    for side in [1.001, 1.5, 5.0] {
+        for segment in [
+            [at(side * reach, 10.0), at(side * reach, 2000.0)],
+            [at(0.9 * reach, 2000.0), at(side * reach, 2000.0)],
+            [at(side * reach, 2000.0), at(0.0, 2000.0)],
+        ] {
+            let refused = in_scatter(&haze, segment[0], segment[1]).unwrap_err();
+            assert!(matches!(refused, Error::Reach { .. }), "{refused}");
+            assert_eq!(refused.class(), "point");
+        }
+        // Above the air nothing scatters, wherever it is.
+        let high = [200e3, 300e3].map(|height| at(side * reach, height));
+        let light = in_scatter(&haze, high[0], high[1]).unwrap();
+        assert!(
+            light
+                .iter()
+                .take(MODEL.wavelengths().len())
+                .all(|&l| l == 0.0)
+        );
+    }
+    // From space down to the origin.
+    let light = in_scatter(&haze, at(0.0, 5e8), at(0.0, 0.0)).unwrap();
+    assert!(light.iter().all(|l| *l > 0.0));
+}
