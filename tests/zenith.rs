@@ -9,10 +9,21 @@ use std::sync::LazyLock;
 use common::oracle::{Oracle, Query};
 use proptest::prelude::*;
 use welkin::{
-    Conditions, DEFAULT_MODEL, Frame, General, Haze, Interpolation, Model, Stokes, StokesSpectra,
+    Budget, Channels, Conditions, DEFAULT_MODEL, Frame, General, Haze, Interpolation, Model, Plan,
+    Stokes, StokesSpectra,
 };
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
+static PLAN: LazyLock<Plan> = LazyLock::new(|| {
+    let budget = Budget {
+        altitude: MODEL.altitude_range(),
+        visibility: MODEL.visibility_range(),
+        solar_elevation: MODEL.solar_elevation_range(),
+        tolerance: 1e-2,
+        channels: Channels::Stokes,
+    };
+    MODEL.plan(&budget).unwrap()
+});
 /// What may be left of stored differences over the azimuth.
 const LEFT: f64 = 1e-3;
 /// How much phase functions change light per radian that the sun moves, 20° or more away from it.
@@ -69,6 +80,7 @@ proptest! {
         let n = MODEL.wavelengths().len();
         let direction = |turn: f64| unit(elevation, azimuth + turn).map(|v| v as f32);
         let general = General::new(DEFAULT_MODEL).unwrap().with_interpolation(Interpolation::Full);
+        let polarised = MODEL.polarised_general(&PLAN).unwrap();
         let [mut a, mut b] = [(); 2].map(|()| vec![Stokes::default(); n]);
         for turn in [FRAC_PI_2, -FRAC_PI_2, 0.3, 2.0] {
             let bound = match turn.abs() == FRAC_PI_2 {
@@ -88,6 +100,12 @@ proptest! {
                 .unwrap();
             let lights: Vec<f32> = b.iter().map(|s| s.i).collect();
             prop_assert!(farthest(&at_once, &lights) < 1e-4);
+            let asked = conditions(zenith, azimuth, place);
+            let at = polarised.stokes_at(&asked, direction(turn), Frame::Vertical, 520.0).unwrap();
+            let prepared = sky.stokes_at(direction(turn), Frame::Vertical, 520.0).unwrap();
+            for (a, b) in [(at.i, prepared.i), (at.q, prepared.q), (at.u, prepared.u)] {
+                prop_assert!((a - b).abs() < 1e-4 * prepared.i, "{at:?} {prepared:?}");
+            }
         }
     }
 
