@@ -28,6 +28,8 @@ enum Command {
     Units(command::units::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
     Trace(command::trace::Args),
+    /// Write the real atmosphere as the JSON that `trace` reads.
+    Atmosphere(command::atmosphere::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
     Picture(command::picture::Args),
     /// Measure how fast the tracer is.
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Judge(args) => command::judge::run(&args),
         Command::Units(args) => command::units::run(&args),
         Command::Trace(args) => command::trace::run(&args),
+        Command::Atmosphere(args) => command::atmosphere::run(&args),
         Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),

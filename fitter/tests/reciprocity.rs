@@ -16,6 +16,7 @@ fn slab() -> Atmosphere {
         scatterers: vec![Scatterer {
             name: name.into(),
             phase,
+            extinction: vec![tau / thickness],
             scattering: vec![albedo * tau / thickness],
         }],
     };

@@ -39,6 +39,8 @@ pub struct Scatterer {
     pub name: String,
     /// Its phase function.
     pub phase: Phase,
+    /// Extinction coefficient per wavelength where the profile is 1, m⁻¹: its part of the constituent's.
+    pub extinction: Vec<f64>,
     /// Scattering coefficient per wavelength where the profile is 1, m⁻¹.
     pub scattering: Vec<f64>,
 }

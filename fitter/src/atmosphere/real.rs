@@ -50,6 +50,10 @@ pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> 
         wavelengths.iter().all(|w| (300.0..=1000.0).contains(w)) && !wavelengths.is_empty(),
         "wavelengths must lie in 300..1000 nm"
     );
+    ensure!(
+        wavelengths.windows(2).all(|w| w[0] < w[1]),
+        "wavelengths must increase"
+    );
     let altitudes = altitude_nodes();
     let mut constituents = gases(&altitudes, wavelengths)?;
     constituents.extend(aerosols(visibility, &altitudes, wavelengths, particles)?);
@@ -104,6 +108,7 @@ fn gases(altitudes: &[f64], wavelengths: &[f64]) -> Result<Vec<Constituent>> {
                 phase: Phase::Rayleigh {
                     depolarisation: rho,
                 },
+                extinction: scattering.clone(),
                 scattering,
             }],
         },
@@ -224,6 +229,7 @@ fn aerosol(
                 .zip(wavelengths)
                 .map(|(e, &w)| e * albedo.at(w))
                 .collect(),
+            extinction: ext,
         });
     }
     Ok(Constituent {

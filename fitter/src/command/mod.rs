@@ -1,6 +1,7 @@
 //! The subcommands of `welkin-fit`.
 
 pub mod assess;
+pub mod atmosphere;
 pub mod bench;
 pub mod build;
 pub mod chart;

@@ -83,6 +83,7 @@ impl Slab {
                 scatterers: vec![Scatterer {
                     name: self.name.clone(),
                     phase: self.phase.clone(),
+                    extinction: vec![extinction],
                     scattering: vec![extinction * self.single_scattering_albedo],
                 }],
             }],

@@ -22,13 +22,15 @@ fn scattering(
     absorption: f64,
     phase: Phase,
 ) -> Constituent {
+    let extinction: Vec<f64> = scattering.iter().map(|s| s + absorption).collect();
     Constituent {
         name: name.into(),
         profile,
-        extinction: scattering.iter().map(|s| s + absorption).collect(),
+        extinction: extinction.clone(),
         scatterers: vec![Scatterer {
             name: name.into(),
             phase,
+            extinction,
             scattering,
         }],
     }

@@ -65,10 +65,6 @@ impl SourceArgs {
             });
         }
         let visibility = self.visibility.context("--visibility is missing")?;
-        ensure!(
-            self.wavelengths.windows(2).all(|w| w[0] < w[1]),
-            "--wavelengths must increase"
-        );
         let particles = match aerosol {
             AerosolArg::Mie => Particles::Mie,
             _ => Particles::HenyeyGreenstein,
