@@ -1,12 +1,16 @@
 //! Models that are read in pieces: the same skies from the head and the chunks of the scene, and nothing else.
 
 mod common;
+#[path = "../examples/stream/http_file.rs"]
+mod http_file;
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
-use common::http::{Client, Server};
+use common::server::Server;
+use http_file::HttpFile;
 use welkin::format::{Entry, Kind};
 use welkin::{Conditions, Error, Model, ReadAt};
 
@@ -31,7 +35,8 @@ fn a_server_gives_the_same_skies_as_memory() {
     let bytes = common::model_bytes();
     let whole = Model::from_bytes(bytes.clone()).unwrap();
     let server = Server::start(bytes);
-    let streamed = Model::stream(Client(server.address)).unwrap();
+    let file = HttpFile::new(server.url(), Duration::from_secs(60));
+    let streamed = Model::stream(file).unwrap();
     for conditions in [at(0.0, 20e3), at(500.0, 50e3), at(500.0, 50e3)] {
         assert_eq!(
             answers(&streamed, &conditions),

@@ -3,8 +3,8 @@
 
 pub mod answer;
 pub mod haze;
-pub mod http;
 pub mod oracle;
+pub mod server;
 
 use proptest::test_runner::{Config, RngSeed};
 use welkin::Sky;

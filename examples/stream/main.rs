@@ -1,13 +1,18 @@
 //! What scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
 
-#[path = "../tests/common/http.rs"]
-mod http;
+mod http_file;
+#[path = "../../tests/common/server.rs"]
+mod server;
 
-use http::{Client, Server};
+use std::time::Duration;
+
+use http_file::HttpFile;
+use server::Server;
 use welkin::{Conditions, DEFAULT_MODEL, Model, Result, Traffic};
 
 fn main() -> Result<()> {
     let server = Server::start(DEFAULT_MODEL.to_vec());
+    let file = || HttpFile::new(server.url(), Duration::from_secs(10));
     let scenes = [
         ("ground, visibility at a node", 0.0, 59.4e3),
         ("ground, visibility between nodes", 0.0, 50e3),
@@ -15,7 +20,7 @@ fn main() -> Result<()> {
     ];
     println!("the file has {} bytes", DEFAULT_MODEL.len());
     for (name, altitude, visibility) in scenes {
-        let model = Model::stream(Client(server.address))?;
+        let model = Model::stream(file())?;
         let head = model.traffic();
         model.sky(&Conditions {
             altitude,
@@ -24,7 +29,7 @@ fn main() -> Result<()> {
         })?;
         tell(name, &model, head);
     }
-    let model = Model::stream(Client(server.address))?;
+    let model = Model::stream(file())?;
     let head = model.traffic();
     model.haze(&Conditions {
         visibility: 50e3,
