@@ -1,6 +1,8 @@
 //! Makes lengths and checksums of a file right, so that the fuzzer spends its time behind them; and asks a model
 //! everything.
 
+#![forbid(unsafe_code)]
+
 use welkin::{Air, Conditions, Frame, Haze, Model, PolarisedSky, Stokes, StokesSpectra};
 
 /// `data` with the length of the file and all checksums that can be found set right.

@@ -33,6 +33,7 @@
 //! builds the command `welkin`, `signals` lets no signal leave temporary files behind (`welkin::output`). Without `std` (and
 //! with `libm`) what is left is [`General`], which needs neither the standard library nor an allocator.
 
+#![deny(unsafe_code)]
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without the standard library parts of the shared modules are not used.
 #![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]
@@ -54,6 +55,12 @@ pub mod geometry;
 #[cfg(feature = "std")]
 mod haze;
 mod lanes;
+#[cfg(feature = "mmap")]
+#[allow(
+    unsafe_code,
+    reason = "what is mapped is memory that others can change"
+)]
+mod map;
 mod math;
 #[cfg(feature = "std")]
 mod model;
@@ -66,6 +73,7 @@ mod polarisation;
 mod prepare;
 #[cfg(not(feature = "std"))]
 mod real;
+#[allow(unsafe_code, reason = "instructions that not every processor has")]
 mod simd;
 #[cfg(feature = "std")]
 mod sky;

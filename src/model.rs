@@ -38,7 +38,7 @@ impl Model {
     pub fn open(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         #[cfg(feature = "mmap")]
-        if let Some(map) = map(path).map_err(|e| io(path, e))? {
+        if let Some(map) = crate::map::map(path).map_err(|e| io(path, e))? {
             return Self::new(Bytes::Mapped(map));
         }
         Self::read(path)
@@ -288,17 +288,4 @@ fn io(path: &Path, source: std::io::Error) -> Error {
         path: path.to_owned(),
         source,
     }
-}
-
-/// Maps a regular file; anything else (a pipe, say) cannot be mapped.
-#[cfg(feature = "mmap")]
-fn map(path: &Path) -> std::io::Result<Option<memmap2::Mmap>> {
-    let file = std::fs::File::open(path)?;
-    if !file.metadata()?.is_file() {
-        return Ok(None);
-    }
-    // SAFETY: the map is read-only and private to the model; that nobody changes the file meanwhile is the caller's
-    // part, stated at `Model::open`. All bytes are treated as untrusted integers and floats, of which every bit
-    // pattern is valid.
-    unsafe { memmap2::Mmap::map(&file) }.map(Some)
 }

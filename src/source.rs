@@ -1,6 +1,5 @@
 //! Where the bytes of a model come from when they are not in memory.
 
-use std::fs::File;
 use std::io;
 use std::sync::Arc;
 
@@ -39,27 +38,34 @@ impl<T: ReadAt + ?Sized> ReadAt for Arc<T> {
 }
 
 #[cfg(any(unix, windows))]
-impl ReadAt for File {
-    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-        let mut filled = 0;
-        while filled < buffer.len() {
-            match read_some(self, offset + filled as u64, &mut buffer[filled..]) {
-                Ok(0) => break,
-                Ok(n) => filled += n,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
+mod file {
+    use std::fs::File;
+    use std::io;
+
+    use super::ReadAt;
+
+    impl ReadAt for File {
+        fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+            let mut filled = 0;
+            while filled < buffer.len() {
+                match read_some(self, offset + filled as u64, &mut buffer[filled..]) {
+                    Ok(0) => break,
+                    Ok(n) => filled += n,
+                    Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                    Err(error) => return Err(error),
+                }
             }
+            Ok(filled)
         }
-        Ok(filled)
     }
-}
 
-#[cfg(unix)]
-fn read_some(file: &File, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-    std::os::unix::fs::FileExt::read_at(file, buffer, offset)
-}
+    #[cfg(unix)]
+    fn read_some(file: &File, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        std::os::unix::fs::FileExt::read_at(file, buffer, offset)
+    }
 
-#[cfg(windows)]
-fn read_some(file: &File, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-    std::os::windows::fs::FileExt::seek_read(file, buffer, offset)
+    #[cfg(windows)]
+    fn read_some(file: &File, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        std::os::windows::fs::FileExt::seek_read(file, buffer, offset)
+    }
 }

@@ -1,5 +1,6 @@
 //! Radiance from a model in memory for programs without standard library and heap.
 #![no_std]
+#![deny(unsafe_code)]
 
 use core::panic::PanicInfo;
 use core::slice;
@@ -11,6 +12,7 @@ use welkin::{Conditions, General};
 ///
 /// # Safety
 /// `model` points to `model_length` bytes, `conditions` to five, `direction` to three and `out` to `out_length` numbers.
+#[allow(unsafe_code, reason = "callers in C hand over pointers and look for the name")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_radiance(
     model: *const u8,

@@ -2,6 +2,7 @@
 
 mod http_file;
 #[path = "../../tests/common/server.rs"]
+#[allow(dead_code, reason = "tests need more of it")]
 mod server;
 
 use std::time::Duration;

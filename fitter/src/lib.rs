@@ -2,6 +2,8 @@
 //!
 //! `atmosphere → tracer → dataset → decompose → file`, each in a module of its own.
 
+#![forbid(unsafe_code)]
+
 pub mod assess;
 pub mod atmosphere;
 pub mod build;

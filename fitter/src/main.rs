@@ -1,5 +1,7 @@
 //! `welkin-fit`: traces atmospheres and fits welkin model files.
 
+#![forbid(unsafe_code)]
+
 mod command;
 
 use clap::{Parser, Subcommand};

@@ -1,5 +1,7 @@
 //! The `welkin` command: renders, queries and describes clear-sky models.
 
+#![forbid(unsafe_code)]
+
 mod camera;
 mod difference;
 mod failure;

@@ -1,0 +1,157 @@
+//! Every public type can be moved to and shared between threads, and holds nothing but what it says it borrows.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use welkin::axis::*;
+use welkin::format::*;
+use welkin::geometry::*;
+use welkin::output::Target;
+use welkin::*;
+
+const fn shared<T: Send + Sync + 'static + ?Sized>() {}
+
+/// Asserts it for all types of a list at compile time, and gives their names.
+macro_rules! all_shared {
+    ($($type:ty,)*) => {
+        const _: () = { $(shared::<$type>();)* };
+        const LISTED: &[&str] = &[$(stringify!($type)),*];
+    };
+}
+
+all_shared! {
+    Air,
+    AlphaAxis,
+    BakeError,
+    BakedColour,
+    BakedPolarisedSky,
+    BakedSky,
+    BasisView<'static>,
+    Budget,
+    Channels,
+    Chunk,
+    ColumnTable,
+    ColumnView<'static>,
+    Conditions,
+    Contents,
+    DensityTable,
+    DensityView<'static>,
+    Directions<'static>,
+    ElevationAxis,
+    Ends,
+    Entry,
+    Error,
+    FactorsView<'static>,
+    Field,
+    Foreground<'static>,
+    Frame,
+    General<'static>,
+    GeneralHaze<'static>,
+    Haze,
+    Head,
+    Interpolation,
+    Kind,
+    Model,
+    Payload,
+    Payload16,
+    PhaseFunction,
+    Plan,
+    Planet,
+    PolarisationBasis,
+    PolarisationFactors,
+    PolarisedForeground<'static>,
+    PolarisedGeneral<'static>,
+    PolarisedSky,
+    Problem,
+    RadianceBasis,
+    RadianceFactors,
+    Ray,
+    Ranks,
+    dyn ReadAt,
+    welkin::Result<()>,
+    Sample,
+    Selection,
+    Shape,
+    Side,
+    Sky,
+    SkySampler,
+    SourceBasis,
+    SourceBasisView<'static>,
+    SourceCore,
+    SourceView<'static>,
+    Stokes,
+    Stencil,
+    StokesSpectra<'static>,
+    SunDisc,
+    Target,
+    Taps,
+    Traffic,
+}
+
+/// `welkin::Result<()>` is `Result`.
+fn name(listed: &str) -> String {
+    let path = listed.split('<').next().unwrap();
+    let last = path.rsplit([':', ' ']).find(|part| !part.is_empty());
+    last.unwrap().to_owned()
+}
+
+/// The file of `mod name;` that stands in the file of its parent.
+fn file(parent: &Path, name: &str) -> PathBuf {
+    let folder = match parent.file_stem().unwrap().to_str().unwrap() {
+        "lib" | "mod" => parent.parent().unwrap().to_owned(),
+        _ => parent.with_extension(""),
+    };
+    let flat = folder.join(format!("{name}.rs"));
+    match flat.exists() {
+        true => flat,
+        false => folder.join(name).join("mod.rs"),
+    }
+}
+
+fn is_type(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(char::is_uppercase) && letters.any(char::is_lowercase)
+}
+
+/// What a module shows: types that it declares or names again, and those of its public modules.
+fn shown(path: &Path, names: &mut BTreeSet<String>) {
+    let text = std::fs::read_to_string(path).unwrap();
+    let code: String = text
+        .split_inclusive('\n')
+        .filter(|l| !l.trim_start().starts_with("//"))
+        .collect();
+    let identifiers = |text: &str| -> Vec<String> {
+        let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        words.filter(|w| !w.is_empty()).map(str::to_owned).collect()
+    };
+    for statement in code.split("\npub ").skip(1) {
+        let (keyword, rest) = statement.split_once(' ').unwrap();
+        match keyword {
+            "use" => {
+                let list = rest.split(';').next().unwrap();
+                assert!(!list.contains('*'), "{}: pub use {list}", path.display());
+                names.extend(identifiers(list).into_iter().filter(|n| is_type(n)));
+            }
+            "mod" => shown(&file(path, rest.split(';').next().unwrap()), names),
+            "struct" | "enum" | "union" | "trait" | "type" => {
+                names.extend(identifiers(rest).into_iter().take(1));
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_public_type_is_listed() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs");
+    let mut names = BTreeSet::new();
+    shown(&root, &mut names);
+    assert!(names.len() > 50, "{names:?}");
+    let listed: BTreeSet<String> = LISTED.iter().map(|l| name(l)).collect();
+    let missing: Vec<_> = names.difference(&listed).collect();
+    let gone: Vec<_> = listed.difference(&names).collect();
+    assert!(
+        missing.is_empty() && gone.is_empty(),
+        "missing: {missing:?}, gone: {gone:?}"
+    );
+}
