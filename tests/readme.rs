@@ -1,0 +1,110 @@
+//! The examples of README.md, run; and a check that they are those.
+#![cfg(feature = "default-model")]
+
+use welkin::{BakedSky, Budget, Channels, Directions, General, SunDisc};
+use welkin::{Conditions, Frame, Model};
+
+/// Code without comments, spaces, and the commas that a formatter adds.
+fn compact(code: &str) -> String {
+    let lines = code.lines().map(|line| line.split("//").next().unwrap());
+    let text: String = lines
+        .flat_map(str::chars)
+        .filter(|c| !c.is_whitespace())
+        .collect();
+    text.replace(",)", ")").replace(",}", "}")
+}
+
+#[test]
+fn every_rust_example_is_run_here() {
+    let here = compact(include_str!("readme.rs"));
+    let readme = include_str!("../README.md");
+    let blocks: Vec<&str> = readme.split("```rust\n").skip(1).collect();
+    assert!(blocks.len() >= 3);
+    for block in blocks {
+        let code = block.split("```").next().unwrap();
+        for statement in compact(code).split_inclusive(';') {
+            assert!(here.contains(statement), "not run: {statement}");
+        }
+    }
+}
+
+#[test]
+fn use_it() -> welkin::Result<()> {
+    let camera_up = [0.0, 0.0, 1.0];
+
+    let model = Model::default_model()?;
+    let sky = model.sky(&Conditions {
+        solar_elevation: 5f64.to_radians(),
+        visibility: 40e3,
+        altitude: 120.0,
+        ..Conditions::default()
+    })?;
+    let mut radiance = [0.0; 12];
+    sky.radiance([0.3, 0.1, 0.9], &mut radiance)?;
+    let rgb = sky.linear_srgb([0.3, 0.1, 0.9])?;
+    assert!(rgb[2] > rgb[0] && radiance.iter().all(|&r| r > 0.0));
+
+    let sky = model.polarised_sky(&Conditions::default())?;
+    let light = sky.stokes_at([0.3, 0.1, 0.9], Frame::Axis(camera_up), 550.0)?;
+    let (degree, angle) = (light.degree(), light.angle());
+    assert!((0.05..1.0).contains(&degree) && angle.is_finite());
+    Ok(())
+}
+
+#[test]
+fn fast() -> welkin::Result<()> {
+    let model = Model::default_model()?;
+    let sky = model.sky(&Conditions::default())?;
+    let polarised_sky = model.polarised_sky(&Conditions::default())?;
+    let directions = Directions {
+        x: &[0.3, 0.0],
+        y: &[0.1, 0.0],
+        z: &[0.9, 1.0],
+    };
+    let mut radiance = [0.0; 24];
+    let budget = Budget {
+        altitude: [0.0, 100.0],
+        visibility: [40e3, 60e3],
+        solar_elevation: [0.1, 1.0],
+        tolerance: BakedSky::TOLERANCE,
+        channels: Channels::Spectral,
+    };
+
+    let baked = sky.bake(BakedSky::TOLERANCE)?;
+    baked.radiance_batch(&directions, &mut radiance)?;
+    let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
+    let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
+    let sampler = colour.sampler().with_sun(&SunDisc::new(&sky));
+    let general = General::new(welkin::DEFAULT_MODEL)?;
+    let plan = model.plan(&budget)?;
+
+    assert!(radiance.iter().all(|&r| r > 0.0));
+    assert!(baked.bytes() > colour.bytes() && stokes.bytes() > baked.bytes());
+    assert!(sampler.bytes() > 0);
+    let mut other = [0.0; 12];
+    general.radiance(&Conditions::default(), [0.0, 0.0, 1.0], &mut other)?;
+    assert!(other.iter().all(|&r| r > 0.0));
+    assert!(plan.file_bytes < welkin::DEFAULT_MODEL.len());
+    Ok(())
+}
+
+#[test]
+fn finite_distances() -> welkin::Result<()> {
+    let model = Model::default_model()?;
+    let conditions = Conditions::default();
+    let sky = model.sky(&conditions)?;
+    let (camera, point, camera_up) = ([0.0; 3], [9e3, 1e3, 500.0], [0.0, 0.0, 1.0]);
+    let points = [point, [0.0, 0.0, 2e3]];
+    let (mut in_scatter, mut transmittance) = ([0.0; 24], [0.0; 24]);
+
+    let haze = model.haze(&conditions)?;
+    haze.aerial_perspective(camera, &points, &mut in_scatter, &mut transmittance)?;
+    let (light, factors) = haze.linear_srgb(camera, point)?;
+    assert!(light[2] > 0.0 && factors[0] > factors[2]);
+    let (light, factors) = haze.before(&sky)?.linear_srgb(point)?;
+    assert!(light[2] > 0.0 && factors[0] > factors[2]);
+    let (light, factors) = haze.linear_srgb_stokes(camera, point, Frame::Axis(camera_up))?;
+    assert!(light[2].through_polariser(0.0) > 0.0 && factors[0] > factors[2]);
+    assert!(in_scatter.iter().chain(&transmittance).all(|&x| x > 0.0));
+    Ok(())
+}
