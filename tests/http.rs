@@ -367,7 +367,7 @@ fn servers_that_are_silent_or_drip() {
         let began = Instant::now();
         let outcome = read(&HttpFile::new(server.url(), BRIEF), 500, 1000);
         assert!(began.elapsed() < Duration::from_secs(8), "{shown}");
-        let error = outcome.err().expect(&shown);
+        let error = outcome.expect_err(&shown);
         assert_eq!(error.kind(), ErrorKind::TimedOut, "{shown}: {error}");
     }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use welkin::axis::*;
 use welkin::format::*;
 use welkin::geometry::*;
+use welkin::output::Target;
 use welkin::*;
 
 const fn shared<T: Send + Sync + 'static + ?Sized>() {}
@@ -59,6 +60,7 @@ all_shared! {
     PolarisationBasis,
     PolarisationFactors,
     PolarisedForeground<'static>,
+    PolarisedGeneral<'static>,
     PolarisedSky,
     Problem,
     RadianceBasis,
@@ -81,6 +83,7 @@ all_shared! {
     Stencil,
     StokesSpectra<'static>,
     SunDisc,
+    Target,
     Taps,
     Traffic,
 }

@@ -54,7 +54,8 @@ fn use_it() -> welkin::Result<()> {
 #[test]
 fn fast() -> welkin::Result<()> {
     let model = Model::default_model()?;
-    let sky = model.sky(&Conditions::default())?;
+    let conditions = Conditions::default();
+    let sky = model.sky(&conditions)?;
     let polarised_sky = model.polarised_sky(&Conditions::default())?;
     let directions = Directions {
         x: &[0.3, 0.0],
@@ -74,7 +75,7 @@ fn fast() -> welkin::Result<()> {
     baked.radiance_batch(&directions, &mut radiance)?;
     let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
     let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
-    let sampler = colour.sampler().with_sun(&model.sun_disc(sky.conditions())?);
+    let sampler = colour.sampler().with_sun(&model.sun_disc(&conditions)?);
     let general = General::new(welkin::DEFAULT_MODEL)?;
     let plan = model.plan(&budget)?;
 
@@ -106,5 +107,10 @@ fn finite_distances() -> welkin::Result<()> {
     let (light, factors) = haze.linear_srgb_stokes(camera, point, Frame::Axis(camera_up))?;
     assert!(light[2].through_polariser(0.0) > 0.0 && factors[0] > factors[2]);
     assert!(in_scatter.iter().chain(&transmittance).all(|&x| x > 0.0));
+
+    let (mut light, mut transmittance) = ([0.0; 12], [0.0; 12]);
+    let mut haze = model.general_haze()?;
+    haze.in_scatter(&conditions, camera, point, &mut light, &mut transmittance)?;
+    assert!(light.iter().chain(&transmittance).all(|&x| x > 0.0));
     Ok(())
 }

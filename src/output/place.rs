@@ -21,6 +21,7 @@ pub enum Place {
 
 /// What is written straight to.
 pub enum Stream {
+    #[cfg(unix)]
     Socket,
     /// `/dev/stdout` and its like may stand for a regular file, whose bytes so far are not ours.
     Descriptor,
@@ -97,6 +98,7 @@ impl Stream {
 
     pub fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
         match self {
+            #[cfg(unix)]
             Self::Socket => send(path, bytes),
             Self::Descriptor => OpenOptions::new().append(true).open(path)?.write_all(bytes),
             Self::Other => OpenOptions::new().write(true).open(path)?.write_all(bytes),
@@ -107,9 +109,4 @@ impl Stream {
 #[cfg(unix)]
 fn send(path: &Path, bytes: &[u8]) -> io::Result<()> {
     std::os::unix::net::UnixStream::connect(path)?.write_all(bytes)
-}
-
-#[cfg(not(unix))]
-fn send(_: &Path, _: &[u8]) -> io::Result<()> {
-    Err(ErrorKind::Unsupported.into())
 }
