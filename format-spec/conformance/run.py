@@ -2,6 +2,9 @@
 """Asks a reader all questions of the conformance suite. See README.md.
 
     run.py [--lacks FEATURE] [--] READER [ARGUMENT …]
+    run.py --verifier VERIFIER [ARGUMENT …]
+
+With --verifier it compares verdicts instead: exit code 0 for files that conform, 1 for others.
 
 Exit code 0 if every answer is right, 1 at the first file with a wrong one, which is told.
 """
@@ -61,8 +64,20 @@ def check(query, answer, relative, lacking):
     return None, worst
 
 
+def compare_verdicts(verifier, manifest):
+    """Runs a verifier on each file."""
+    for case in manifest["cases"]:
+        command = verifier + [str(FOLDER / case["file"])]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+        if done.returncode != int(case["verdict"] != "conforms"):
+            output = (done.stdout + done.stderr).strip()[-500:]
+            sys.exit(f"{case['file']} ({case['shows']}): expected {case['verdict']}, got exit code {done.returncode}: {output}")
+    print(f"{' '.join(verifier)}: {len(manifest['cases'])} verdicts are right")
+
+
 def main():
     parser = argparse.ArgumentParser()
+    parser.add_argument("--verifier", action="store_true")
     parser.add_argument("--lacks", action="append", default=[])
     parser.add_argument("reader", nargs=argparse.REMAINDER)
     options = parser.parse_args()
@@ -70,6 +85,8 @@ def main():
     if not reader:
         parser.error("which reader?")
     manifest = json.loads((FOLDER / "manifest.json").read_text())
+    if options.verifier:
+        return compare_verdicts(reader, manifest)
     files, count, worst = 0, 0, 0.0
     for case in manifest["cases"]:
         lacking = [feature for feature in case["needs"] if feature in options.lacks]

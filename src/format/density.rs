@@ -1,5 +1,8 @@
 //! Densities of the air over altitude (kind 4). Format specification, section 6.4.
 
+use core::mem::offset_of;
+use core::ops::Range;
+
 use zerocopy::little_endian::{F32, F64, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
@@ -19,6 +22,10 @@ struct Counts {
     layers: U32,
     reserved: U32,
 }
+
+/// Bytes of `reserved` in the payload.
+pub(super) const RESERVED: Range<usize> =
+    offset_of!(Counts, reserved)..offset_of!(Counts, reserved) + size_of::<U32>();
 
 /// Piecewise quadratic densities.
 #[derive(Clone, Copy, Debug)]

@@ -11,10 +11,14 @@ use super::layout::ENCODING_ZSTD;
 use super::source::{SourceBasisView, SourceView};
 use crate::error::{Error, Result};
 
-/// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are.
+/// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are: their checksums, too, may
+/// be anything.
 ///
 /// Allocates at most `raw_length` bytes, which was compared with what rank and counts give.
 pub(crate) fn decode<'a>(i: usize, entry: &Entry, stored: &'a [u8]) -> Result<Cow<'a, [u8]>> {
+    if matches!(entry.kind, Kind::Unknown(_)) {
+        return Ok(Cow::Borrowed(stored));
+    }
     let got = crc32fast::hash(stored);
     if got != entry.crc32 {
         return Err(Error::Checksum {
@@ -23,11 +27,11 @@ pub(crate) fn decode<'a>(i: usize, entry: &Entry, stored: &'a [u8]) -> Result<Co
             got,
         });
     }
-    match (entry.kind, entry.encoding) {
-        (Kind::Unknown(_), _) | (_, ENCODING_RAW) => Ok(Cow::Borrowed(stored)),
+    match entry.encoding {
+        ENCODING_RAW => Ok(Cow::Borrowed(stored)),
         #[cfg(feature = "zstd")]
-        (_, ENCODING_ZSTD) => decompress(i, stored, entry.raw_length).map(Cow::Owned),
-        (_, got) => Err(Error::Encoding { chunk: i, got }),
+        ENCODING_ZSTD => decompress(i, stored, entry.raw_length).map(Cow::Owned),
+        got => Err(Error::Encoding { chunk: i, got }),
     }
 }
 
@@ -62,6 +66,9 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
 fn decompress(i: usize, stored: &[u8], raw_length: usize) -> Result<Vec<u8>> {
     use zstd::zstd_safe::{find_frame_compressed_size, get_frame_content_size};
     let broken = |detail: &str| Error::invalid("zstd frame", format!("chunk {i}: {detail}"));
+    if !is_plain(stored) {
+        return Err(broken("needs a window of more than 128 MiB, or is none"));
+    }
     let declared = get_frame_content_size(stored);
     if !matches!(declared, Ok(Some(n)) if n == raw_length as u64) {
         return Err(broken("does not declare raw_length bytes"));
@@ -75,6 +82,18 @@ fn decompress(i: usize, stored: &[u8], raw_length: usize) -> Result<Vec<u8>> {
         return Ok(decoded);
     }
     Err(broken("has another length than raw_length"))
+}
+
+/// Whether the bytes start a frame of RFC 8878, not a skippable or older one, whose window is not wider than the specification allows.
+#[cfg(feature = "zstd")]
+fn is_plain(stored: &[u8]) -> bool {
+    /// Window_Descriptor of 2^27 bytes: smaller ones are smaller numbers.
+    const WIDEST: u8 = (27 - 10) << 3;
+    let Some(([0x28, 0xb5, 0x2f, 0xfd, descriptor], rest)) = stored.split_first_chunk() else {
+        return false;
+    };
+    let single_segment = descriptor & 0x20 != 0;
+    single_segment || rest.first().is_some_and(|&window| window <= WIDEST)
 }
 
 /// Compresses a payload; `None` if the frame breaks the limits that the specification sets or saves nothing.

@@ -77,6 +77,27 @@ pub(crate) struct Header {
     pub elevation_width: F64,
 }
 
+impl Header {
+    /// Length of the head that follows from the counts; at most about 2^39, so it cannot overflow.
+    pub(crate) fn counted_head_length(&self) -> u64 {
+        let n = |count: U16| u64::from(count.get());
+        let (nw, nv, nf) = (n(self.wavelengths), n(self.visibilities), n(self.fields));
+        let f64s = nw
+            + n(self.altitudes)
+            + nv
+            + nv * n(self.constituents) * nw
+            + nv * nw
+            + nf * nw
+            + 3 * nw
+            + 2;
+        let u32s = n(self.solar_samples) + nf;
+        let arrays = 8 * f64s + 4 * u32s + u64::from(self.metadata_length.get());
+        HEADER_LENGTH as u64
+            + arrays.next_multiple_of(8)
+            + u64::from(self.chunk_count.get()) * ENTRY_LENGTH as u64
+    }
+}
+
 /// One chunk in the directory, 64 bytes.
 #[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]

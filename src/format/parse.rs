@@ -109,7 +109,7 @@ fn header(bytes: &[u8]) -> Result<Header> {
 
 /// Length of the head, after comparing it with the counts.
 fn declared_head_length(header: &Header) -> Result<u64> {
-    let expected = counted_head_length(header);
+    let expected = header.counted_head_length();
     let got = header.head_length.get();
     if got == expected {
         return Ok(got);
@@ -119,29 +119,6 @@ fn declared_head_length(header: &Header) -> Result<u64> {
         expected,
         got,
     })
-}
-
-/// Length that follows from the counts; at most about 2^39, so it cannot overflow.
-fn counted_head_length(header: &Header) -> u64 {
-    let n = |count: zerocopy::little_endian::U16| u64::from(count.get());
-    let (nw, nv, nf) = (
-        n(header.wavelengths),
-        n(header.visibilities),
-        n(header.fields),
-    );
-    let f64s = nw
-        + n(header.altitudes)
-        + nv
-        + nv * n(header.constituents) * nw
-        + nv * nw
-        + nf * nw
-        + 3 * nw
-        + 2;
-    let u32s = n(header.solar_samples) + nf;
-    let arrays = 8 * f64s + 4 * u32s + u64::from(header.metadata_length.get());
-    HEADER_LENGTH as u64
-        + arrays.next_multiple_of(8)
-        + u64::from(header.chunk_count.get()) * ENTRY_LENGTH as u64
 }
 
 fn check_crc(header: &Header, head: &[u8]) -> Result<()> {

@@ -1,5 +1,8 @@
 //! The source function of multiply scattered light (kinds 5 and 8). Format specification, sections 6.5 and 6.8.
 
+use core::mem::offset_of;
+use core::ops::Range;
+
 use half::f16;
 use zerocopy::little_endian::{F32, F64, U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
@@ -49,6 +52,10 @@ struct SourceCounts {
     scale: F32,
     reserved: U32,
 }
+
+/// Bytes of `reserved` in the payload of a source.
+pub(super) const RESERVED: Range<usize> =
+    offset_of!(SourceCounts, reserved)..offset_of!(SourceCounts, reserved) + size_of::<U32>();
 
 /// Number of harmonics `(l, m)` up to `degree` with m ≤ `orders`.
 pub const fn harmonics(degree: usize, orders: usize) -> usize {

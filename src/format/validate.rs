@@ -34,7 +34,9 @@ impl Head {
         count("metadata_length", self.metadata.len(), 0, u32::MAX as usize)?;
         // A few bytes of factors must not make a reader allocate gigabytes.
         let shape = self.shape();
-        let table = (shape.up + shape.down) * shape.phi * shape.channels;
+        let table = [shape.up + shape.down, shape.phi, shape.channels];
+        // Saturating, for machines of 32 bits.
+        let table = table.iter().fold(1, |n: usize, m| n.saturating_mul(*m));
         count("table of a sky", table, 1, MAX_TABLE)
     }
 

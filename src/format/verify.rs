@@ -1,11 +1,12 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
 use super::chunk::{BasisView, FactorsView, Payload16};
+use super::density::RESERVED as DENSITY_RESERVED;
 use super::encoding::{check_chunk, decode};
 use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
-use super::source::{SourceBasisView, SourceView};
+use super::source::{RESERVED as SOURCE_RESERVED, SourceBasisView, SourceView};
 use crate::error::Error;
 
 /// A rule of the format specification that a file breaks.
@@ -106,10 +107,24 @@ fn check_payload(contents: &Contents, file: &[u8], i: usize, entry: &Entry) -> R
     let stored = &file[entry.offset..entry.offset + entry.length];
     let payload = decode(i, entry, stored)?;
     check_chunk(&contents.head, i, entry, &payload)?;
+    check_reserved_of_payload(entry, &payload)?;
     check_padding(&contents.head, entry, &payload)
 }
 
-/// Columns beyond the rank and beyond the channels.
+/// `reserved` in payloads that have it.
+fn check_reserved_of_payload(entry: &Entry, payload: &[u8]) -> Result<(), Error> {
+    let reserved = match entry.kind {
+        Kind::Transmittance => DENSITY_RESERVED,
+        Kind::Source => SOURCE_RESERVED,
+        _ => return Ok(()),
+    };
+    match payload.get(reserved) {
+        Some([0, 0, 0, 0]) => Ok(()),
+        _ => Err(Error::invalid("reserved of a payload", "expected zeros")),
+    }
+}
+
+/// Columns beyond the rank and beyond the channels: every bit of them, so that −0 is not zero.
 fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error> {
     let (shape, rank) = (head.shape(), entry.rank);
     let zero = match entry.kind {
@@ -130,7 +145,9 @@ fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error
 }
 
 fn factors_are_padded(view: &FactorsView) -> bool {
-    let scale = view.scale[view.rank..].iter().all(|s| s.get() == 0.0);
+    let scale = view.scale[view.rank..]
+        .iter()
+        .all(|s| s.get().to_bits() == 0);
     let matrices = [view.alpha_up, view.alpha_down, view.elevation];
     scale && matrices.iter().all(|m| is_zero(m, view.stride, view.rank))
 }

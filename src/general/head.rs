@@ -1,8 +1,9 @@
-//! The head of a file in place, also where only the head is there: what a query needs, checked so far that no query can go wrong.
+//! The head of a file in place, also where only the head is there: what a query needs, checked as every reader does.
 
 use zerocopy::FromBytes;
 use zerocopy::little_endian::{F32, F64, U32};
 
+use super::rules::{Rest, check, check_counts};
 use crate::axis::ElevationAxis;
 use crate::error::{Error, Result};
 use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
@@ -36,6 +37,7 @@ pub(crate) struct HeadView<'a> {
 impl<'a> HeadView<'a> {
     pub fn new(bytes: &'a [u8]) -> Result<Self> {
         let (header, head) = split(bytes)?;
+        check_counts(header)?;
         let n = |count: zerocopy::little_endian::U16| usize::from(count.get());
         let (nw, nv, nk) = (
             n(header.wavelengths),
@@ -44,6 +46,7 @@ impl<'a> HeadView<'a> {
         );
         let nf = n(header.fields);
         let mut rest = head;
+        let (xyz, metadata, padding);
         let view = Self {
             file_length: header.file_length.get(),
             shape: Shape {
@@ -81,20 +84,26 @@ impl<'a> HeadView<'a> {
             spherical_albedo: take(&mut rest, nv * nw)?,
             phase_parameter: take(&mut rest, nf * nw)?,
             solar_axis: {
-                let _xyz: &[F64] = take(&mut rest, 3 * nw)?;
+                xyz = take(&mut rest, 3 * nw)?;
                 let axis: &[F64] = take(&mut rest, 2)?;
                 [axis[0].get(), axis[1].get()]
             },
             solar: take(&mut rest, n(header.solar_samples))?,
             fields: take(&mut rest, nf)?,
             directory: {
-                let _metadata: &[u8] = take(&mut rest, header.metadata_length.get() as usize)?;
+                metadata = take(&mut rest, header.metadata_length.get() as usize)?;
                 let used = head.len() - rest.len();
-                let _padding: &[u8] = take(&mut rest, used.next_multiple_of(8) - used)?;
+                padding = take(&mut rest, used.next_multiple_of(8) - used)?;
                 take(&mut rest, header.chunk_count.get() as usize)?
             },
         };
-        view.check()?;
+        let rest = Rest {
+            xyz,
+            metadata,
+            padding,
+            head_length: header.head_length.get(),
+        };
+        check(&view, &rest)?;
         Ok(view)
     }
 
@@ -107,65 +116,6 @@ impl<'a> HeadView<'a> {
         let t = (u - i as f64) as f32;
         let [a, b] = [i, i + 1].map(|i| self.solar[i].get());
         (1.0 - t) * a + t * b
-    }
-
-    fn check(&self) -> Result<()> {
-        let Shape {
-            wavelengths,
-            constituents,
-            channels,
-            ..
-        } = self.shape;
-        let counts = wavelengths >= 2
-            && constituents >= 1
-            && channels >= wavelengths
-            && !self.altitudes.is_empty()
-            && !self.visibilities.is_empty()
-            && self.solar.len() >= 2
-            && [
-                self.alpha[0].0,
-                self.alpha[1].0,
-                self.phi_intervals,
-                self.elevation.intervals,
-            ]
-            .iter()
-            .all(|&n| n >= 1);
-        if !counts {
-            return Err(Error::invalid("header", "a count is zero"));
-        }
-        for (what, axis) in [
-            ("wavelength", self.wavelengths),
-            ("altitude", self.altitudes),
-            ("visibility", self.visibilities),
-        ] {
-            let finite = axis.iter().all(|v| v.get().is_finite() && v.get() >= 0.0);
-            let rising = axis.windows(2).all(|pair| pair[0].get() < pair[1].get());
-            if !finite || !rising {
-                return Err(Error::invalid(what, "must be finite and increase strictly"));
-            }
-        }
-        self.check_scalars()
-    }
-
-    fn check_scalars(&self) -> Result<()> {
-        let e = &self.elevation;
-        let within = |v: f64, low: f64, high: f64| v.is_finite() && v >= low && v <= high;
-        let sound = within(self.planet.radius, 1e3, 1e9)
-            && within(self.planet.top, 0.0, 1e9)
-            && self
-                .alpha
-                .iter()
-                .all(|&(_, exponent)| within(exponent, 1.0, 8.0))
-            && within(e.min, -1.6, e.max)
-            && within(e.max, e.min, 1.6)
-            && within(e.centre, -1.6, 1.6)
-            && within(e.width, 1e-6, 1e6)
-            && within(self.solar_axis[0], 0.0, 1e6)
-            && within(self.solar_axis[1], 1e-3, 1e6);
-        match sound {
-            true => Ok(()),
-            false => Err(Error::invalid("header", "a number is out of its range")),
-        }
     }
 }
 
@@ -192,6 +142,14 @@ fn split(bytes: &[u8]) -> Result<(&Header, &[u8])> {
         bits => return Err(Error::Feature { bits }),
     }
     let length = header.head_length.get();
+    let expected = header.counted_head_length();
+    if length != expected {
+        return Err(Error::Length {
+            what: "head_length",
+            expected,
+            got: length,
+        });
+    }
     let head = usize::try_from(length).ok().and_then(|n| bytes.get(..n));
     let head = head.filter(|head| head.len() >= size_of::<Header>());
     let head = head.ok_or_else(|| short(length))?;

@@ -1,8 +1,9 @@
 //! The valid files.
 
-use welkin::format::{Chunk, ENCODING_ZSTD, Head, Payload, PhaseFunction, encode, recode};
+use welkin::format::{Chunk, ENCODING_ZSTD, Head, Payload, PhaseFunction, encode, parse, recode};
 
 use crate::common;
+use crate::frames::{Start, restarted, with_checksum};
 
 pub struct Case {
     pub name: String,
@@ -13,6 +14,8 @@ pub struct Case {
     pub bytes: Vec<u8>,
     /// The same model with raw chunks, for the oracle.
     pub raw: Vec<u8>,
+    /// A few queries are enough.
+    pub brief: bool,
 }
 
 pub fn valid() -> Vec<Case> {
@@ -20,6 +23,7 @@ pub fn valid() -> Vec<Case> {
         &[0.0, 120.0, 1000.0, 2000.0],
         &[20e3, 59.4e3, 131.8e3],
     ));
+    let small_model = model(&small(&[0.0], &[20e3]));
     let mut cases = vec![
         case(
             "raw",
@@ -58,10 +62,11 @@ pub fn valid() -> Vec<Case> {
             unknown(&raw),
         ),
         case(
-            "minor",
-            "a newer minor version and reserved bytes are accepted",
-            minor(&raw),
+            "unknown-kinds",
+            "chunks of unknown kinds: first, last, twice, empty, with wrong checksums",
+            unknown_kinds(&small_model),
         ),
+        case("minor", "a newer minor version is accepted", minor(&raw)),
         case(
             "metadata",
             "metadata in UTF-8, not a multiple of eight bytes",
@@ -103,10 +108,22 @@ pub fn valid() -> Vec<Case> {
             air(),
         )
     });
+    cases.push(Case {
+        needs: vec!["transmittance"],
+        ..case("air-thin", "a layer of one millimetre", thin_air())
+    });
     for (name, shows, file) in hazy() {
         let needs = vec!["haze"];
         cases.push(Case {
             needs,
+            ..case(name, shows, file)
+        });
+    }
+    for (name, shows, file) in compressed_otherwise(&raw) {
+        cases.push(Case {
+            needs: vec!["zstd"],
+            raw: raw.clone(),
+            brief: true,
             ..case(name, shows, file)
         });
     }
@@ -129,6 +146,7 @@ fn case(name: &str, shows: &'static str, bytes: Vec<u8>) -> Case {
         needs: Vec::new(),
         raw: bytes.clone(),
         bytes,
+        brief: false,
     }
 }
 
@@ -339,4 +357,107 @@ fn hazy() -> [(&'static str, &'static str, Vec<u8>); 4] {
 
 fn compressed(raw: &[u8]) -> Vec<u8> {
     recode(raw, ENCODING_ZSTD).expect("a valid model")
+}
+
+/// The same chunks in frames with other headers.
+fn compressed_otherwise(raw: &[u8]) -> [(&'static str, &'static str, Vec<u8>); 3] {
+    let other = |change: &dyn Fn(&[u8], usize) -> Vec<u8>| {
+        let mut file = compressed(raw);
+        let contents = parse(&file).expect("a valid file");
+        for (i, entry) in contents.directory.iter().enumerate() {
+            if entry.encoding == ENCODING_ZSTD {
+                // Frames before it may have changed their lengths.
+                let place = &parse(&file).expect("a valid file").directory[i];
+                let frame = file[place.offset..place.offset + place.length].to_vec();
+                file = common::with_chunk(&file, i, &change(&frame, entry.raw_length));
+            }
+        }
+        file
+    };
+    let started = |start: Start| other(&move |frame, _| restarted(frame, start));
+    let dictionary = started(Start {
+        dictionary: &[0; 4],
+        ..Start::default()
+    });
+    let window = started(Start {
+        window: Some(0x88),
+        dictionary: &[0],
+        ..Start::default()
+    });
+    let checksum = other(&|frame, length| {
+        with_checksum(&zstd::bulk::decompress(frame, length).expect("a frame"))
+    });
+    [
+        (
+            "zstd-no-dictionary",
+            "frames with a Dictionary_ID of 0",
+            dictionary,
+        ),
+        ("zstd-widest", "frames with a window of 2^27 bytes", window),
+        (
+            "zstd-checksums",
+            "frames with checksums of their content",
+            checksum,
+        ),
+    ]
+}
+
+/// Chunks that no reader knows, among those of `raw`, with entries of which all but the place is absurd.
+fn unknown_kinds(raw: &[u8]) -> Vec<u8> {
+    let contents = parse(raw).expect("a valid file");
+    let directory = contents.head_length - 64 * contents.directory.len();
+    let mut chunks: Vec<([u8; 64], &[u8])> = contents
+        .directory
+        .iter()
+        .zip(raw[directory..].chunks_exact(64))
+        .map(|(e, entry)| {
+            let stored = &raw[e.offset..e.offset + e.length];
+            (entry.try_into().expect("64 bytes"), stored)
+        })
+        .collect();
+    let unknown = |kind: u32| {
+        let mut entry = [0xee; 64];
+        entry[..4].copy_from_slice(&kind.to_le_bytes());
+        entry
+    };
+    chunks.insert(0, (unknown(0), &[]));
+    chunks.insert(2, (unknown(9), b"twice"));
+    chunks.insert(3, (unknown(9), b"twice"));
+    chunks.push((unknown(u32::MAX), &[]));
+    let mut bytes = raw[..directory].to_vec();
+    bytes.resize(directory + 64 * chunks.len(), 0);
+    for (i, (mut entry, stored)) in chunks.into_iter().enumerate() {
+        bytes.resize(bytes.len().next_multiple_of(64), 0);
+        entry[8..16].copy_from_slice(&(bytes.len() as u64).to_le_bytes());
+        entry[16..24].copy_from_slice(&(stored.len() as u64).to_le_bytes());
+        bytes[directory + 64 * i..][..64].copy_from_slice(&entry);
+        bytes.extend(stored);
+    }
+    let count = contents.directory.len() + 4;
+    let head_length = directory + 64 * count;
+    let length = bytes.len() as u64;
+    bytes[16..24].copy_from_slice(&length.to_le_bytes());
+    bytes[24..32].copy_from_slice(&(head_length as u64).to_le_bytes());
+    bytes[36..40].copy_from_slice(&(count as u32).to_le_bytes());
+    bytes[32..36].fill(0);
+    let crc = crc32fast::hash(&bytes[..head_length]);
+    bytes[32..36].copy_from_slice(&crc.to_le_bytes());
+    bytes
+}
+
+/// Air whose lowest layer is as thin as layers may be.
+fn thin_air() -> Vec<u8> {
+    let head = small(&[0.0, 900.0], &[25e3, 75e3]);
+    let mut table = common::densities();
+    table.edges.insert(1, 1e-3);
+    let ground = [1.0, 1.0, 1.0, 1.0];
+    table.density.splice(0..0, ground);
+    let densities = Chunk {
+        altitude: None,
+        visibility: None,
+        error_median: 0.0,
+        error_p99: 0.0,
+        payload: Payload::Transmittance(table),
+    };
+    encode(&head, &[densities]).expect("a valid model")
 }

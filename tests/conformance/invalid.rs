@@ -4,8 +4,9 @@ use welkin::format::{ENCODING_ZSTD, encode, parse, recode};
 
 use crate::common;
 use crate::files::{minimal, small};
-use crate::invalid_segments;
+use crate::{invalid_chunks, invalid_head, invalid_segments};
 
+#[derive(Clone)]
 pub struct Case {
     pub name: &'static str,
     pub shows: &'static str,
@@ -20,6 +21,7 @@ impl Case {
         match self.needs.first() {
             Some(&"transmittance") => "transmittance",
             Some(&"haze") => "in_scatter",
+            Some(&"polarisation") => "stokes",
             _ => "relative_radiance",
         }
     }
@@ -49,6 +51,8 @@ pub fn all() -> Vec<Case> {
     cases.push(twice(&good));
     cases.push(trailing(&good));
     cases.extend(compressed());
+    cases.extend(invalid_head::all());
+    cases.extend(invalid_chunks::all());
     cases.extend(invalid_segments::all());
     cases
 }

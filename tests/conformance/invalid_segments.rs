@@ -57,7 +57,24 @@ pub fn all() -> Vec<Case> {
     // In a source: the counts, then three phase functions, then their parameters and the scattering.
     let (phases, parameters) = (32, 32 + 4 * 3);
     let scattering = parameters + 4 * 3 * head.wavelengths.len();
-    let nodes = 32;
+    let level = scattering + 4 * 3 * head.constituents * head.wavelengths.len();
+    let of = |kind: Kind| {
+        directory
+            .iter()
+            .rfind(|e| e.kind == kind)
+            .expect("a chunk of the kind")
+    };
+    let length = of(Kind::Source).length;
+    let count = |at: usize| {
+        let place = of(Kind::SourceBasis).offset + at;
+        u32::from_le_bytes(good[place..place + 4].try_into().expect("four bytes")) as usize
+    };
+    let (nodes, altitudes, suns) = (32, count(0), count(4));
+    let sun_step = {
+        let first = of(Kind::SourceBasis).offset + nodes + 8 * altitudes;
+        let first = f64::from_le_bytes(good[first..first + 8].try_into().expect("eight bytes"));
+        (first + 5e-10).to_le_bytes()
+    };
     vec![
         air(
             "air-layers",
@@ -143,6 +160,131 @@ pub fn all() -> Vec<Case> {
             "a core of infinite scale",
             24,
             &f32::INFINITY.to_le_bytes(),
+        ),
+        air("air-layers-large", "1025 layers", 0, &1025u32.to_le_bytes()),
+        air(
+            "air-ground",
+            "the first edge is not the ground",
+            8,
+            &1f64.to_le_bytes(),
+        ),
+        air("air-step", "a layer of 0.9 mm", 16, &9e-4f64.to_le_bytes()),
+        air(
+            "air-step-rounded",
+            "a layer that is thinner than 1 mm by 5e-10 of it",
+            16,
+            &(1e-3 * (1f64 - 5e-10)).to_le_bytes(),
+        ),
+        air(
+            "air-edge-nan",
+            "an edge that is not a number",
+            16,
+            &f64::NAN.to_le_bytes(),
+        ),
+        air(
+            "air-density-large",
+            "a density above 1e6",
+            40,
+            &2e6f32.to_le_bytes(),
+        ),
+        air(
+            "air-density-nan",
+            "a density that is not a number",
+            40,
+            &f32::NAN.to_le_bytes(),
+        ),
+        basis(
+            "source-basis-altitudes",
+            "one altitude",
+            0,
+            &1u32.to_le_bytes(),
+        ),
+        basis(
+            "source-basis-altitudes-large",
+            "257 altitudes",
+            0,
+            &257u32.to_le_bytes(),
+        ),
+        basis("source-basis-suns", "one sun", 4, &1u32.to_le_bytes()),
+        basis("source-rank-zero", "a rank of 0", 16, &0u32.to_le_bytes()),
+        basis(
+            "source-moments",
+            "33 components of the moments",
+            24,
+            &33u32.to_le_bytes(),
+        ),
+        basis(
+            "source-altitude-step",
+            "altitudes 0.9 mm apart",
+            nodes + 8,
+            &9e-4f64.to_le_bytes(),
+        ),
+        basis(
+            "source-altitude-negative",
+            "an altitude below the ground",
+            nodes,
+            &(-1f64).to_le_bytes(),
+        ),
+        basis(
+            "source-sun-step",
+            "suns closer than 1e-9",
+            nodes + 8 * altitudes + 8,
+            &sun_step,
+        ),
+        basis(
+            "source-basis-nan",
+            "NaN in a factor",
+            nodes + 8 * (altitudes + suns),
+            &f32::NAN.to_le_bytes(),
+        ),
+        source("source-species-none", "no species", 0, &0u32.to_le_bytes()),
+        source(
+            "source-species-large",
+            "17 species",
+            0,
+            &17u32.to_le_bytes(),
+        ),
+        source(
+            "source-ranks",
+            "a rank unlike that of the basis",
+            8,
+            &1u32.to_le_bytes(),
+        ),
+        source(
+            "source-phase-unknown",
+            "a species with phase function 3",
+            phases,
+            &3u32.to_le_bytes(),
+        ),
+        source(
+            "source-asymmetry",
+            "an asymmetry of 1",
+            parameters + 4 * head.wavelengths.len(),
+            &1f32.to_le_bytes(),
+        ),
+        source(
+            "source-parameter-nan",
+            "a parameter that is not a number",
+            parameters,
+            &f32::NAN.to_le_bytes(),
+        ),
+        source(
+            "source-scattering-large",
+            "scattering above 1e6",
+            scattering,
+            &2e6f32.to_le_bytes(),
+        ),
+        source(
+            "source-level-infinite",
+            "an infinite level",
+            level,
+            &f32::INFINITY.to_le_bytes(),
+        ),
+        source(
+            "source-core-nan",
+            "NaN in the core",
+            length - 2,
+            &0x7e00u16.to_le_bytes(),
         ),
         case(
             "source-suns",

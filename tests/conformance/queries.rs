@@ -22,10 +22,18 @@ const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
+/// The same of files that show nothing new about evaluation.
+const BRIEF: usize = 2;
+
 /// All queries of a file.
 pub fn of(case: &Case) -> Vec<Value> {
-    let mut all: Vec<Query> = (0..SPREAD).map(|i| spread(&case.bytes, i)).collect();
-    all.extend(special(&case.bytes));
+    let spread_queries = if case.brief { BRIEF } else { SPREAD };
+    let mut all: Vec<Query> = (0..spread_queries)
+        .map(|i| spread(&case.bytes, i))
+        .collect();
+    if !case.brief {
+        all.extend(special(&case.bytes));
+    }
     if let Some(&("transmittance" | "haze")) = case.needs.first() {
         all.retain(|query| query.direction != [0.0; 3]);
         let asked = all.iter().enumerate();
@@ -35,8 +43,13 @@ pub fn of(case: &Case) -> Vec<Value> {
         queries.extend(segment_refusals(case, &all[0]));
         return queries;
     }
+    if case.name == "minimal" {
+        all.extend(lengths(&case.bytes));
+    }
     let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
-    queries.extend(refusals(&case.bytes));
+    if !case.brief {
+        queries.extend(refusals(&case.bytes));
+    }
     queries
 }
 
@@ -129,6 +142,17 @@ fn special(file: &[u8]) -> Vec<Query> {
         at(high * (1.0 + 1e-12), noon + 1e-12, [0.2, 0.1, 0.3]),
         at(low, 0.5, [0.0; 3]),
     ]
+}
+
+/// Directions of all lengths that readers take.
+fn lengths(file: &[u8]) -> Vec<Query> {
+    let queries = [1e-30, 1e-20, 1e20, 1e30].into_iter().enumerate();
+    let scaled = queries.map(|(i, length)| {
+        let query = spread(file, i);
+        let direction = query.direction.map(|v| f64::from((v * length) as f32));
+        Query { direction, ..query }
+    });
+    scaled.collect()
 }
 
 /// What is asked about one direction: everything, each with its tolerances.
@@ -325,14 +349,38 @@ fn refusals(file: &[u8]) -> Vec<Value> {
         change(&mut query);
         with_error(value("relative_radiance", &query, 500.0), "range")
     };
-    vec![
+    let mut refusals = vec![
         ask(&|q| q.altitude = ranges.altitude[1] + 1.0),
         ask(&|q| q.visibility = ranges.visibility[0] * 0.9),
         ask(&|q| q.albedo = -0.1),
         ask(&|q| q.albedo = 1.1),
         ask(&|q| q.solar_elevation = ranges.elevation[0] - 0.01),
         ask(&|q| q.solar_elevation = ranges.elevation[1] + 0.01),
-    ]
+    ];
+    if has_sky(file, &good()) {
+        let beyond = value("radiance_at", &good(), rounded_up(file));
+        refusals.push(with_error(beyond, "range"));
+    }
+    refusals
+}
+
+/// Whether the chunks that the query needs are there.
+fn has_sky(file: &[u8], query: &Query) -> bool {
+    let model = Model::from_bytes(file).expect("a valid model");
+    let conditions = Conditions {
+        altitude: query.altitude,
+        visibility: query.visibility,
+        albedo: query.albedo,
+        solar_elevation: query.solar_elevation,
+        solar_azimuth: query.solar_azimuth,
+    };
+    model.sky(&conditions).is_ok()
+}
+
+/// A wavelength beyond the last by no more than rounding.
+fn rounded_up(file: &[u8]) -> f64 {
+    let head = parse(file).expect("a valid file").head;
+    head.wavelengths[head.wavelengths.len() - 1] * (1.0 + 1e-12)
 }
 
 fn value(quantity: &str, query: &Query, wavelength: f64) -> Value {

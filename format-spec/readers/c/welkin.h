@@ -761,15 +761,29 @@ static size_t welkin__blocks_length(const unsigned char *p, size_t left)
     return length;
 }
 
+/* Where the content size of a zstd frame is: behind a window of at most 128 MiB and a Dictionary_ID that is 0 (RFC 8878, 3.1.1.1); 0 if
+ * the frame is none or breaks this. */
+static size_t welkin__content_size_at(const unsigned char *p, size_t length)
+{
+    static const unsigned char magic[4] = {0x28, 0xB5, 0x2F, 0xFD}, widths[4] = {0, 1, 2, 4};
+    size_t at, i;
+    if (length < 10) return 0; /* the longest start, and the header of a block is yet to come */
+    if (memcmp(p, magic, sizeof magic) != 0 || (p[4] & 0x08u) != 0) return 0;
+    at = p[4] >> 5 & 1 ? 5 : 6;
+    if (at == 6 && p[5] > (27 - 10) << 3) return 0;
+    for (i = 0; i < widths[p[4] & 3u]; i++)
+        if (p[at + i] != 0) return 0;
+    return at + widths[p[4] & 3u];
+}
+
 /* Whether the bytes are exactly one zstd frame without dictionary that declares this content size (RFC 8878, 3.1.1). */
 static int welkin__is_frame(const unsigned char *p, size_t length, uint64_t raw)
 {
-    static const unsigned char magic[4] = {0x28, 0xB5, 0x2F, 0xFD}, sizes[4] = {0, 2, 4, 8};
-    size_t start, width, blocks;
+    static const unsigned char sizes[4] = {0, 2, 4, 8};
+    size_t start = welkin__content_size_at(p, length), width, blocks;
     uint64_t declared = 0;
-    if (length < 6 || memcmp(p, magic, sizeof magic) != 0 || (p[4] & 0x0Bu) != 0) return 0;
-    start = p[4] >> 5 & 1 ? 5 : 6;
-    width = p[4] >> 6 == 0 && start == 5 ? 1 : sizes[p[4] >> 6];
+    if (start == 0) return 0;
+    width = p[4] >> 6 == 0 && p[4] >> 5 & 1 ? 1 : sizes[p[4] >> 6];
     if (width == 0 || length - start < width) return 0;
     if (width == 1) declared = p[start];
     if (width == 2) declared = welkin__u16(p + start) + 256u;
@@ -957,6 +971,12 @@ static int welkin__into_range(double *value, double low, double high)
 static int welkin__into_axis(const unsigned char *axis, uint32_t n, double *value)
 {
     return welkin__into_range(value, welkin__f64(axis), welkin__f64(axis + 8 * (size_t)(n - 1)));
+}
+
+/* Without room for rounding, which wavelengths do not get. */
+static int welkin__is_on_axis(const unsigned char *axis, uint32_t n, double value)
+{
+    return welkin__within(value, welkin__f64(axis), welkin__f64(axis + 8 * (size_t)(n - 1)));
 }
 
 /* ---- splines ---- */
@@ -1637,7 +1657,7 @@ WELKIN_API void welkin_xyz(const welkin_file *f, const float *radiance, double x
 static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavelength, welkin__stencil *cubic, welkin__stencil *linear)
 {
     const unsigned char *axis = f->bytes + f->wavelength_at;
-    if (!welkin__into_axis(axis, f->wavelengths, &wavelength)) return WELKIN_ERROR_RANGE;
+    if (!welkin__is_on_axis(axis, f->wavelengths, wavelength)) return WELKIN_ERROR_RANGE;
     *cubic = welkin__cubic(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
     *linear = welkin__linear(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
     return WELKIN_OK;
@@ -1689,7 +1709,7 @@ WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavele
     welkin__spline at;
     double u, t;
     uint32_t i;
-    if (!welkin__into_axis(f->bytes + f->wavelength_at, f->wavelengths, &wavelength)) return WELKIN_ERROR_RANGE;
+    if (!welkin__is_on_axis(f->bytes + f->wavelength_at, f->wavelengths, wavelength)) return WELKIN_ERROR_RANGE;
     u = (wavelength - welkin__f64(p)) / welkin__f64(p + 8);
     at = welkin__free_spline(u, f->solar_samples - 1); /* for its clamped interval */
     i = at.row[0];
@@ -1706,7 +1726,7 @@ static int welkin__edges_are_good(const welkin_file *f, const unsigned char *edg
     if (welkin__f64(edges) != 0 || welkin__f64(edges + 8 * (size_t)layers) != f->top_altitude) return 0;
     for (i = 0; i < layers; i++) {
         double step = welkin__f64(edges + 8 * (size_t)(i + 1)) - welkin__f64(edges + 8 * (size_t)i);
-        if (!(step >= 0.001 * (1 - 1e-6) && step <= 1e9)) return 0; /* rounding may take a little of a millimetre */
+        if (!(step >= 0.001 && step <= 1e9)) return 0;
     }
     return 1;
 }
@@ -1728,7 +1748,7 @@ static welkin_error welkin__read_air(welkin_air *air, const welkin__entry *entry
     if (error) return error;
     if (entry->raw < 8) return WELKIN_ERROR_VALUE;
     air->layers = welkin__u32(p);
-    if (air->layers < 1 || air->layers > 1024 || welkin__u32(p + 4) != 0) return WELKIN_ERROR_VALUE;
+    if (air->layers < 1 || air->layers > 1024) return WELKIN_ERROR_VALUE;
     densities = (2 * (size_t)air->layers + 1) * f->constituents;
     if (entry->raw != 8 + 8 * ((uint64_t)air->layers + 1) + 4 * densities) return WELKIN_ERROR_VALUE;
     air->edges = p + 8;

@@ -69,6 +69,8 @@ def decode_source_basis(payload, entry, head):
     require(2 <= altitudes <= 256, "altitudes outside 2 to 256")
     require(2 <= suns <= 256, "suns outside 2 to 256")
     require(degree <= 24 and orders <= degree, "degree above 24 or orders above degree")
+    nodes = altitudes * head.counts["nw"] * ranks[2]
+    require(nodes <= 1 << 18, "too many altitudes, wavelengths and moments")
     moments = TENSOR + len(_harmonics(degree, orders))
     altitude = payload.take("<f8", altitudes)
     sun = payload.take("<f8", suns)
@@ -77,6 +79,7 @@ def decode_source_basis(payload, entry, head):
         for rows, rank in zip((altitudes, suns, moments, 2 * head.counts["nw"]), ranks)
     ]
     payload.end()
+    require_within(altitude, 0.0, 1e9, "altitude of the source")
     require(np.all(np.diff(altitude) >= 1e-3), "altitudes of the source increase by less than 1 mm")
     require_increasing(np.cbrt(altitude), "cube root of altitude")
     require_within(sun, -1.0, 1.0, "sun")

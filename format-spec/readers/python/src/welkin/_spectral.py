@@ -14,16 +14,15 @@ class Wavelengths:
         self._irradiance = head.solar_irradiance
         self._grid = head.solar_start + head.solar_step * np.arange(len(head.solar_irradiance))
 
-    def clamp(self, wavelength):
-        """Wavelengths as an array (W,), excess by rounding removed. Raises RangeError."""
+    def checked(self, wavelength):
+        """Wavelengths as an array (W,). Raises RangeError, also for an excess by rounding."""
         wavelength = np.atleast_1d(np.asarray(wavelength, dtype=np.float64))
         if wavelength.ndim != 1:
             raise RangeError("wavelength must be a number or one-dimensional")
         low, high = self.nodes[0], self.nodes[-1]
-        slack = 1e-9
-        if not np.all((wavelength >= low * (1 - slack)) & (wavelength <= high * (1 + slack))):
+        if not np.all((wavelength >= low) & (wavelength <= high)):
             raise RangeError(f"wavelength outside {low:g} to {high:g} nm")
-        return np.clip(wavelength, low, high)
+        return wavelength
 
     def irradiance(self, wavelength):
         """Solar spectral irradiance (W,), W m⁻² nm⁻¹."""

@@ -18,6 +18,8 @@ except ImportError:
 AVAILABLE = _standard is not None or _package is not None
 
 _MAGIC = bytes([0x28, 0xB5, 0x2F, 0xFD])
+_WIDEST_WINDOW = 27 - 10 << 3
+"""Window_Descriptor of 2^27 bytes, the most that decoders of streams take; smaller windows are smaller numbers."""
 
 
 def decompress(stored, raw_length):
@@ -46,11 +48,13 @@ def _check_header(stored, raw_length):
     require(stored[:4] == _MAGIC, "not a zstd frame")
     descriptor = stored[4]
     single_segment = descriptor >> 5 & 1
-    require(descriptor & 3 == 0, "a zstd frame with a dictionary")
+    require(single_segment or stored[5] <= _WIDEST_WINDOW, "a zstd frame needs more than 128 MiB")
+    dictionary = 6 - single_segment
+    start = dictionary + (0, 1, 2, 4)[descriptor & 3]
+    require(not any(stored[dictionary:start]), "a zstd frame with a dictionary")
     flag = descriptor >> 6
     length = (single_segment, 2, 4, 8)[flag]
     require(length > 0, "a zstd frame without its content size")
-    start = 6 - single_segment
     require(len(stored) >= start + length, "a zstd frame is too short")
     size = int.from_bytes(stored[start : start + length], "little") + (256 if flag == 1 else 0)
     require(size == raw_length, "a zstd frame declares another length than raw_length")

@@ -100,7 +100,7 @@ class Model:
 
     def solar_irradiance(self, wavelength):
         """Solar spectral irradiance at wavelengths in nm, W m⁻² nm⁻¹: (K,)."""
-        return self._wavelengths.irradiance(self._wavelengths.clamp(wavelength))
+        return self._wavelengths.irradiance(self._wavelengths.checked(wavelength))
 
     def sky(self, *, solar_elevation, visibility, albedo, altitude, solar_azimuth=0.0):
         """The sky of one scene.

@@ -83,7 +83,7 @@ class Sky:
 
     def relative_radiance_at(self, directions, wavelength):
         """Relative radiance, sr⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K)."""
-        wavelength = self._wavelengths.clamp(wavelength)
+        wavelength = self._wavelengths.checked(wavelength)
 
         def evaluate(units):
             return self._wavelengths.interpolate_radiance(self._relative(units), wavelength)
@@ -93,7 +93,7 @@ class Sky:
     def radiance_at(self, directions, wavelength):
         """Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm: (…, 3) → (…, K)."""
         relative = self.relative_radiance_at(directions, wavelength)
-        return self._in_units(relative, self._wavelengths.clamp(wavelength))
+        return self._in_units(relative, self._wavelengths.checked(wavelength))
 
     def xyz(self, directions):
         """CIE 1931 X, Y, Z, cd m⁻² (Y is luminance): (…, 3) → (…, 3)."""
@@ -111,7 +111,7 @@ class Sky:
     def stokes_at(self, directions, wavelength):
         """Relative Stokes components at wavelengths in nm: (…, 3) → (…, 3, K)."""
         self._require_polarisation()
-        wavelength = self._wavelengths.clamp(wavelength)
+        wavelength = self._wavelengths.checked(wavelength)
         weights = self._wavelengths.weights(wavelength)
 
         def evaluate(units):

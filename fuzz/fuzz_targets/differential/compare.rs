@@ -1,0 +1,163 @@
+//! Which answers of two readers are the same.
+
+use crate::mutation::Changes;
+use crate::question::{Answer, PER_SCENE, Question, Ranges};
+use crate::readers::{ABSTAINS, Report};
+
+/// Two readers within the tolerance of the specification of the same value.
+const RELATIVE: f64 = 2e-4;
+/// The same in units of the zenith's radiance.
+const OF_ZENITH: f64 = 2e-7;
+/// Of Q and U in units of L.
+const OF_LIGHT: f64 = 4e-4;
+/// Beyond these, f32 has too few digits or none.
+const SANE: std::ops::Range<f64> = 1e-25..1e25;
+
+pub struct Case<'a> {
+    pub questions: &'a [Question],
+    pub ranges: Ranges,
+    pub changes: &'a Changes,
+}
+
+/// What is wrong with the report of another reader, if anything.
+pub fn disagreement(case: &Case, library: &Report, other: &Report) -> Option<String> {
+    match (library, other) {
+        (_, Err(class)) if class == ABSTAINS => None,
+        (Err(a), Err(b)) => class_at_open(case, a, b),
+        (Ok(_), Err(class)) => Some(format!("refused at open: {class}")),
+        // Readers that are asked line by line say so at each question.
+        (Err(a), Ok(answers)) => answers.iter().find_map(|answer| match answer {
+            Ok(_) => Some(format!("not refused: {a}")),
+            Err(b) if b == ABSTAINS => Some(format!("not refused: {a}")),
+            Err(b) => class_at_open(case, a, b),
+        }),
+        (Ok(a), Ok(b)) => (0..case.questions.len()).find_map(|i| {
+            let wrong = answer(case, i, a, b)?;
+            let question = &case.questions[i];
+            Some(format!(
+                "{wrong}\n  {}\n  {:?}\n  {:?}",
+                question.line(),
+                a[i],
+                b[i]
+            ))
+        }),
+    }
+}
+
+/// Where one rule is broken, the classes are the same.
+fn class_at_open(case: &Case, a: &str, b: &str) -> Option<String> {
+    let known = |class: &str| {
+        ["magic", "version", "feature", "length", "checksum", "value"].contains(&class)
+    };
+    if !known(a) || !known(b) {
+        return Some(format!("no class of an error at open: {a}, {b}"));
+    }
+    (a != b && case.changes.count == 1).then(|| format!("at open {a} and {b}"))
+}
+
+fn answer(case: &Case, i: usize, a: &[Answer], b: &[Answer]) -> Option<String> {
+    let question = &case.questions[i];
+    match (&a[i], &b[i]) {
+        (_, Err(class)) if class == ABSTAINS => None,
+        (Ok(a_values), Ok(b_values)) => {
+            let zenith = &a[i - i % PER_SCENE];
+            values(case, question, zenith, a_values, b_values)
+        }
+        (Err(a), Err(b)) => class(case, question, a, b),
+        // Numbers that overflow are refused or bounded.
+        (Ok(values), Err(class)) | (Err(class), Ok(values)) => {
+            let overflow = class == "value" && (case.changes.wild || !are_sane(values));
+            (!overflow).then(|| format!("values, and an error: {class}"))
+        }
+    }
+}
+
+fn class(case: &Case, question: &Question, a: &str, b: &str) -> Option<String> {
+    if question.is_outside(&case.ranges) && (a, b) != ("range", "range") {
+        return Some(format!("outside the range, but {a} and {b}"));
+    }
+    let checksums = [a, b].contains(&"checksum") && [a, b].contains(&"encoding");
+    let several = case.changes.count > 1 && !checksums;
+    (a != b && !several).then(|| format!("{a} and {b}"))
+}
+
+fn are_sane(values: &[f64]) -> bool {
+    values.iter().all(|v| *v == 0.0 || SANE.contains(&v.abs()))
+}
+
+fn values(
+    case: &Case,
+    question: &Question,
+    zenith: &Answer,
+    a: &[f64],
+    b: &[f64],
+) -> Option<String> {
+    if a.len() != b.len() {
+        return Some("as many values".to_owned());
+    }
+    if !a.iter().chain(b).all(|v| v.is_finite()) {
+        return Some("values that are not finite".to_owned());
+    }
+    if case.changes.wild || !are_sane(a) || !are_sane(b) {
+        return None;
+    }
+    let zenith = zenith.as_ref().map(Vec::as_slice).unwrap_or_default();
+    let floors: Vec<f64> = zenith.iter().map(|l| l * OF_ZENITH).collect();
+    let tolerances = tolerances(question, a, &floors)?;
+    let mut all = a.iter().zip(b).zip(tolerances);
+    let wrong = all.find(|((a, b), tolerance)| !((*a - *b).abs() <= *tolerance));
+    wrong.map(|((a, b), tolerance)| format!("{a} and {b}, more than {tolerance} apart"))
+}
+
+/// Tolerances of the values of the first reader; none where the logarithm of almost nothing decides.
+fn tolerances(question: &Question, a: &[f64], floors: &[f64]) -> Option<Vec<f64>> {
+    let relative = |v: &f64| RELATIVE * v.abs();
+    let lowest = floors.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = floors.iter().copied().fold(0.0, f64::max);
+    let third = a.len() / 3;
+    Some(match question.name() {
+        "relative_radiance" => a
+            .iter()
+            .zip(floors)
+            .map(|(v, floor)| relative(v).max(*floor))
+            .collect(),
+        "transmittance" => a.iter().map(|v| relative(v).max(2e-9)).collect(),
+        "stokes" => {
+            let wide = |i: usize| (OF_LIGHT * a[i % third]).max(floors[i % third]);
+            (0..a.len())
+                .map(|i| {
+                    if i < third {
+                        relative(&a[i]).max(floors[i])
+                    } else {
+                        wide(i)
+                    }
+                })
+                .collect()
+        }
+        "in_scatter" | "in_scatter_stokes" => {
+            let share = if question.cells[9] <= 100.0 {
+                0.04
+            } else {
+                0.1
+            };
+            let n = if question.name() == "in_scatter" {
+                a.len()
+            } else {
+                third
+            };
+            (0..a.len()).map(|i| share * a[i % n]).collect()
+        }
+        // Sums and logarithms of radiances.
+        "xyz" => {
+            let size = a.iter().map(|v| v.abs()).fold(0.0, f64::max);
+            vec![RELATIVE * size; a.len()]
+        }
+        _ if a[0] < 1e4 * largest => return None,
+        "stokes_at" => vec![
+            relative(&a[0]).max(lowest),
+            OF_LIGHT * a[0],
+            OF_LIGHT * a[0],
+        ],
+        _ => vec![relative(&a[0]).max(lowest)],
+    })
+}

@@ -1,0 +1,161 @@
+/* The C reader behind one function. SPDX-License-Identifier: MIT OR Apache-2.0 */
+#define WELKIN_API static
+#define WELKIN_IMPLEMENTATION
+#include "welkin.h"
+
+#include <stdlib.h>
+
+/* Of the library that the target links anyway. */
+size_t ZSTD_decompress(void *out, size_t capacity, const void *frame, size_t length);
+
+/* More than this is not worth the time. */
+#define MOST_BYTES ((size_t)1 << 26)
+
+enum { RADIANCE, RADIANCE_AT, SPECTRAL_AT, XYZ, STOKES, STOKES_AT, TRANSMITTANCE, IN_SCATTER, IN_SCATTER_STOKES };
+
+/* One question: altitude, visibility, albedo, elevation and azimuth of the sun, direction, wavelength, distance. */
+typedef struct question {
+    uint32_t quantity, dense;
+    double cells[10];
+} question;
+
+/* The values, or an error. */
+typedef struct answer {
+    int32_t error;
+    uint32_t count;
+    double values[3 * WELKIN_MAX_WAVELENGTHS];
+} answer;
+
+static size_t inflate(void *user, void *out, size_t capacity, const void *frame, size_t length)
+{
+    (void)user;
+    return ZSTD_decompress(out, capacity, frame, length);
+}
+
+static void put(answer *a, const float *values, uint32_t count)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) a->values[a->count++] = (double)values[i];
+}
+
+static void put_doubles(answer *a, const double *values, uint32_t count)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) a->values[a->count++] = values[i];
+}
+
+static void put_three(answer *a, const float *l, const float *q, const float *u, uint32_t count)
+{
+    put(a, l, count);
+    put(a, q, count);
+    put(a, u, count);
+}
+
+static welkin_error ask_segment(const welkin_file *file, const question *q, const welkin_conditions *c, float *scratch, size_t floats,
+                                answer *a)
+{
+    float light[3][WELKIN_MAX_WAVELENGTHS];
+    const double *direction = q->cells + 5;
+    welkin_air air;
+    welkin_haze haze;
+    welkin_error error;
+    if (q->quantity == TRANSMITTANCE) {
+        error = welkin_air_prepare(&air, file, c->visibility);
+        if (!error) error = welkin_transmittance(&air, c->altitude, direction, q->cells[9], light[0]);
+        if (!error) put(a, light[0], file->wavelengths);
+        return error;
+    }
+    error = welkin_haze_prepare(&haze, file, c, scratch, floats);
+    if (error) return error;
+    if (q->quantity == IN_SCATTER) {
+        error = welkin_in_scatter(&haze, c->altitude, direction, q->cells[9], light[0]);
+        if (!error) put(a, light[0], file->wavelengths);
+        return error;
+    }
+    error = welkin_in_scatter_stokes(&haze, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
+    if (!error) put_three(a, light[0], light[1], light[2], file->wavelengths);
+    return error;
+}
+
+static welkin_error ask_stokes(const welkin_sky *sky, const question *q, answer *a)
+{
+    float light[3][WELKIN_MAX_WAVELENGTHS];
+    double stokes[3];
+    welkin_error error = welkin_stokes(sky, q->cells + 5, light[0], light[1], light[2]);
+    if (error) return error;
+    if (q->quantity == STOKES) {
+        put_three(a, light[0], light[1], light[2], sky->file->wavelengths);
+        return WELKIN_OK;
+    }
+    error = welkin_stokes_at(sky->file, light[0], light[1], light[2], q->cells[8], stokes);
+    if (!error) put_doubles(a, stokes, 3);
+    return error;
+}
+
+static welkin_error ask_sky(const welkin_sky *sky, const question *q, answer *a)
+{
+    float light[WELKIN_MAX_WAVELENGTHS];
+    double xyz[3], value, irradiance = 1;
+    welkin_error error;
+    if (q->quantity == STOKES || q->quantity == STOKES_AT) return ask_stokes(sky, q, a);
+    error = welkin_radiance(sky, q->cells + 5, light);
+    if (error) return error;
+    if (q->quantity == RADIANCE) put(a, light, sky->file->wavelengths);
+    if (q->quantity == XYZ) {
+        welkin_xyz(sky->file, light, xyz);
+        put_doubles(a, xyz, 3);
+    }
+    if (q->quantity == RADIANCE || q->quantity == XYZ) return WELKIN_OK;
+    error = welkin_radiance_at(sky->file, light, q->cells[8], &value);
+    if (!error && q->quantity == SPECTRAL_AT) error = welkin_irradiance_at(sky->file, q->cells[8], &irradiance);
+    value *= irradiance;
+    if (!error) put_doubles(a, &value, 1);
+    return error;
+}
+
+static welkin_error ask(const welkin_file *file, const question *q, float *scratch, size_t floats, answer *a)
+{
+    const double *cells = q->cells;
+    unsigned flags = q->dense ? WELKIN_DENSE : 0;
+    welkin_conditions c;
+    welkin_sky sky;
+    welkin_error error;
+    c.altitude = cells[0];
+    c.visibility = cells[1];
+    c.albedo = cells[2];
+    c.solar_elevation = cells[3];
+    c.solar_azimuth = cells[4];
+    if (q->quantity >= TRANSMITTANCE) return ask_segment(file, q, &c, scratch, floats, a);
+    if (q->quantity == STOKES || q->quantity == STOKES_AT) flags |= WELKIN_POLARISED;
+    error = welkin_prepare(&sky, file, &c, flags, scratch, floats);
+    return error ? error : ask_sky(&sky, q, a);
+}
+
+static void ask_all(const welkin_file *file, const question *questions, size_t count, answer *answers)
+{
+    size_t floats = welkin_scratch_floats(file, WELKIN_POLARISED | WELKIN_DENSE), haze = welkin_haze_floats(file), i;
+    float *scratch;
+    if (floats < haze) floats = haze;
+    scratch = floats <= MOST_BYTES / sizeof *scratch ? malloc(floats * sizeof *scratch + 1) : NULL;
+    for (i = 0; i < count; i++)
+        answers[i].error = scratch ? (int32_t)ask(file, &questions[i], scratch, floats, &answers[i]) : WELKIN_ERROR_SCRATCH;
+    free(scratch);
+}
+
+/* Returns the error at open. The answers must be zero. */
+int32_t welkin_c_reader(const void *bytes, size_t length, const question *questions, size_t count, answer *answers);
+int32_t welkin_c_reader(const void *bytes, size_t length, const question *questions, size_t count, answer *answers)
+{
+    welkin_file file;
+    welkin_error error = welkin_open(&file, bytes, length);
+    size_t unpacked;
+    void *room;
+    if (error) return (int32_t)error;
+    unpacked = welkin_unpacked_length(&file);
+    if (unpacked > MOST_BYTES) return WELKIN_ERROR_SCRATCH;
+    room = unpacked ? malloc(unpacked) : NULL;
+    if (room) error = welkin_unpack(&file, inflate, NULL, room, unpacked);
+    if (!error) ask_all(&file, questions, count, answers);
+    free(room);
+    return (int32_t)error;
+}
