@@ -11,15 +11,10 @@ pub fn forged(data: &[u8]) -> Vec<u8> {
     }
     let length = bytes.len() as u64;
     bytes[16..24].copy_from_slice(&length.to_le_bytes());
-    let head = usize::try_from(u64_at(&bytes, 24))
-        .unwrap_or(0)
-        .min(bytes.len());
+    let head = usize::try_from(u64_at(&bytes, 24)).unwrap_or(0).min(bytes.len());
     let count = u32::from_le_bytes(bytes[36..40].try_into().expect("four bytes")) as usize;
     let directory = head.saturating_sub(count.saturating_mul(64));
-    for entry in (directory..head)
-        .step_by(64)
-        .filter(|e| *e >= 128 && e + 64 <= head)
-    {
+    for entry in (directory..head).step_by(64).filter(|e| *e >= 128 && e + 64 <= head) {
         let (offset, stored) = (u64_at(&bytes, entry + 8), u64_at(&bytes, entry + 16));
         let end = offset.saturating_add(stored);
         if (head as u64..=length).contains(&offset) && end <= length {
@@ -50,12 +45,8 @@ const SEGMENTS: [[[f64; 3]; 2]; 5] = [
 pub fn look_through(air: &Air) {
     let mut through = vec![0.0; air.wavelengths().len()];
     for [from, to] in SEGMENTS {
-        air.transmittance(from, to, &mut through)
-            .expect("valid points");
-        assert!(
-            through.iter().all(|t| (0.0..=1.0).contains(t)),
-            "{through:?}"
-        );
+        air.transmittance(from, to, &mut through).expect("valid points");
+        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
     }
 }
 
@@ -71,20 +62,10 @@ pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
     let mut light = vec![0.0; haze.wavelengths().len()];
     let mut through = light.clone();
     if haze.in_scatter(from, to, &mut light, &mut through).is_ok() {
-        assert!(
-            light.iter().all(|l| l.is_finite() && *l >= 0.0),
-            "{light:?}"
-        );
-        assert!(
-            through.iter().all(|t| (0.0..=1.0).contains(t)),
-            "{through:?}"
-        );
+        assert!(light.iter().all(|l| l.is_finite() && *l >= 0.0), "{light:?}");
+        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
         let (mut i, mut q, mut u) = (light.clone(), light.clone(), light.clone());
-        let spectra = StokesSpectra {
-            i: &mut i,
-            q: &mut q,
-            u: &mut u,
-        };
+        let spectra = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
         haze.in_scatter_stokes(from, to, Frame::Vertical, spectra, &mut through)
             .expect("the same points");
         let parts = i.iter().zip(&q).zip(&u);
@@ -98,10 +79,7 @@ pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
 /// Stokes vectors are finite, and no light is more than polarised.
 pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
     let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
-    if sky
-        .relative_stokes(direction, Frame::Vertical, &mut light)
-        .is_ok()
-    {
+    if sky.relative_stokes(direction, Frame::Vertical, &mut light).is_ok() {
         check_polarised(&light);
     }
 }
@@ -110,10 +88,7 @@ fn check_polarised(light: &[Stokes]) {
     for stokes in light {
         assert!(stokes.i.is_finite() && stokes.q.is_finite() && stokes.u.is_finite());
         // Subnormal numbers have few digits.
-        assert!(
-            stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40,
-            "{stokes:?}"
-        );
+        assert!(stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40, "{stokes:?}");
     }
 }
 
@@ -146,15 +121,12 @@ pub fn interrogate(model: &Model) {
         if let Ok(sky) = model.sky(&conditions) {
             let mut out = vec![0.0; sky.wavelengths().len()];
             for direction in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.01], [0.3, -0.2, -0.5]] {
-                sky.radiance(direction, &mut out)
-                    .expect("a valid direction");
+                sky.radiance(direction, &mut out).expect("a valid direction");
                 assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0));
                 let xyz = sky.xyz(direction).expect("a valid direction");
                 assert!(xyz.iter().all(|v| v.is_finite()));
                 let wavelength = within(model.wavelength_range());
-                let l = sky
-                    .radiance_at(direction, wavelength)
-                    .expect("a wavelength of the model");
+                let l = sky.radiance_at(direction, wavelength).expect("a wavelength of the model");
                 assert!(l.is_finite() && l >= 0.0);
             }
         }

@@ -80,12 +80,8 @@ impl Conditions {
     /// [`Error::OutOfRange`] for the first parameter that the model does not reach.
     pub fn checked(&self, model: &Model) -> Result<Self> {
         let mut checked = *self;
-        for (parameter, value, [min, max]) in checked.ranges(model) {
-            let slack = 1e-9 * min.abs().max(max.abs()).min(1e12);
-            if !value.is_finite() || *value < min - slack || *value > max + slack {
-                return Err(parameter.error(*value, min, max));
-            }
-            *value = value.clamp(min, max);
+        for (parameter, value, range) in checked.ranges(model) {
+            *value = parameter.checked(*value, range)?;
         }
         Ok(checked)
     }
@@ -119,6 +115,16 @@ impl Conditions {
     }
 }
 
+/// A visibility, m, within its range; a relative excess of 1e-9 is rounding and gets clamped.
+#[cfg(feature = "std")]
+pub(crate) fn checked_visibility(visibility: f64, range: [f64; 2]) -> Result<f64> {
+    let parameter = Parameter {
+        name: "visibility",
+        unit: "m",
+    };
+    parameter.checked(visibility, range)
+}
+
 /// Unit vector at an elevation and an azimuth, rad.
 pub(crate) fn direction(elevation: f64, azimuth: f64) -> [f64; 3] {
     let (sine, cosine) = elevation.sin_cos();
@@ -134,6 +140,14 @@ struct Parameter {
 
 #[cfg(feature = "std")]
 impl Parameter {
+    fn checked(&self, value: f64, [min, max]: [f64; 2]) -> Result<f64> {
+        let slack = 1e-9 * min.abs().max(max.abs()).min(1e12);
+        match value.is_finite() && value >= min - slack && value <= max + slack {
+            true => Ok(value.clamp(min, max)),
+            false => Err(self.error(value, min, max)),
+        }
+    }
+
     fn error(&self, value: f64, min: f64, max: f64) -> Error {
         Error::OutOfRange {
             parameter: self.name,

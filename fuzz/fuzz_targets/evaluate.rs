@@ -40,20 +40,9 @@ static PREPARED: OnceLock<Prepared> = OnceLock::new();
 type Scene = ([f64; 5], [f32; 3], f64, [[i32; 3]; 2]);
 
 fuzz_target!(|input: Scene| {
-    let (
-        [solar_elevation, solar_azimuth, visibility, albedo, altitude],
-        direction,
-        wavelength,
-        points,
-    ) = input;
+    let ([solar_elevation, solar_azimuth, visibility, albedo, altitude], direction, wavelength, points) = input;
     let prepared = PREPARED.get_or_init(Prepared::new);
-    let conditions = Conditions {
-        solar_elevation,
-        solar_azimuth,
-        visibility,
-        albedo,
-        altitude,
-    };
+    let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
     let conditions = conditions.clamped(&prepared.model).unwrap_or_default();
     let sky = prepared.model.sky(&conditions).expect("clamped conditions");
     if let Ok(l) = sky.radiance_at(direction, wavelength) {

@@ -7,6 +7,7 @@ pub(crate) use layers::{Amounts, Layers, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
 use crate::axis::linear;
+use crate::conditions::checked_visibility;
 use crate::error::{Error, Result};
 use crate::format::{Head, visibility_node};
 use crate::geometry::Planet;
@@ -84,16 +85,7 @@ impl Model {
     /// [`Error::OutOfRange`] for the visibility; [`Error::MissingChunk`] if the file has no transmittance;
     /// [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if that is damaged.
     pub fn air(&self, visibility: f64) -> Result<Air> {
-        let [min, max] = self.visibility_range();
-        if !(min..=max).contains(&visibility) {
-            return Err(Error::OutOfRange {
-                parameter: "visibility",
-                value: visibility,
-                min,
-                max,
-                unit: "m",
-            });
-        }
+        let visibility = checked_visibility(visibility, self.visibility_range())?;
         let head = self.head();
         Ok(Air {
             layers: Layers::new(&self.density_chunk()?, head.planet, head.constituents),

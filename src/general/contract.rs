@@ -99,8 +99,10 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
     let heights = Rows::new(heights, chunk.stride, alpha);
     let suns = Rows::new(chunk.elevation, chunk.stride, elevation);
     let scales = chunk.scale[..chunk.stride].as_chunks::<WIDTH>().0;
+    let scales = &scales[..chunk.rank.div_ceil(WIDTH)];
     for (b, (sum, scale)) in sum.iter_mut().zip(scales).enumerate() {
-        let value = heights.sum(instructions, b) * (read(scale) * weight);
+        let scale = read(scale, chunk.rank - b * WIDTH);
+        let value = heights.sum(instructions, b) * (scale * weight);
         *sum = *sum + value * suns.sum(instructions, b);
     }
 }
@@ -199,11 +201,12 @@ fn add_columns<const N: usize, I: Instructions>(
     sums
 }
 
+/// The first `count` numbers; the others are padding, which may be anything.
 #[inline(always)]
-fn read(numbers: &[F32; WIDTH]) -> Lanes<WIDTH> {
+fn read(numbers: &[F32; WIDTH], count: usize) -> Lanes<WIDTH> {
     let mut lanes = Lanes::splat(0.0);
     for i in 0..WIDTH {
-        lanes.0[i] = numbers[i].get();
+        lanes.0[i] = if i < count { numbers[i].get() } else { 0.0 };
     }
     lanes
 }

@@ -71,7 +71,8 @@ impl Place {
         let (sine, cosine) = conditions.solar_azimuth.sin_cos();
         let (sun_z, sun_r) = conditions.solar_elevation.sin_cos();
         let [across, along] = [(x * sine - y * cosine).abs(), x * cosine + y * sine];
-        let phi = (across as f32).atan2(along as f32);
+        // Plus zero: at the zenith the sum can be -0, of which the arc tangent is half a turn.
+        let phi = (across as f32).atan2(along as f32 + 0.0);
         let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
         let sun = axis.coordinate_between(model.suns, conditions.solar_elevation);

@@ -36,6 +36,12 @@ pub fn of(case: &Case) -> Vec<Value> {
     }
     if let Some(&("transmittance" | "haze")) = case.needs.first() {
         all.retain(|query| query.direction != [0.0; 3]);
+        // Rounding beyond the last visibility is no error.
+        let visibility = ranges(&case.bytes).visibility[1] * (1.0 + 1e-12);
+        all.push(Query {
+            visibility,
+            ..spread(&case.bytes, 0)
+        });
         let asked = all.iter().enumerate();
         let mut queries: Vec<Value> = asked
             .flat_map(|(i, query)| segment(case, query, i))
@@ -45,6 +51,7 @@ pub fn of(case: &Case) -> Vec<Value> {
     }
     if case.name == "minimal" {
         all.extend(lengths(&case.bytes));
+        all.extend(zeniths(&case.bytes));
     }
     let mut queries: Vec<Value> = all.iter().flat_map(|query| asked(case, query)).collect();
     if !case.brief {
@@ -144,6 +151,17 @@ fn special(file: &[u8]) -> Vec<Query> {
     ]
 }
 
+/// The zenith under suns of every quadrant.
+fn zeniths(file: &[u8]) -> Vec<Query> {
+    let azimuths = [-2.5, -1.0, 1.0, 2.5].into_iter();
+    let query = |solar_azimuth| Query {
+        solar_azimuth,
+        direction: [0.0, 0.0, 1.0],
+        ..spread(file, 0)
+    };
+    azimuths.map(query).collect()
+}
+
 /// Directions of all lengths that readers take.
 fn lengths(file: &[u8]) -> Vec<Query> {
     let queries = [1e-30, 1e-20, 1e20, 1e30].into_iter().enumerate();
@@ -234,7 +252,8 @@ fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
 fn through(case: &Case, query: &Query, i: usize) -> Value {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
-    let expected = Oracle::new(&case.raw).transmittance(query, distance);
+    let within = clamped(query, &ranges(&case.bytes));
+    let expected = Oracle::new(&case.raw).transmittance(&within, distance);
     let absolute = vec![1e-9; expected.len()];
     let asked = over("transmittance", query, distance);
     with_values(asked, &expected, &absolute)
@@ -408,6 +427,20 @@ fn with_values(mut query: Value, expected: &[f64], absolute: &[f64]) -> Value {
     query["expected"] = json!(expected.iter().map(long).collect::<Vec<_>>());
     query["absolute"] = json!(absolute.iter().map(short).collect::<Vec<_>>());
     query
+}
+
+/// The conditions and the direction of a query.
+pub fn scene(query: &Value) -> (Conditions, [f32; 3]) {
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let conditions = Conditions {
+        altitude: number(&query["altitude"]),
+        visibility: number(&query["visibility"]),
+        albedo: number(&query["albedo"]),
+        solar_elevation: number(&query["solar_elevation"]),
+        solar_azimuth: number(&query["solar_azimuth"]),
+    };
+    let direction = [0, 1, 2].map(|i| number(&query["direction"][i]) as f32);
+    (conditions, direction)
 }
 
 /// A query as readers get it.

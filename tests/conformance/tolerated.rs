@@ -1,6 +1,6 @@
 //! Files that readers must accept and verifiers refuse: nothing that evaluation depends on is wrong.
 
-use welkin::format::{Kind, encode, parse};
+use welkin::format::{Kind, ceil16, encode, parse};
 
 use crate::common;
 use crate::files::{Case, small};
@@ -82,6 +82,15 @@ pub fn all() -> Vec<(Case, &'static str)> {
             &radiance,
         );
     }
+    let padded = padded_everywhere(&radiance);
+    add(
+        "padding-all",
+        "no padding of factors is zero",
+        "value",
+        &["polarisation"],
+        padded,
+        &radiance,
+    );
     let nan = f32::NAN.to_le_bytes();
     let unused = segments(&radiance, Kind::Polarisation, 0, &nan);
     add(
@@ -135,6 +144,47 @@ pub fn all() -> Vec<(Case, &'static str)> {
 fn polarised() -> Vec<u8> {
     let head = small(&[0.0], &[50e3]);
     encode(&head, &common::polarised_chunks(&head, 0.02)).expect("a valid model")
+}
+
+/// Ones in all columns and rows beyond the rank and the channels.
+fn padded_everywhere(file: &[u8]) -> Vec<u8> {
+    let contents = parse(file).expect("a valid file");
+    let shape = contents.head.shape();
+    let mut bytes = file.to_vec();
+    for entry in &contents.directory {
+        let (rank, width) = (entry.rank, ceil16(entry.rank));
+        let payload = &mut bytes[entry.offset..entry.offset + entry.length];
+        let channels = match entry.kind {
+            Kind::RadianceBasis => shape.channels,
+            Kind::PolarisationBasis => shape.polarisation_channels(),
+            Kind::Radiance | Kind::Polarisation => {
+                let (scale, rest) = payload.split_at_mut(4 * width);
+                for weight in scale[4 * rank..].chunks_exact_mut(4) {
+                    weight.copy_from_slice(&1f32.to_le_bytes());
+                }
+                let rows = shape.up + shape.down + shape.elevation;
+                pad(&mut rest[..2 * width * rows], width, |_| rank);
+                continue;
+            }
+            _ => continue,
+        };
+        let (phi, channel) = payload.split_at_mut(2 * width * shape.phi);
+        pad(phi, width, |_| rank);
+        pad(channel, ceil16(channels), |row| {
+            if row < rank { channels } else { 0 }
+        });
+    }
+    common::seal(&mut bytes, file);
+    bytes
+}
+
+/// Ones in the columns of a matrix of halves from the one that is told for each row.
+fn pad(matrix: &mut [u8], width: usize, first: impl Fn(usize) -> usize) {
+    for (i, row) in matrix.chunks_exact_mut(2 * width).enumerate() {
+        for half in row[2 * first(i)..].chunks_exact_mut(2) {
+            half.copy_from_slice(&0x3c00u16.to_le_bytes());
+        }
+    }
 }
 
 fn hazy() -> Vec<u8> {

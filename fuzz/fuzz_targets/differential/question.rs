@@ -67,6 +67,10 @@ impl Question {
         self.quantity >= FIRST_SEGMENT
     }
 
+    pub fn has_wavelength(&self) -> bool {
+        self.name().ends_with("_at")
+    }
+
     pub fn line(&self) -> String {
         let cells = self.cells.iter().map(|cell| format!("{cell:?}"));
         let cells: Vec<String> = cells.collect();
