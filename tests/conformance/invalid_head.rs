@@ -36,8 +36,8 @@ fn scalars() -> Vec<Case> {
         header("exponent-small", "an up exponent below 1", 80, 0.99),
         header("exponent-down", "a down exponent of 9", 88, 9.0),
         header("exponent-down-small", "a down exponent below 1", 88, 0.5),
-        header("elevation-min", "elevation_min below -pi/2", 96, -1.5708),
-        header("elevation-max", "elevation_max above pi/2", 104, 1.5708),
+        header("elevation-min", "elevation_min below -pi/2", 96, -1.58),
+        header("elevation-max", "elevation_max above pi/2", 104, 1.58),
         header(
             "elevation-equal",
             "elevation_max is elevation_min",

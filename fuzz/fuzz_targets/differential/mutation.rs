@@ -288,6 +288,7 @@ fn unknown(bytes: &mut Bytes, chunks: &mut Vec<Chunk>) -> Option<String> {
 /// Numbers of a payload: absurd ones, or others of the same table.
 fn payload(bytes: &mut Bytes, chunks: &mut [Chunk], changes: &mut Changes) -> Option<String> {
     let chunk = any(bytes, chunks)?;
+    let of_halves = [3, 7].contains(&u32::from_le_bytes(chunk.entry[..4].try_into().ok()?));
     let table = &mut chunk.payload;
     // Counts stand in front, where they are.
     let near = match bytes.below(3) {
@@ -300,7 +301,12 @@ fn payload(bytes: &mut Bytes, chunks: &mut [Chunk], changes: &mut Changes) -> Op
         1 => put(table, bytes.u32(), &bytes.one_of(&HALVES).to_le_bytes()),
         2 => put(table, bytes.u32(), &bytes.one_of(&SINGLES).to_le_bytes()),
         3 => put(table, bytes.u32(), &bytes.one_of(&DOUBLES).to_le_bytes()),
-        n => return neighbour(bytes, table, if n == 4 { 2 } else { 4 }),
+        4 => {
+            // Half of a larger number is another number altogether.
+            changes.wild |= !of_halves;
+            return neighbour(bytes, table, 2);
+        }
+        _ => return neighbour(bytes, table, 4),
     };
     changes.wild = true;
     told
