@@ -12,7 +12,6 @@ mod query;
 mod rules;
 #[cfg(feature = "std")]
 mod stokes;
-mod rules;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
