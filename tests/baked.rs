@@ -69,7 +69,9 @@ proptest! {
     fn errors_are_as_promised(conditions in conditions(), seed in 0.0..1.0f64) {
         let sky = MODEL.sky(&conditions).unwrap();
         let (baked, colour) = (bake(&sky), sky.bake_colour(BakedSky::TOLERANCE).unwrap());
-        prop_assert!(baked.bake_error().p95 <= BakedSky::TOLERANCE);
+        for promised in [baked.bake_error(), colour.bake_error()] {
+            prop_assert!(promised.p95 <= BakedSky::TOLERANCE);
+        }
         let (mut spectral, mut colours) = (Vec::new(), Vec::new());
         for i in 0..4000 {
             let (z, azimuth) = (1.0 - 2.0 * (f64::from(i) * 0.754_877_67 + seed).fract(), f64::from(i) * 3.88);
@@ -175,6 +177,65 @@ proptest! {
             }
         }
     }
+}
+
+/// Largest errors at many directions that are dense at the horizon and beside the sun, against what was measured at few: near the
+/// ground and high up, without the skies in which no table holds the fit (below zero at dusk).
+#[test]
+fn largest_errors_are_honest() {
+    let mut places = random::Sequence::<4>::new();
+    let (mut tails, mut peaks) = (Vec::new(), Vec::new());
+    for i in 0..200 {
+        let mut conditions = random::conditions(&MODEL, places.next());
+        conditions.altitude *= if i % 2 == 0 { 0.2 } else { 1.0 };
+        let sky = MODEL.sky(&conditions).unwrap();
+        let Ok(baked) = sky.bake(BakedSky::TOLERANCE) else {
+            continue;
+        };
+        let dip = (6_378e3 / (6_378e3 + conditions.altitude)).acos();
+        let (mut errors, mut total, mut largest) = (Vec::new(), 0.0, 0.0f64);
+        for k in 0..6000 {
+            let u = (f64::from(k) * 0.754_877_67).fract() * 2.0 - 1.0;
+            let v = (f64::from(k) * 0.569_840_29).fract();
+            // Angles from the horizon go with the cube, azimuths from the sun with the square.
+            let elevation = (u * u * u * TAU / 4.0 - dip).clamp(-TAU / 4.0, TAU / 4.0);
+            // Single precision does not tell the sides of the horizon apart any nearer.
+            if (u * u * u).abs() < 1e-6 {
+                continue;
+            }
+            let part = u * u * v * elevation.cos();
+            let direction = unit(elevation, 0.5 * TAU * v * v);
+            for (got, expected) in radiance(&baked, direction)
+                .into_iter()
+                .zip(truth(&sky, direction))
+            {
+                errors.push((error(got, expected), part));
+                total += part;
+                largest = largest.max(error(got, expected));
+            }
+        }
+        errors.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut above = 0.001 * total;
+        let tail = errors.iter().find(|(_, part)| {
+            above -= part;
+            above < 0.0
+        });
+        let promised = baked.bake_error();
+        if promised.p999 <= BakedSky::TAIL * BakedSky::TOLERANCE {
+            tails.push(tail.unwrap().0 / (BakedSky::TAIL * BakedSky::TOLERANCE));
+        }
+        if promised.max <= BakedSky::PEAK * BakedSky::TOLERANCE {
+            peaks.push(largest / promised.max);
+        }
+    }
+    let kept = tails.len();
+    let [tail, peak] =
+        [&tails, &peaks].map(|v| [0.5, 0.95, 1.0].map(|share| percentile(v.clone(), share)));
+    println!(
+        "{kept} of 200 skies: 99.9th percentile over its bound {tail:.3?}, largest error over the stated one {peak:.2?} (median, p95, max)"
+    );
+    assert!(kept >= 190 && tail[1] <= 1.0 && tail[2] <= 1.2, "{tail:?}");
+    assert!(peak[0] <= 2.0 && peak[1] <= 5.0, "{peak:?}");
 }
 
 #[test]
@@ -362,5 +423,5 @@ fn few_skies_are_refused() {
     });
     let refused = refused.count();
     println!("{refused} of {COUNT} skies are refused at the default tolerance");
-    assert!(refused <= 4);
+    assert!(refused <= 1);
 }

@@ -47,7 +47,7 @@ impl Sky {
     /// # Errors
     /// As [`Sky::bake`].
     pub fn bake_colour(&self, tolerance: f64) -> Result<BakedColour> {
-        let baked = Baked::new(self, &Xyz(self), tolerance, 0)?;
+        let baked = Baked::new(self, &Xyz(self), tolerance)?;
         Ok(BakedColour { baked })
     }
 }

@@ -3,15 +3,17 @@
 //! Both are smooth wherever the radiance is: at the neutral points, in the aureole and, as the azimuth is an axis of its
 //! own, at the poles. U over the sine of the azimuth is even in it, as Q is.
 
-use super::frame::{Frame, prepared};
-use super::lattice::{Lattice, Nodes};
-use super::quality::{Errors, LARGEST, directions};
-use super::table::{Grid, Spots, Table};
-use super::turn::{Axes, Turn};
+use super::frame::Frame as View;
+use super::lattice::{Known, Lattice};
+use super::quality::{BakeError, Errors, Refinable, bake, largest};
+use super::sites::{Site, WIDTH, sites};
+use super::surface::{self, Size, Surface, joined};
+use super::table::{Grid, Spots};
+use super::turn::Turn;
 use crate::error::Result;
 use crate::geometry::{Ray, Side};
 use crate::lanes::Lanes;
-use crate::polarisation::{Frame as Against, PolarisedSky, Stokes};
+use crate::polarisation::PolarisedSky;
 use crate::simd::{Instructions, Kernel, dispatch};
 
 /// Wavelengths that are computed together: those of the usual model.
@@ -31,73 +33,155 @@ pub(super) struct Degrees {
 
 /// Most bytes that they take, for `n` wavelengths.
 pub(super) fn largest_table(n: usize) -> usize {
-    n.div_ceil(LANES) * LARGEST.cells() * size_of::<Lanes<PAIR>>()
+    n.div_ceil(LANES) * largest().cells() * size_of::<Lanes<PAIR>>()
 }
 
-/// Makes them.
-struct Bake<'a> {
+/// Q/I and U/(I sin φ) on one side of the horizon.
+struct Half<'a> {
     sky: &'a PolarisedSky,
     lattice: Lattice<'a>,
+    sites: Vec<Site>,
+    /// `[site][direction][block]`.
+    truth: Vec<Lanes<PAIR>>,
+    known: Known<PAIR>,
 }
 
-impl Kernel for Bake<'_> {
-    type Output = Degrees;
-
-    #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Degrees {
-        let grid = self.lattice.grid;
-        let mut cells = Vec::new();
-        let [up, down] = [Side::Up, Side::Down].map(|side| self.nodes(side));
-        for (up, down) in up.iter().zip(&down) {
-            self.lattice.interpolate(up, &mut cells);
-            self.lattice.interpolate(down, &mut cells);
-        }
-        Degrees {
-            grid,
-            blocks: up.len(),
-            cells,
-        }
+impl<'a> Half<'a> {
+    fn new(sky: &'a PolarisedSky, side: Side, frame: &View) -> Self {
+        let lattice = Lattice {
+            sky: sky.sky(),
+            side,
+        };
+        let mut half = Self {
+            sky,
+            lattice,
+            sites: sites(lattice, frame),
+            truth: Vec::new(),
+            known: Known::new(blocks(sky)),
+        };
+        let rows = half.sites.iter();
+        half.truth = rows
+            .flat_map(|site| half.along(&site.ray, &site.azimuths))
+            .collect();
+        half
     }
-}
 
-impl Bake<'_> {
-    /// Values at the nodes, per block.
-    #[inline(always)]
-    fn nodes(&self, side: Side) -> Vec<Nodes<PAIR>> {
-        let blocks = self.lattice.sky.wavelengths().len().div_ceil(LANES);
-        let mut nodes: Vec<Nodes<PAIR>> = vec![Vec::new(); blocks];
-        for ray in self.lattice.rays(side) {
-            nodes.iter_mut().for_each(|rows| rows.push(Vec::new()));
-            for phi in self.lattice.azimuths() {
-                for (block, value) in self.at(&ray, phi, blocks).into_iter().enumerate() {
-                    nodes[block].last_mut().expect("a row").push(value);
+    /// `[azimuth][block]`.
+    fn along(&self, ray: &Ray, azimuths: &[f64]) -> Vec<Lanes<PAIR>> {
+        let blocks = blocks(self.sky);
+        let mut out = vec![Lanes::splat(0.0); blocks * azimuths.len()];
+        let angles = self.lattice.angles(ray, azimuths);
+        let places = azimuths.iter().zip(angles).zip(out.chunks_mut(blocks));
+        for ((&phi, angle), out) in places {
+            self.sky.ratios(ray, phi, angle, |narrow, parts| {
+                let first = narrow * parts[0].len();
+                let pair = &mut out[first / LANES].0;
+                for (part, values) in parts.iter().enumerate() {
+                    pair[part * LANES + first % LANES..][..values.len()].copy_from_slice(values);
                 }
-            }
+            });
         }
-        nodes
-    }
-
-    fn at(&self, ray: &Ray, phi: f64, blocks: usize) -> Vec<Lanes<PAIR>> {
-        let mut out = vec![Lanes::splat(0.0); blocks];
-        let angle = self.lattice.angle(ray, phi);
-        self.sky.ratios(ray, phi, angle, |narrow, parts| {
-            let first = narrow * parts[0].len();
-            let pair = &mut out[first / LANES].0;
-            for (part, values) in parts.iter().enumerate() {
-                pair[part * LANES + first % LANES..][..values.len()].copy_from_slice(values);
-            }
-        });
         out
     }
 }
 
-impl Degrees {
-    pub fn new(sky: &PolarisedSky, grid: Grid) -> Self {
-        let lattice = Lattice {
-            sky: sky.sky(),
-            grid,
+impl Refinable<PAIR> for Half<'_> {
+    fn surface(&mut self, size: Size) -> Surface<PAIR> {
+        let mut known = core::mem::replace(&mut self.known, Known::new(blocks(self.sky)));
+        let half = &*self;
+        let surface = dispatch(Nodes {
+            half,
+            size,
+            known: &mut known,
+        });
+        self.known = known;
+        surface
+    }
+
+    fn errors(&self, surface: &Surface<PAIR>) -> Errors {
+        dispatch(Compare {
+            half: self,
+            surface,
+        })
+    }
+}
+
+/// Values at the nodes of a size.
+struct Nodes<'a, 'b> {
+    half: &'a Half<'b>,
+    size: Size,
+    known: &'a mut Known<PAIR>,
+}
+
+impl Kernel for Nodes<'_, '_> {
+    type Output = Surface<PAIR>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Surface<PAIR> {
+        let row = |height: f64, azimuths: &[f64]| {
+            self.half.along(&self.half.lattice.ray(height), azimuths)
         };
-        dispatch(Bake { sky, lattice })
+        self.known.surface(self.size, row)
+    }
+}
+
+struct Compare<'a, 'b> {
+    half: &'a Half<'b>,
+    surface: &'a Surface<PAIR>,
+}
+
+impl Kernel for Compare<'_, '_> {
+    type Output = Errors;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Errors {
+        let (half, size) = (self.half, self.surface.size);
+        let (blocks, wavelengths) = (blocks(half.sky), half.lattice.sky.wavelengths().len());
+        let mut errors = Errors::with_capacity(half.sites.len() * WIDTH * wavelengths);
+        for (site, truth) in half.sites.iter().zip(half.truth.chunks(WIDTH * blocks)) {
+            let spots = Spots::on_side(&site.points, size);
+            for (i, truth) in truth.chunks(blocks).enumerate() {
+                let sine = site.azimuths[i].sin() as f32;
+                for (block, truth) in truth.iter().enumerate() {
+                    let first = block * size.cells();
+                    let zero = Lanes::splat(0.0);
+                    let got = spots.bicubic(zero, first, size.stride(), &self.surface.cells, i);
+                    let off = got - *truth;
+                    let distance = |k: usize| off.0[k].hypot(off.0[LANES + k] * sine);
+                    let count = wavelengths.min((block + 1) * LANES) - block * LANES;
+                    errors.add((0..count).map(distance), site.parts[i]);
+                }
+            }
+        }
+        errors.sorted()
+    }
+}
+
+fn blocks(sky: &PolarisedSky) -> usize {
+    sky.sky().wavelengths().len().div_ceil(LANES)
+}
+
+impl Degrees {
+    /// On the grid of a sky, or on a larger one if they need that, to which the sky must be refined then.
+    pub fn new(
+        sky: &PolarisedSky,
+        grid: Grid,
+        frame: &View,
+        tolerance: f64,
+    ) -> Result<(Self, BakeError)> {
+        let half = |side| bake(&mut Half::new(sky, side, frame), side, tolerance);
+        let ((up, up_errors), (down, down_errors)) = (half(Side::Up)?, half(Side::Down)?);
+        let grid = surface::grid(up.size, down.size).or_larger(grid);
+        let degrees = Self {
+            grid,
+            blocks: blocks(sky),
+            cells: joined(up, down, grid),
+        };
+        Ok((degrees, up_errors.and(down_errors).summary()))
+    }
+
+    pub fn grid(&self) -> Grid {
+        self.grid
     }
 
     /// Q/I and U/(I sin φ) of a block in the vertical frame for direction `i`.
@@ -106,44 +190,9 @@ impl Degrees {
         spots.surface(Lanes::splat(0.0), &self.grid, &self.cells, i, block)
     }
 
-    /// Distances of (Q/I, U/I) from those of the sky that this was made from, at directions between the nodes.
-    pub fn errors<const N: usize>(
-        &self,
-        sky: &PolarisedSky,
-        table: &Table<N>,
-        frame: &Frame,
-    ) -> Result<Errors> {
-        let wavelengths = sky.sky().wavelengths().len();
-        let mut truth = vec![Stokes::default(); wavelengths];
-        let mut errors = Errors::default();
-        for (direction, part) in directions(sky.sky()) {
-            sky.relative_stokes(direction, Against::Vertical, &mut truth)?;
-            let vector = direction.map(|v| Lanes([v]));
-            let Some(vector) = prepared(vector) else {
-                continue;
-            };
-            let spots = table.spots(frame.locate(vector));
-            let turn = Axes::Vertical.turn(frame, &vector);
-            for (block, truth) in truth.chunks(LANES).enumerate() {
-                let [q, u] = turned(&self.at(&spots, 0, block), &turn, 0);
-                errors.add(truth.iter().zip(q.0.iter().zip(&u.0)).map(distance), part);
-            }
-        }
-        Ok(errors.sorted())
-    }
-
     /// Bytes on the heap.
     pub fn bytes(&self) -> usize {
         size_of_val(self.cells.as_slice())
-    }
-}
-
-/// Where there is no light, its polarisation is of no account.
-fn distance((truth, (&q, &u)): (&Stokes, (&f32, &f32))) -> f64 {
-    if truth.i > 0.0 {
-        f64::from((q - truth.q / truth.i).hypot(u - truth.u / truth.i))
-    } else {
-        0.0
     }
 }
 

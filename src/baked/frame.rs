@@ -2,6 +2,7 @@
 //! quotients.
 
 use crate::conditions::Conditions;
+use crate::geometry::Side;
 use crate::lanes::Lanes;
 use crate::sky::Sky;
 
@@ -16,6 +17,8 @@ pub(crate) struct Frame {
     azimuth: [f32; 2],
     /// z of unit vectors that meet the geometric horizon, ≤ 0.
     horizon: f32,
+    /// 1 / (1 ∓ horizon): what makes shares of distances in z from it, above and below.
+    shrink: [f32; 2],
     /// Distance from the planet's centre over [`opaque_length`].
     radius: f32,
 }
@@ -27,6 +30,8 @@ pub(crate) struct Points<const N: usize> {
     pub side: Lanes<N>,
     /// Warped distance from the geometric horizon.
     pub height: Lanes<N>,
+    /// The same, drawn together further towards the horizon: the place among the rows of a table.
+    pub row: Lanes<N>,
     /// sin(φ/2), φ the azimuth from the sun.
     pub azimuth: Lanes<N>,
     /// sin(γ/2), γ the angle from the sun.
@@ -44,6 +49,37 @@ pub(crate) fn opaque_length(conditions: &Conditions) -> f64 {
 pub(crate) fn share(height: f64) -> f64 {
     let near_pole = 1.0 - height * height;
     1.0 - near_pole * near_pole
+}
+
+/// How rows are drawn together towards the horizon, above and below it. Measured: with the same number of rows the 99.9th
+/// percentile of errors is a third of what it is with the height alone, and the 95th two thirds.
+const CROWDING: [f32; 2] = [2.2, 1.1];
+
+/// How far rows stand from the pole.
+const POLE: f32 = 0.5;
+
+/// The inverse of [`Points::row`]: the share of the way in z from the horizon to the pole.
+pub(crate) fn share_at_row(side: Side, row: f64) -> f64 {
+    // With the share as a squared sine: A sin ψ − B cos ψ = row.
+    let crowding = crowding(side);
+    let (a, b) = (1.0 + crowding * (1.0 - row), f64::from(POLE) * row);
+    let angle = (row / a.hypot(b)).min(1.0).asin() + b.atan2(a);
+    angle.sin().powi(2).min(1.0)
+}
+
+/// [`Points::row`] of a share of the way in z from the horizon to the pole.
+pub(crate) fn row_at_share(side: Side, share: f64) -> f64 {
+    let (sine, cosine) = (share.sqrt(), (1.0 - share).sqrt());
+    let crowding = crowding(side);
+    sine * (1.0 + crowding) / (crowding * sine + 1.0 + f64::from(POLE) * cosine)
+}
+
+fn crowding(side: Side) -> f64 {
+    let [up, down] = CROWDING;
+    f64::from(match side {
+        Side::Up => up,
+        Side::Down => down,
+    })
 }
 
 /// Scales vectors by powers of two, if need be, so that their squares neither over- nor underflow; `None` if one is
@@ -92,11 +128,13 @@ impl Frame {
     pub fn new(sky: &Sky) -> Self {
         let conditions = sky.conditions();
         let centre = sky.planet().radius + conditions.altitude;
+        let horizon = -sky.dip().sin() as f32;
         let mut frame = Self {
+            shrink: [1.0 / (1.0 - horizon), 1.0 / (1.0 + horizon)],
             sun: [0.0; 3],
             level: conditions.solar_elevation.cos() as f32,
             azimuth: [0.0; 2],
-            horizon: -sky.dip().sin() as f32,
+            horizon,
             radius: (centre / opaque_length(conditions)) as f32,
         };
         frame.turn(conditions);
@@ -140,38 +178,44 @@ impl Frame {
         let length = (horizontal_square + z * z).sqrt();
         let unit = [x / length, y / length, z / length];
         let side = unit[2] - self.horizon;
+        let (height, row) = self.height(unit[2], side);
         Points {
             side,
-            height: self.height(unit[2], side),
+            height,
+            row,
             azimuth: self.half_azimuth(x, y, horizontal_square),
             sun: self.half_angle(unit),
             opacity: self.opacity(unit[2], side),
         }
     }
 
-    /// With t the share of the way in z from the horizon to the pole: √(1 − √(1 − t)). Near the horizon it goes with
-    /// the root of the angle, near the pole with the angle. Cancellation costs 3e-4 at most.
+    /// With t the share of the way in z from the horizon to the pole: √(1 − √(1 − t)), and the place among the rows,
+    /// √t over a mixture of √t, √(1 − t) and 1. Near the horizon both go with the root of the angle, near the pole with the angle.
+    /// In the place nothing cancels; in the height it costs 3e-4 at most.
     #[inline(always)]
-    fn height<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> Lanes<N> {
+    fn height<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> (Lanes<N>, Lanes<N>) {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
-        let sign = side.at_least(0.0, one, -one);
-        let above = Lanes::splat(1.0 / (1.0 - self.horizon));
-        let below = Lanes::splat(1.0 / (1.0 + self.horizon));
+        let [above, below] = self.shrink.map(Lanes::splat);
         let shrink = side.at_least(0.0, above, below);
-        let rest = ((one - sign * z) * shrink).max(zero).min(one);
-        (one - rest.sqrt()).sqrt()
+        let [up, down] = CROWDING.map(Lanes::splat);
+        let crowding = side.at_least(0.0, up, down);
+        let sine = (side.abs() * shrink).min(one).sqrt();
+        let sign = side.at_least(0.0, one, -one);
+        let cosine = ((one - sign * z) * shrink).max(zero).min(one).sqrt();
+        let row = (crowding * sine + sine) / (crowding * sine + (cosine * POLE + 1.0));
+        ((one - cosine).sqrt(), row)
     }
 
     /// d/(d + opaque length), d the way to the ground: z² − z_h² is taken apart, as its terms cancel at the horizon.
     #[inline(always)]
     fn opacity<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> Lanes<N> {
-        let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
+        let zero = Lanes::splat(0.0);
         let product = (z + self.horizon) * (z - self.horizon);
         let root = product.max(zero).sqrt();
-        let length = self.radius * self.horizon * self.horizon;
-        let length = Lanes::splat(length) / (root + z.abs()).max(Lanes::splat(1e-20));
+        let divisor = (root + z.abs()).max(Lanes::splat(1e-20));
+        let length = Lanes::splat(self.radius * self.horizon * self.horizon);
         // Arithmetic instead of a choice between results keeps branches away.
-        (length + side.at_least(0.0, one, zero)) / (length + one)
+        (length + side.at_least(0.0, divisor, zero)) / (length + divisor)
     }
 
     /// 0 where the direction is vertical: the vertical plane is that of the sun there.

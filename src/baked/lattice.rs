@@ -1,46 +1,31 @@
 //! Where the nodes of baked tables stand, and coefficients from values there.
 
-use super::frame::share;
+use super::frame::share_at_row;
 use super::spline::{Start, coefficients};
-use super::table::Grid;
+use super::surface::{Size, Surface};
 use crate::conditions::direction;
 use crate::geometry::{Ray, Side};
 use crate::lanes::Lanes;
 use crate::phase::SunAngle;
 use crate::sky::Sky;
 
-/// Values at the nodes of one side, `[row][column]`.
+/// Values at the nodes, `[row][column]`.
 pub(super) type Nodes<const N: usize> = Vec<Vec<Lanes<N>>>;
 
-/// The nodes of a grid over a sky.
+/// One side of the horizon of a sky.
 #[derive(Clone, Copy)]
 pub(super) struct Lattice<'a> {
     pub sky: &'a Sky,
-    pub grid: Grid,
+    pub side: Side,
 }
 
 impl Lattice<'_> {
-    /// Angles from the horizon at the rows of a side, from there to the pole.
-    pub fn rays(&self, side: Side) -> impl Iterator<Item = Ray> {
-        let intervals = match side {
-            Side::Up => self.grid.up,
-            Side::Down => self.grid.down,
-        };
-        (0..=intervals).map(move |i| self.ray(side, f64::from(i) / f64::from(intervals)))
+    /// Whether there is anything on this side: below an observer on the ground there is not.
+    pub fn is_empty(&self) -> bool {
+        self.side == Side::Down && self.ray(1.0).length <= 0.0
     }
 
-    /// Azimuths from the sun at the columns, 0..=π: the inverse of the azimuth in [`super::frame`].
-    pub fn azimuths(&self) -> impl Iterator<Item = f64> {
-        let intervals = self.grid.azimuth;
-        (0..=intervals).map(move |i| 2.0 * (f64::from(i) / f64::from(intervals)).asin())
-    }
-
-    /// The angle from the sun at a node.
-    pub fn angle(&self, ray: &Ray, phi: f64) -> SunAngle {
-        self.angles(ray, &[phi])[0]
-    }
-
-    /// The angles from the sun at the nodes of a row.
+    /// The angles from the sun at azimuths on a ray.
     pub fn angles(&self, ray: &Ray, azimuths: &[f64]) -> Vec<SunAngle> {
         let (r, z) = self.sky.cylinder(ray);
         let [x, _, height] = direction(self.sky.conditions().solar_elevation, 0.0);
@@ -53,34 +38,116 @@ impl Lattice<'_> {
         azimuths.iter().map(versine).collect()
     }
 
-    /// The inverse of the height in [`super::frame`].
-    fn ray(&self, side: Side, height: f64) -> Ray {
+    /// The ray at a height 0..=1 as in [`super::frame::Points::row`].
+    pub fn ray(&self, row: f64) -> Ray {
         let dip = self.sky.dip();
-        let (horizon, sign) = match side {
+        let (horizon, sign) = match self.side {
             Side::Up => (-dip.sin(), 1.0),
             Side::Down => (dip.sin(), -1.0),
         };
-        let sine = (horizon + share(height) * (1.0 - horizon)).clamp(-1.0, 1.0);
+        let share = share_at_row(self.side, row);
+        let sine = (horizon + share * (1.0 - horizon)).clamp(-1.0, 1.0);
         let angle = sine.asin() + sign * dip;
         let altitude = self.sky.conditions().altitude;
-        self.sky.planet().ray_beside_horizon(altitude, side, angle)
+        self.sky
+            .planet()
+            .ray_beside_horizon(altitude, self.side, angle)
+    }
+}
+
+/// Values at the nodes of one size after the other, `[block][row][column]`; those of the last size are not asked for again.
+pub(super) struct Known<const N: usize> {
+    size: Size,
+    blocks: Vec<Nodes<N>>,
+}
+
+impl<const N: usize> Known<N> {
+    pub fn new(blocks: usize) -> Self {
+        Self {
+            size: Size {
+                rows: 1,
+                columns: 1,
+            },
+            blocks: vec![vec![Vec::new(); 2]; blocks],
+        }
     }
 
-    /// Appends the coefficients of one side.
+    /// The surface through the values. `row` gives values in the row at a height, at azimuths and for all blocks:
+    /// `[azimuth][block]`.
     #[inline(always)]
-    pub fn interpolate<const N: usize>(&self, nodes: &Nodes<N>, cells: &mut Vec<Lanes<N>>) {
-        let across: Nodes<N> = nodes
-            .iter()
-            .map(|row| coefficients(row, Start::Mirrored))
-            .collect();
-        let first = cells.len();
-        let (rows, columns) = (nodes.len() + 2, self.grid.columns());
-        cells.resize(first + rows * columns, Lanes::splat(0.0));
-        for column in 0..columns {
-            let values: Vec<_> = across.iter().map(|row| row[column]).collect();
-            for (row, c) in coefficients(&values, Start::Free).into_iter().enumerate() {
-                cells[first + row * columns + column] = c;
+    pub fn surface(
+        &mut self,
+        size: Size,
+        mut row: impl FnMut(f64, &[f64]) -> Vec<Lanes<N>>,
+    ) -> Surface<N> {
+        let blocks = self.blocks.len();
+        let mut nodes: Vec<Nodes<N>> = vec![Vec::new(); blocks];
+        for i in 0..=size.rows {
+            let columns: Vec<u32> = (0..=size.columns).collect();
+            let missing = |&&j: &&u32| self.place(size, i, j).is_none();
+            let azimuths: Vec<f64> = columns
+                .iter()
+                .filter(missing)
+                .map(|&j| azimuth(size, j))
+                .collect();
+            let values = match azimuths.is_empty() {
+                true => Vec::new(),
+                false => row(f64::from(i) / f64::from(size.rows), &azimuths),
+            };
+            let mut fresh = values.chunks(blocks);
+            nodes.iter_mut().for_each(|rows| rows.push(Vec::new()));
+            for j in columns {
+                let known = self.place(size, i, j);
+                let new = if known.is_none() { fresh.next() } else { None };
+                for (block, rows) in nodes.iter_mut().enumerate() {
+                    let value = match (known, new) {
+                        (Some((i, j)), _) => self.blocks[block][i][j],
+                        (None, new) => new.expect("a value for each azimuth")[block],
+                    };
+                    rows[i as usize].push(value);
+                }
             }
+        }
+        let mut cells = Vec::with_capacity(blocks * size.cells());
+        nodes
+            .iter()
+            .for_each(|nodes| interpolate(nodes, &mut cells));
+        *self = Self {
+            size,
+            blocks: nodes,
+        };
+        Surface { size, cells }
+    }
+
+    /// Where the value of a node of a larger size stands.
+    fn place(&self, size: Size, i: u32, j: u32) -> Option<(usize, usize)> {
+        let (down, across) = (size.rows / self.size.rows, size.columns / self.size.columns);
+        let (row, column) = ((i / down) as usize, (j / across) as usize);
+        let there = i % down == 0 && j % across == 0;
+        let known = self.blocks[0][row].get(column).is_some();
+        (there && known).then_some((row, column))
+    }
+}
+
+/// The azimuth from the sun, 0..=π, of a column: the inverse of the azimuth in [`super::frame`].
+fn azimuth(size: Size, column: u32) -> f64 {
+    2.0 * (f64::from(column) / f64::from(size.columns)).asin()
+}
+
+/// Appends the coefficients of a block.
+#[inline(always)]
+fn interpolate<const N: usize>(nodes: &Nodes<N>, cells: &mut Vec<Lanes<N>>) {
+    let across: Nodes<N> = nodes
+        .iter()
+        .map(|row| coefficients(row, Start::Mirrored))
+        .collect();
+    let first = cells.len();
+    let (rows, columns) = (nodes.len() + 2, across[0].len());
+    cells.resize(first + rows * columns, Lanes::splat(0.0));
+    for column in 0..columns {
+        let values: Vec<_> = across.iter().map(|row| row[column]).collect();
+        for (row, c) in coefficients(&values, Start::Free).into_iter().enumerate() {
+            cells[first + row * columns + column] = c;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
-//! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables
-//! and `quality` chooses their size; `degrees` and `turn` add polarisation; `spectral`, `colour`, `polarised` and the two of `hero`
+//! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables, a `surface` for
+//! each side of the horizon, and `quality` chooses their size by comparing at `sites`; `degrees` and `turn` add polarisation; `spectral`, `colour`, `polarised` and the two of `hero`
 //! are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
@@ -17,8 +17,10 @@ mod lattice;
 mod polarised;
 mod quality;
 mod sampler;
+mod sites;
 mod spectral;
 mod spline;
+mod surface;
 mod table;
 mod turn;
 
@@ -76,11 +78,10 @@ pub(crate) fn check_tolerance(tolerance: f64) -> Result<()> {
 }
 
 impl<const N: usize> Baked<N> {
-    /// With the grid at `least` or a larger one.
-    fn new<C: Channels<N>>(sky: &Sky, channels: &C, tolerance: f64, least: usize) -> Result<Self> {
+    fn new(sky: &Sky, channels: &impl Channels<N>, tolerance: f64) -> Result<Self> {
         check_tolerance(tolerance)?;
         let frame = Frame::new(sky);
-        let (table, error) = quality::bake(sky, channels, &frame, tolerance, least)?;
+        let (table, error) = bake::table(sky, channels, &frame, tolerance)?;
         Ok(Self {
             conditions: *sky.conditions(),
             frame,

@@ -2,13 +2,13 @@
 
 use core::ops::Range;
 
+use super::BakeError;
 use super::batch::{Directions, Each, One, Sink};
 use super::degrees::{self, Degrees, turned};
 use super::spectral::{BakedSky, LANES, write};
 use super::table::{Spots, Table};
 use super::turn::Axes;
-use super::{BakeError, quality};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::lanes::Lanes;
 use crate::polarisation::{Frame, PolarisedSky, StokesSpectra};
 use crate::simd::dispatch;
@@ -31,25 +31,15 @@ impl PolarisedSky {
     /// # Errors
     /// As [`Sky::bake`](crate::Sky::bake).
     pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
-        let mut least = 0;
-        loop {
-            let sky = self.sky().bake_at_least(tolerance, least)?;
-            let table = &sky.baked.table;
-            let degrees = Degrees::new(self, table.grid);
-            let errors = degrees.errors(self, table, sky.frame())?;
-            let strain = errors.strain(tolerance, table.grid);
-            if strain <= 1.0 {
-                return Ok(BakedPolarisedSky {
-                    sky,
-                    degrees,
-                    error: errors.summary(),
-                });
-            }
-            least = quality::beyond(table.grid).ok_or(Error::Tolerance {
-                expected: tolerance,
-                got: strain * tolerance,
-            })?;
-        }
+        let mut sky = self.sky().bake(tolerance)?;
+        let grid = sky.baked.table.grid;
+        let (degrees, error) = Degrees::new(self, grid, sky.frame(), tolerance)?;
+        sky.baked.table.refine(degrees.grid());
+        Ok(BakedPolarisedSky {
+            sky,
+            degrees,
+            error,
+        })
     }
 }
 
@@ -62,7 +52,7 @@ impl BakedPolarisedSky {
     /// As [`Sky::set_solar_azimuth`](crate::Sky::set_solar_azimuth).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the azimuth is not finite.
+    /// [`crate::Error::OutOfRange`] if the azimuth is not finite.
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
         self.sky.set_solar_azimuth(azimuth)
     }
@@ -81,8 +71,8 @@ impl BakedPolarisedSky {
     /// Stokes vectors at each of [`BakedSky::wavelengths`], as [`PolarisedSky::stokes`].
     ///
     /// # Errors
-    /// [`Error::Direction`] for a direction or an axis that is zero or not finite;
-    /// [`Error::Length`] unless the outputs have one element per wavelength.
+    /// [`crate::Error::Direction`] for a direction or an axis that is zero or not finite;
+    /// [`crate::Error::Length`] unless the outputs have one element per wavelength.
     #[inline]
     pub fn stokes(&self, direction: [f32; 3], frame: Frame, out: StokesSpectra) -> Result<()> {
         let sink = self.sink(frame, out, 1)?;
@@ -97,7 +87,7 @@ impl BakedPolarisedSky {
     /// [`BakedPolarisedSky::stokes`] for many directions.
     ///
     /// # Errors
-    /// As [`BakedPolarisedSky::stokes`]; [`Error::Length`] also for components of different lengths.
+    /// As [`BakedPolarisedSky::stokes`]; [`crate::Error::Length`] also for components of different lengths.
     /// What precedes a bad direction may or may not be written.
     pub fn stokes_batch(
         &self,

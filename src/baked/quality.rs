@@ -1,62 +1,83 @@
 //! How many nodes a baked sky needs: measured at directions between its nodes.
 
-use super::bake::{Bake, Channels};
-use super::frame::Frame;
-use super::lattice::Lattice;
-use super::table::{Grid, Table};
+use super::surface::{Size, Surface, grid};
+use super::table::{ENVELOPE, Grid};
 use crate::error::{Error, Result};
-use crate::lanes::Lanes;
-use crate::simd::dispatch;
-use crate::sky::Sky;
+use crate::geometry::Side;
 
-/// What baking adds to the error of a sky: relative differences of all channels at directions that are not
-/// nodes, each counted by the part of the sphere that it stands for, nothing excluded.
+/// What baking adds to the error of a sky: relative differences of all channels at some 500 directions that are not
+/// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on the ground.
+/// They are dense where errors are large: at the horizon, and beside the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeError {
     /// Median.
     pub median: f64,
-    /// 95th percentile: the one that is bounded.
+    /// 95th percentile: at most the tolerance.
     pub p95: f64,
     /// 99th percentile.
     pub p99: f64,
-    /// Largest.
+    /// 99.9th percentile: at most [`BakedSky::TAIL`](crate::BakedSky::TAIL) times the tolerance, unless the largest table misses that.
+    pub p999: f64,
+    /// Largest of the compared directions: at most [`BakedSky::PEAK`](crate::BakedSky::PEAK) times the tolerance, unless the largest table
+    /// misses that. Between them it can be a few times as large.
     pub max: f64,
 }
 
-/// Errors of the compared directions, with the parts of the sphere that these stand for.
-#[derive(Default)]
-pub(super) struct Errors(Vec<(f64, f64)>);
+/// Errors of the compared directions, with the parts of the sphere that these stand for. As bits: those of the error, which order
+/// like it, before those of the part, so that sorting takes integers.
+#[derive(Clone, Default)]
+pub(super) struct Errors(Vec<u64>);
 
 impl Errors {
-    pub fn add(&mut self, errors: impl Iterator<Item = f64>, part: f64) {
-        self.0.extend(errors.map(|error| (error, part)));
+    /// For so many of them.
+    pub fn with_capacity(count: usize) -> Self {
+        Self(Vec::with_capacity(count))
+    }
+
+    /// Not less than 0.
+    #[inline(always)]
+    pub fn add(&mut self, errors: impl Iterator<Item = f32>, part: f32) {
+        let part = u64::from(part.to_bits());
+        self.0
+            .extend(errors.map(|error| u64::from(error.abs().to_bits()) << 32 | part));
     }
 
     /// From small to large.
     pub fn sorted(mut self) -> Self {
-        self.0.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
+        self.0.sort_unstable();
+        self
+    }
+
+    /// Of two sides of the horizon.
+    pub fn and(mut self, other: Self) -> Self {
+        self.0.extend(other.0);
+        // Finds the two runs and merges them.
+        self.0.sort();
         self
     }
 
     fn quantile(&self, q: f64) -> f64 {
-        let mut above = (1.0 - q) * self.0.iter().map(|(_, part)| part).sum::<f64>();
+        let mut above = (1.0 - q) * self.0.iter().map(|&bits| part(bits)).sum::<f64>();
         let mut largest = self.0.iter().rev();
         largest
-            .find(|(_, part)| {
-                above -= part;
+            .find(|&&bits| {
+                above -= part(bits);
                 above < 0.0
             })
-            .map_or(0.0, |&(error, _)| error)
+            .map_or(0.0, |&bits| error(bits))
     }
 
     /// What they take of the tolerance. Where the largest errors stand steeply above the rest, the 95th percentile of
-    /// other directions may be among them: so the 97th may not be much larger, unless there is no larger grid.
-    pub fn strain(&self, tolerance: f64, grid: Grid) -> f64 {
-        let steep = match beyond(grid) {
-            Some(_) => self.quantile(0.97) / STEEP,
-            None => 0.0,
-        };
-        self.quantile(0.95).max(steep) / tolerance
+    /// other directions may be among them: so the 97th may not be much larger.
+    fn strain(&self, tolerance: f64) -> f64 {
+        let steep = self.quantile(0.97) / STEEP;
+        let tail = self.quantile(0.999) / TAIL;
+        let peak = self.largest() / PEAK;
+        self.quantile(0.95).max(steep).max(tail).max(peak) / tolerance
+    }
+
+    fn largest(&self) -> f64 {
+        self.0.last().map_or(0.0, |&bits| error(bits))
     }
 
     pub fn summary(&self) -> BakeError {
@@ -64,156 +85,129 @@ impl Errors {
             median: self.quantile(0.5),
             p95: self.quantile(0.95),
             p99: self.quantile(0.99),
-            max: self.quantile(1.0),
+            p999: self.quantile(0.999),
+            max: self.largest(),
         }
     }
 }
 
-/// From small to large, with the 95th percentile of the error that four in five skies keep.
-const GRIDS: [(f64, Grid); 8] = [
-    (1e-2, grid(12, 8, 8, 24)),
-    (3e-3, grid(16, 12, 12, 32)),
-    (1.9e-3, grid(20, 14, 12, 32)),
-    (1.5e-3, grid(24, 16, 16, 32)),
-    (1.2e-3, grid(32, 24, 20, 32)),
-    (8e-4, grid(40, 32, 24, 48)),
-    (4.5e-4, grid(64, 48, 32, 64)),
+fn error(bits: u64) -> f64 {
+    f64::from(f32::from_bits((bits >> 32) as u32))
+}
+
+fn part(bits: u64) -> f64 {
+    f64::from(f32::from_bits(bits as u32))
+}
+
+/// Sizes from small to large, with the 95th percentile of the error that four in five skies keep. Each holds the splines of
+/// those before it.
+const LEVELS: [(f64, Size); 7] = [
+    (2e-2, size(12, 6)),
+    (1e-2, size(24, 6)),
+    (1.9e-3, size(24, 12)),
+    (1.2e-3, size(48, 12)),
+    (8e-4, size(48, 24)),
+    (5e-4, size(96, 24)),
     // For the stratosphere at dusk.
-    (3e-4, grid(96, 64, 48, 96)),
+    (3e-4, size(96, 48)),
 ];
 
-/// The largest grid.
-pub(super) const LARGEST: Grid = GRIDS[GRIDS.len() - 1].1;
+const fn size(rows: u32, columns: u32) -> Size {
+    Size { rows, columns }
+}
+
+/// The part of a level on one side: below the horizon two thirds of the rows do.
+fn on_side(side: Side, level: usize) -> Size {
+    let (_, Size { rows, columns }) = LEVELS[level];
+    match side {
+        Side::Up => size(rows, columns),
+        Side::Down => size(rows * 2 / 3, columns),
+    }
+}
+
+/// The largest table.
+pub(super) fn largest() -> Grid {
+    let [up, down] = [Side::Up, Side::Down].map(|side| on_side(side, LEVELS.len() - 1));
+    grid(up, down)
+}
 
 /// Most bytes that the tables of a baked sky take, for `n` channels in vectors of `width`.
 pub(super) fn largest_table(n: usize, width: usize) -> usize {
-    let grid = LARGEST;
-    n.div_ceil(width) * width * size_of::<f32>() * (grid.cells() + grid.envelope_cells())
-}
-
-const fn grid(up: u32, down: u32, azimuth: u32, sun: u32) -> Grid {
-    Grid {
-        up,
-        down,
-        azimuth,
-        sun,
-    }
+    n.div_ceil(width) * width * size_of::<f32>() * (largest().cells() + ENVELOPE)
 }
 
 /// Largest ratio of the 97th percentile to the tolerance.
 const STEEP: f64 = 1.1;
 
-/// What the 95th percentile mostly is of the tolerance where the 97th keeps that.
-const USUAL: f64 = 0.85;
+/// Largest ratio of the 99.9th percentile to the tolerance.
+pub(super) const TAIL: f64 = 4.0;
 
-/// Directions that are compared.
-const SAMPLES: u32 = 192;
+/// Largest ratio of the largest error to the tolerance. What sizes that go over into each other differ by is as small.
+pub(super) const PEAK: f64 = 20.0;
 
-/// The place of the next larger grid.
-pub(super) fn beyond(grid: Grid) -> Option<usize> {
-    let next = 1 + GRIDS.iter().position(|&(_, other)| other == grid)?;
-    (next < GRIDS.len()).then_some(next)
+/// Where a size gives way to the next: from and to which strain.
+const PASSAGE: [f64; 2] = [0.8, 0.95];
+
+/// The share of a size with this strain in what is between it and the next: smooth.
+fn share(strain: f64) -> f64 {
+    let [from, to] = PASSAGE;
+    let t = ((to - strain) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
-/// The smallest table that keeps the tolerance on the 95th percentile, and its error; with the grid at `least` or a larger one.
-pub(super) fn bake<const N: usize, C: Channels<N>>(
-    sky: &Sky,
-    channels: &C,
-    frame: &Frame,
+/// One side of something that is baked.
+pub(super) trait Refinable<const N: usize> {
+    /// Its surface through nodes; sizes grow from call to call.
+    fn surface(&mut self, size: Size) -> Surface<N>;
+    /// How far a surface is off.
+    fn errors(&self, surface: &Surface<N>) -> Errors;
+}
+
+/// The smallest surface that keeps the tolerance, and its errors. The tolerance alone says which size is the first; where that or a
+/// larger one is about to miss the tolerance it goes over into the next by and by, so that the surface is continuous in the
+/// conditions.
+pub(super) fn bake<const N: usize>(
+    part: &mut impl Refinable<N>,
+    side: Side,
     tolerance: f64,
-    least: usize,
-) -> Result<(Table<N>, BakeError)> {
-    let truth = Truth::new(sky, channels)?;
-    let last = GRIDS.len() - 1;
-    let fitting = |wanted: f64| {
-        GRIDS
-            .partition_point(|&(typical, _)| typical > wanted)
-            .min(last)
+) -> Result<(Surface<N>, Errors)> {
+    let last = LEVELS.len() - 1;
+    let mut level = LEVELS
+        .partition_point(|&(typical, _)| typical > tolerance)
+        .min(last);
+    let mut coarser = Vec::new();
+    let (mut surface, mut errors) = loop {
+        let surface = part.surface(on_side(side, level));
+        let errors = part.errors(&surface);
+        let share = share(errors.strain(tolerance));
+        if share == 1.0 || level == last {
+            break (surface, errors);
+        }
+        if share > 0.0 {
+            coarser.push((share as f32, surface));
+        }
+        level += 1;
     };
-    let mut i = fitting(USUAL * tolerance).max(least);
-    loop {
-        let (typical, grid) = GRIDS[i];
-        let table = dispatch(Bake {
-            lattice: Lattice { sky, grid },
-            channels,
-        });
-        let errors = truth.compare(&table, frame);
-        let strain = errors.strain(tolerance, grid);
-        if strain <= 1.0 {
-            return Ok((table, errors.summary()));
-        }
-        if i == last {
-            return Err(Error::Tolerance {
-                expected: tolerance,
-                got: strain * tolerance,
-            });
-        }
-        // This sky is harder than others by as much as it strains the tolerance more.
-        i = fitting(typical / strain).max(i + 1);
+    if !coarser.is_empty() {
+        let blend = |finer, (share, surface): (f32, Surface<N>)| surface.blended(share, finer);
+        surface = coarser.into_iter().rev().fold(surface, blend);
+        errors = part.errors(&surface);
     }
-}
-
-/// What the tables are compared with.
-struct Truth<const N: usize> {
-    directions: Vec<([f32; 3], f64)>,
-    /// `[direction][block]`.
-    values: Vec<Lanes<N>>,
-    blocks: usize,
-    /// Channels that exist.
-    channels: usize,
-}
-
-impl<const N: usize> Truth<N> {
-    fn new<C: Channels<N>>(sky: &Sky, channels: &C) -> Result<Self> {
-        let mut radiance = vec![0.0; sky.wavelengths().len()];
-        let directions: Vec<_> = directions(sky).collect();
-        let mut values = Vec::new();
-        for &(direction, _) in &directions {
-            sky.relative_radiance(direction, &mut radiance)?;
-            values.extend((0..channels.blocks()).map(|block| channels.project(&radiance, block)));
-        }
-        Ok(Self {
-            directions,
-            values,
-            blocks: channels.blocks(),
-            channels: channels.count(),
-        })
-    }
-
-    fn compare(&self, table: &Table<N>, frame: &Frame) -> Errors {
-        let mut errors = Errors::default();
-        for (&(direction, part), values) in
-            self.directions.iter().zip(self.values.chunks(self.blocks))
-        {
-            let spot = table.spots(frame.locate(direction.map(|v| Lanes([v]))));
-            for (block, value) in values.iter().enumerate() {
-                let got = table.value(&spot, 0, block);
-                let count = self.channels.min((block + 1) * N) - block * N;
-                errors.add((0..count).map(|i| difference(got.0[i], value.0[i])), part);
-            }
-        }
-        errors.sorted()
+    let got = errors.quantile(0.95);
+    match got <= tolerance {
+        true => Ok((surface, errors)),
+        false => Err(Error::Tolerance {
+            expected: tolerance,
+            got,
+        }),
     }
 }
 
 /// Relative to the least that tables hold where there is less.
-fn difference(got: f32, expected: f32) -> f64 {
-    let (got, expected) = (f64::from(got), f64::from(expected));
-    (got - expected).abs() / expected.abs().max(f64::from(f32::MIN_POSITIVE))
-}
-
-/// The directions that are compared, with the parts of the sphere that they stand for.
-pub(super) fn directions(sky: &Sky) -> impl Iterator<Item = ([f32; 3], f64)> + use<> {
-    let sun = sky.conditions().solar_azimuth;
-    (0..SAMPLES).map(move |i| direction(i, sun))
-}
-
-/// A point of the golden spiral, drawn together towards the horizon, where most of the errors are.
-fn direction(i: u32, sun: f64) -> ([f32; 3], f64) {
-    const GOLDEN: f64 = 2.399_963_229_728_653;
-    let v = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(SAMPLES);
-    let z = v * v.abs();
-    let (y, x) = (GOLDEN * f64::from(i) + sun).sin_cos();
-    let r = (1.0 - z * z).sqrt();
-    ([r * x, r * y, z].map(|c| c as f32), v.abs())
+#[inline(always)]
+pub(super) fn difference(got: f32, expected: f32) -> f32 {
+    if got == expected {
+        return 0.0;
+    }
+    ((got - expected) / expected.abs().max(f32::MIN_POSITIVE)).abs()
 }

@@ -3,6 +3,7 @@
 use super::batch::{Directions, Each, One, Sink, check_length};
 use super::frame::Frame;
 use super::hero::{Heroes, WavelengthAxis};
+use super::quality::{PEAK, TAIL};
 use super::table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
 use crate::conditions::Conditions;
@@ -57,20 +58,20 @@ pub(super) fn axis_bytes(head: &Head) -> usize {
 }
 
 impl Sky {
-    /// Bakes the sky into tables that add a relative error of at most `tolerance` at 95 % of the directions and
-    /// wavelengths, e.g. [`BakedSky::TOLERANCE`].
+    /// Bakes the sky into tables that add a relative error of at most `tolerance`, e.g. [`BakedSky::TOLERANCE`], at 95 % of the
+    /// directions and wavelengths above the horizon, and at 95 % below it; and of at most [`BakedSky::TAIL`] times as much at 99.9 %, and
+    /// [`BakedSky::PEAK`] times as much where it is largest of some 500 compared directions. (The largest table keeps the first and may miss the
+    /// other two: at dusk in the stratosphere.)
+    ///
+    /// What is baked is continuous in the conditions, as the sky is: sizes of tables go over into each other, and no small step of
+    /// the sun or the observer makes a picture jump.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a tolerance below 3e-4, [`Error::Tolerance`] if the largest table misses it.
     pub fn bake(&self, tolerance: f64) -> Result<BakedSky> {
-        self.bake_at_least(tolerance, 0)
-    }
-
-    /// With the grid at `least` or a larger one.
-    pub(super) fn bake_at_least(&self, tolerance: f64, least: usize) -> Result<BakedSky> {
         let wavelengths = self.wavelengths().len();
         Ok(BakedSky {
-            baked: Baked::new(self, &Spectrum { wavelengths }, tolerance, least)?,
+            baked: Baked::new(self, &Spectrum { wavelengths }, tolerance)?,
             wavelengths: self.wavelengths().to_vec(),
             irradiance: self.irradiance().map(Lanes).collect(),
             axis: WavelengthAxis::new(self),
@@ -81,6 +82,12 @@ impl Sky {
 impl BakedSky {
     /// A tolerance that is small against the error of the model itself.
     pub const TOLERANCE: f64 = 2.5e-3;
+
+    /// What the 99.9th percentile of the error that baking adds may be of the tolerance.
+    pub const TAIL: f64 = TAIL;
+
+    /// What the largest error at the compared directions may be of the tolerance.
+    pub const PEAK: f64 = PEAK;
 
     /// The conditions that the sky was prepared for.
     pub fn conditions(&self) -> &Conditions {

@@ -68,6 +68,17 @@ pub(crate) fn coefficients<const N: usize>(values: &[Lanes<N>], start: Start) ->
     c
 }
 
+/// Coefficients of the same spline with twice as many intervals.
+#[inline(always)]
+pub(crate) fn refined<const N: usize>(coefficients: &[Lanes<N>]) -> Vec<Lanes<N>> {
+    let half = |i: usize| (coefficients[i] + coefficients[i + 1]) * 0.5;
+    let node =
+        |i: usize| (coefficients[i - 1] + coefficients[i] * 6.0 + coefficients[i + 1]) * 0.125;
+    let last = coefficients.len() - 2;
+    let pairs = (1..=last).flat_map(|i| [node(i), half(i)]);
+    core::iter::once(half(0)).chain(pairs).collect()
+}
+
 /// Second difference at the first of four values in a row, exact for cubics.
 fn curvature<const N: usize>([a, b, c, d]: [Lanes<N>; 4]) -> Lanes<N> {
     a * 2.0 - b * 5.0 + c * 4.0 - d
@@ -82,6 +93,19 @@ mod tests {
         let taps = taps(Lanes([x]), Lanes([intervals]));
         let terms = coefficients[taps.first[0] as usize..].iter();
         terms.zip(taps.weight).map(|(c, w)| c.0[0] * w.0[0]).sum()
+    }
+
+    #[test]
+    fn refined_splines_are_the_same() {
+        let coarse: Vec<_> = [0.3, -1.0, 2.0, 0.7, 0.1, -0.4, 1.2]
+            .map(|c| Lanes([c]))
+            .into();
+        let fine = refined(&coarse);
+        assert_eq!(fine.len() - 3, 2 * (coarse.len() - 3));
+        for i in 0..=1000 {
+            let x = i as f32 * 1e-3;
+            assert!((value(&coarse, x) - value(&fine, x)).abs() < 2e-6, "{x}");
+        }
     }
 
     #[test]

@@ -5,15 +5,21 @@
 
 use super::frame::Points;
 use super::spline::{Taps, taps};
+use super::surface::Size;
 use crate::lanes::Lanes;
 
-/// Intervals of the axes.
+/// Intervals over the angle from the sun. More of them change nothing that matters.
+pub(super) const SUN: u32 = 32;
+
+/// Coefficients over the angle from the sun.
+pub(super) const ENVELOPE: usize = SUN as usize + 3;
+
+/// Intervals of the other axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Grid {
     pub up: u32,
     pub down: u32,
     pub azimuth: u32,
-    pub sun: u32,
 }
 
 impl Grid {
@@ -28,17 +34,20 @@ impl Grid {
         [self.up as usize + 3, self.down as usize + 3]
     }
 
+    /// The larger number of each axis.
+    pub fn or_larger(self, other: Self) -> Self {
+        Self {
+            up: self.up.max(other.up),
+            down: self.down.max(other.down),
+            azimuth: self.azimuth.max(other.azimuth),
+        }
+    }
+
     /// Cells of the two sides together.
     #[inline(always)]
     pub fn cells(&self) -> usize {
         let [up, down] = self.rows();
         (up + down) * self.columns()
-    }
-
-    /// Cells over the angle from the sun.
-    #[inline(always)]
-    pub fn envelope_cells(&self) -> usize {
-        self.sun as usize + 3
     }
 }
 
@@ -65,15 +74,10 @@ pub(crate) struct Spots<const W: usize> {
 impl<const N: usize> Table<N> {
     #[inline(always)]
     pub fn spots<const W: usize>(&self, points: Points<W>) -> Spots<W> {
-        let Grid {
-            up,
-            down,
-            azimuth,
-            sun,
-        } = self.grid;
+        let Grid { up, down, azimuth } = self.grid;
         let above = Lanes::splat(up as f32);
         let intervals = points.side.at_least(0.0, above, Lanes::splat(down as f32));
-        let rows = taps(points.height, intervals);
+        let rows = taps(points.row, intervals);
         let columns = taps(points.azimuth, Lanes::splat(azimuth as f32));
         let mut first = [0; W];
         for i in 0..W {
@@ -84,7 +88,7 @@ impl<const N: usize> Table<N> {
             first,
             rows: rows.weight,
             columns: columns.weight,
-            envelope: taps(points.sun, Lanes::splat(sun as f32)),
+            envelope: taps(points.sun, Lanes::splat(SUN as f32)),
             opacity: points.opacity,
         }
     }
@@ -98,19 +102,13 @@ impl<const N: usize> Table<N> {
     /// Logarithms of the channels of a block for direction `i`, without the opacity.
     #[inline(always)]
     pub fn logarithm<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N> {
-        let envelope = self.envelope(&spots.envelope, i, block);
+        let envelope = spots.envelope(&self.envelope, i, block);
         spots.surface(envelope, &self.grid, &self.cells, i, block)
     }
 
     #[inline(always)]
-    pub fn envelope<const W: usize>(&self, taps: &Taps<W>, i: usize, block: usize) -> Lanes<N> {
-        let first = block * self.grid.envelope_cells() + taps.first[i] as usize;
-        weighted(&self.envelope[first..], &taps.weight, i)
-    }
-
-    #[inline(always)]
     pub fn blocks(&self) -> usize {
-        self.envelope.len() / self.grid.envelope_cells()
+        self.envelope.len() / ENVELOPE
     }
 
     /// Bytes on the heap.
@@ -119,19 +117,65 @@ impl<const N: usize> Table<N> {
     }
 }
 
+/// What the envelope (`[block][sun]`) is at an angle from the sun.
+#[inline(always)]
+pub(super) fn envelope<const N: usize, const W: usize>(
+    cells: &[Lanes<N>],
+    taps: &Taps<W>,
+    i: usize,
+    block: usize,
+) -> Lanes<N> {
+    let first = block * ENVELOPE + taps.first[i] as usize;
+    weighted(&cells[first..], &taps.weight, i)
+}
+
 impl<const W: usize> Spots<W> {
+    /// For a table of one side alone, on which all the points are.
+    #[inline(always)]
+    pub fn on_side(points: &Points<W>, size: Size) -> Self {
+        let rows = taps(points.row, Lanes::splat(size.rows as f32));
+        let columns = taps(points.azimuth, Lanes::splat(size.columns as f32));
+        let stride = size.stride() as u32;
+        Self {
+            first: core::array::from_fn(|i| rows.first[i] * stride + columns.first[i]),
+            rows: rows.weight,
+            columns: columns.weight,
+            envelope: taps(points.sun, Lanes::splat(SUN as f32)),
+            opacity: points.opacity,
+        }
+    }
+
+    /// [`envelope`] for direction `i`.
+    #[inline(always)]
+    pub fn envelope<const N: usize>(&self, cells: &[Lanes<N>], i: usize, block: usize) -> Lanes<N> {
+        envelope(cells, &self.envelope, i, block)
+    }
+
     /// Adds the bicubic spline with these coefficients (`[block][up rows, then down rows][azimuth]`) for direction `i`.
     #[inline(always)]
     pub fn surface<const N: usize>(
         &self,
-        mut sum: Lanes<N>,
+        sum: Lanes<N>,
         grid: &Grid,
         cells: &[Lanes<N>],
         i: usize,
         block: usize,
     ) -> Lanes<N> {
-        let first = block * grid.cells() + self.first[i] as usize;
-        let stride = grid.columns();
+        let first = block * grid.cells();
+        self.bicubic(sum, first, grid.columns(), cells, i)
+    }
+
+    /// Adds the bicubic spline whose coefficients start at `first`, in rows of `stride`.
+    #[inline(always)]
+    pub fn bicubic<const N: usize>(
+        &self,
+        mut sum: Lanes<N>,
+        first: usize,
+        stride: usize,
+        cells: &[Lanes<N>],
+        i: usize,
+    ) -> Lanes<N> {
+        let first = first + self.first[i] as usize;
         for (k, weight) in self.rows.iter().enumerate() {
             let row = weighted(&cells[first + k * stride..], &self.columns, i);
             sum = sum + row * weight.0[i];
