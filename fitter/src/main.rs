@@ -4,7 +4,7 @@
 
 mod command;
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -40,11 +40,24 @@ enum Command {
     Validate(command::validate::Args),
 }
 
+/// Every option takes negative numbers: what they mean is for the command to say.
+fn parse() -> Cli {
+    let takes_numbers = |argument: Arg| match argument.get_action().takes_values() {
+        true => argument.allow_negative_numbers(true),
+        false => argument,
+    };
+    let command = Cli::command().mut_subcommands(|command| {
+        let command = command.mut_args(takes_numbers);
+        command.mut_subcommands(|command| command.mut_args(takes_numbers))
+    });
+    Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
+}
+
 fn main() -> ExitCode {
     #[cfg(unix)]
     // Without, the next write cleans up.
     let _ = welkin::output::abandon_on_signals();
-    let result = match Cli::parse().command {
+    let result = match parse().command {
         Command::Build(args) => command::build::run(&args),
         Command::Assess(args) => command::assess::run(&args),
         Command::Chart(args) => command::chart::run(&args),

@@ -56,6 +56,9 @@ fn bad_input_is_one_line_and_exit_code_2() {
         (&["--altitude", "200"][..], "altitude"),
         (&["--altitude", "NaN"], "altitude"),
         (&["--samples", "0"], "sample"),
+        (&["--altitude", "-0.5"], "altitude"),
+        (&["--visibility", "-40"], "visibility"),
+        (&["--surface-albedo", "-0.5"], "albedo"),
         (&["--pitch", "NaN"], "pitch"),
         (&["--pitch", "91"], "pitch"),
         (&["--field-of-view", "180"], "field of view"),
@@ -78,6 +81,7 @@ fn bad_input_is_one_line_and_exit_code_2() {
             message.starts_with("error: ") && message.contains(what),
             "{what}: {message}"
         );
+        assert!(!message.contains("unexpected argument"), "{message}");
         assert!(!folder.path().join("x.png").exists());
     }
 }

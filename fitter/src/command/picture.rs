@@ -31,10 +31,10 @@ pub struct Args {
     #[arg(long, value_enum, default_value = "depolarising")]
     aerosol: AerosolArg,
     /// Sun elevation, degrees.
-    #[arg(long, default_value_t = 30.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 30.0)]
     solar_elevation: f64,
     /// Azimuth of the sun from the middle of the picture, degrees to the left.
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.0)]
     solar_azimuth: f64,
     /// Angular radius of the sun, degrees.
     #[arg(long, default_value_t = 0.2667)]
@@ -47,7 +47,7 @@ pub struct Args {
     projection: ProjectionArg,
     /// Angle of the camera's axis above the horizontal, degrees; 90 for a fish-eye of the sky, with what is ahead at the lower edge
     /// (`--solar-azimuth 180` puts the sun at the upper one).
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.0)]
     pitch: f64,
     /// Vertical field of view in perspective, degrees.
     #[arg(long, default_value_t = 50.0)]

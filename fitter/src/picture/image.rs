@@ -2,6 +2,7 @@
 
 use super::render::Picture;
 use anyhow::{Context, Result};
+use exr::meta::attribute::Chromaticities;
 use exr::prelude::*;
 use std::io::Cursor;
 
@@ -19,6 +20,8 @@ pub fn exr(picture: &Picture, wavelengths: Option<&[f64]>) -> Result<Vec<u8>> {
         channels.push(channel(&name, plane.clone()));
     }
     let mut attributes = LayerAttributes {
+        // Of R, G and B of 1, cd m⁻².
+        white_luminance: Some(1.0),
         comments: Some("R, G, B: linear sRGB, cd m^-2 at white; S0: W m^-2 sr^-1 nm^-1".into()),
         ..LayerAttributes::default()
     };
@@ -39,6 +42,12 @@ pub fn exr(picture: &Picture, wavelengths: Option<&[f64]>) -> Result<Vec<u8>> {
     );
     let mut bytes = Cursor::new(Vec::new());
     let mut image = Image::from_layer(layer);
+    image.attributes.chromaticities = Some(Chromaticities {
+        red: Vec2(0.64, 0.33),
+        green: Vec2(0.30, 0.60),
+        blue: Vec2(0.15, 0.06),
+        white: Vec2(0.3127, 0.3290),
+    });
     if wavelengths.is_some() {
         // Two in one place would be written in an order of their own every time.
         let other = &mut image.attributes.other;
@@ -125,6 +134,8 @@ mod tests {
             .map(|c| c.name.to_string())
             .collect();
         assert_eq!(names, ["B", "G", "R", "S0.550,5nm", "luminance_error"]);
+        let primaries = image.attributes.chromaticities.unwrap();
+        assert_eq!(primaries.white, Vec2(0.3127, 0.3290));
         assert!(png(&picture(), 3.0).unwrap().starts_with(b"\x89PNG"));
     }
 

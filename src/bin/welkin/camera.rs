@@ -2,26 +2,17 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::about::About;
 use crate::failure::{Failure, Result};
 
 /// Where a perspective camera looks.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Lens {
     /// Angle of the axis above the horizontal in perspective, degrees.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
     pitch: f64,
     /// Vertical field of view in perspective, degrees.
-    #[arg(
-        long,
-        default_value_t = 40.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
+    #[arg(long, default_value_t = 40.0, value_name = "DEG")]
     field_of_view: f64,
 }
 
@@ -54,6 +45,13 @@ impl Lens {
             ahead: [cp * ca, cp * sa, sp],
             half: [half * aspect, half],
         })
+    }
+
+    /// What a picture says about it.
+    pub fn describe(&self, about: &mut About) {
+        about.text("projection", "perspective");
+        about.number("pitchDeg", self.pitch);
+        about.number("fieldOfViewDeg", self.field_of_view);
     }
 
     /// Vertical field of view, rad.

@@ -6,7 +6,7 @@ use std::path::Path;
 use welkin::format::printable;
 use welkin::output::Target;
 
-pub type Result<T> = std::result::Result<T, Failure>;
+pub type Result<T, E = Failure> = std::result::Result<T, E>;
 
 /// The one line that the user gets, or silence.
 #[derive(Debug)]

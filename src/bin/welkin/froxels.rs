@@ -4,14 +4,17 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use rayon::prelude::*;
 use welkin::Haze;
 use welkin::output;
 
 use crate::Source;
+use crate::about::{About, LUMINANCE, RADIANCE};
 use crate::camera::{Camera, Lens};
 use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
 use crate::naming::{self, Named};
+use crate::parallel::bar;
 use crate::scene::Scene;
 
 /// First bytes of a raw volume.
@@ -94,7 +97,7 @@ pub fn run(options: &Options) -> Result<()> {
     let volume = fill(options, &haze, &camera)?;
     let time = start.elapsed();
     let bytes = match format {
-        Format::Exr => layers(&volume)?,
+        Format::Exr => layers(options, &haze, &volume)?,
         Format::Raw => raw(options, &volume),
     };
     output::write(&[(&target, &bytes)])?;
@@ -129,24 +132,34 @@ fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
         false => COLOURS.map(str::to_owned).to_vec(),
     };
     let mut values = vec![0.0; width * height * depth * channels.len()];
-    let mut rows = values.chunks_exact_mut(channels.len());
-    for slice in 0..depth {
-        for i in 0..width * height {
-            let at = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
-            let direction = camera.direction([at(i % width, width), at(i / width, height)]);
-            let distance = options.depth(slice) / camera.depth(direction);
-            let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
-            let Some(row) = rows.next() else { break };
-            let (light, through) = row.split_at_mut(channels.len() / 2);
-            if options.spectral {
-                haze.in_scatter(place, point, light, through)?;
-            } else {
-                let colours = haze.linear_srgb(place, point)?;
-                light.copy_from_slice(&colours.0);
-                through.copy_from_slice(&colours.1);
-            }
+    let froxel = |slice: usize, [column, row]: [usize; 2], values: &mut [f32]| {
+        let at = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+        let direction = camera.direction([at(column, width), at(row, height)]);
+        let distance = options.depth(slice) / camera.depth(direction);
+        let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
+        let (light, through) = values.split_at_mut(channels.len() / 2);
+        if options.spectral {
+            return haze.in_scatter(place, point, light, through);
         }
-    }
+        let colours = haze.linear_srgb(place, point)?;
+        light.copy_from_slice(&colours.0);
+        through.copy_from_slice(&colours.1);
+        Ok(())
+    };
+    let bar = bar(depth * height, "froxels");
+    let rows = values.par_chunks_mut(width * channels.len()).enumerate();
+    let filled: Vec<welkin::Result<()>> = rows
+        .map(|(row, values)| {
+            let froxels = values.chunks_exact_mut(channels.len()).enumerate();
+            for (column, values) in froxels {
+                froxel(row / height, [column, row % height], values)?;
+            }
+            bar.inc(1);
+            Ok(())
+        })
+        .collect();
+    bar.finish_and_clear();
+    filled.into_iter().collect::<welkin::Result<()>>()?;
     Ok(Volume {
         size: options.size,
         channels,
@@ -155,7 +168,17 @@ fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
 }
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
-fn layers(volume: &Volume) -> Result<Vec<u8>> {
+fn layers(options: &Options, haze: &Haze, volume: &Volume) -> Result<Vec<u8>> {
+    let azimuth = options.scene.view_azimuth()?;
+    let mut about = About::scene(haze.conditions(), azimuth);
+    options.lens.describe(&mut about);
+    about.number("nearM", options.near);
+    about.number("farM", options.far);
+    let units = if options.spectral {
+        RADIANCE
+    } else {
+        LUMINANCE
+    };
     let [width, height, depth] = volume.size;
     let channels = volume.channels.len();
     let mut planes = Vec::with_capacity(channels * depth);
@@ -169,7 +192,8 @@ fn layers(volume: &Volume) -> Result<Vec<u8>> {
     exr(Planes {
         size: [width, height],
         planes,
-        attributes: Vec::new(),
+        about,
+        units,
         comment: "in-scattered light: linear sRGB, cd m^-2 (R, G, B), or W m^-2 sr^-1 nm^-1 (by wavelength); transmittance (T and the same)",
     })
 }

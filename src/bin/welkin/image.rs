@@ -2,15 +2,23 @@
 
 use std::io::Cursor;
 
+use exr::meta::attribute::Chromaticities;
 use exr::prelude::*;
+use rayon::prelude::*;
 
+use crate::about::{About, CHROMATICITIES, LUMINANCE, Value};
 use crate::failure::{Failure, Result};
+use crate::header;
+
+const SOFTWARE: &str = concat!("welkin ", env!("CARGO_PKG_VERSION"));
 
 /// A picture with named planes of single-precision values.
 pub struct Planes {
     pub size: [usize; 2],
     pub planes: Vec<(String, Vec<f32>)>,
-    pub attributes: Vec<(&'static str, &'static str)>,
+    pub about: About,
+    /// Of the planes; those in cd m⁻² are linear sRGB.
+    pub units: &'static str,
     pub comment: &'static str,
 }
 
@@ -20,41 +28,78 @@ pub fn exr(picture: Planes) -> Result<Vec<u8>> {
         .planes
         .into_iter()
         .map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values)));
+    let about = picture.about.with(&[("units", picture.units)]);
+    let is_colour = picture.units == LUMINANCE;
     let mut attributes = LayerAttributes {
         comments: Some(picture.comment.into()),
+        software_name: Some(SOFTWARE.into()),
+        altitude: about.altitude.map(|m| m as f32),
+        white_luminance: is_colour.then_some(1.0),
         ..LayerAttributes::default()
     };
-    for (name, value) in picture.attributes {
-        attributes
-            .other
-            .insert(name.into(), AttributeValue::Text(value.into()));
+    for (name, value) in about.entries {
+        attributes.other.insert(name.into(), attribute(value));
     }
     let layer = Layer::new(
         (picture.size[0], picture.size[1]),
         attributes,
-        Encoding::FAST_LOSSLESS,
+        Encoding {
+            // Blocks in the order of the picture, not in that of their completion.
+            line_order: LineOrder::Increasing,
+            ..Encoding::FAST_LOSSLESS
+        },
         AnyChannels::sort(channels.collect()),
     );
+    let mut image = Image::from_layer(layer);
+    image.attributes.chromaticities = is_colour.then(chromaticities);
     let mut bytes = Cursor::new(Vec::new());
-    let written = Image::from_layer(layer).write().to_buffered(&mut bytes);
+    let written = image.write().to_buffered(&mut bytes);
     written.map_err(|e| Failure::message(format!("cannot encode the EXR: {e}")))?;
-    Ok(bytes.into_inner())
+    let mut bytes = bytes.into_inner();
+    header::sort(&mut bytes);
+    Ok(bytes)
+}
+
+fn attribute(value: Value) -> AttributeValue {
+    match value {
+        Value::Text(text) => AttributeValue::Text(Text::from_slice_unchecked(text.as_bytes())),
+        Value::Number(value) => AttributeValue::F32(value as f32),
+        Value::Vector([x, y, z]) => AttributeValue::FloatVec3((x as f32, y as f32, z as f32)),
+    }
+}
+
+fn chromaticities() -> Chromaticities {
+    let [red, green, blue, white] = CHROMATICITIES.map(|[x, y]| Vec2(x, y));
+    Chromaticities {
+        red,
+        green,
+        blue,
+        white,
+    }
 }
 
 /// Encodes linear sRGB pixels (cd m⁻²) as PNG; `white` is the luminance of display white.
-pub fn png(size: [usize; 2], pixels: &[[f32; 3]], white: f32) -> Result<Vec<u8>> {
-    let samples: Vec<[u8; 3]> = pixels.iter().map(|&p| display(p, white)).collect();
-    png_of_display(size, &samples)
+pub fn png(size: [usize; 2], pixels: &[[f32; 3]], white: f32, about: &About) -> Result<Vec<u8>> {
+    let samples: Vec<[u8; 3]> = pixels.par_iter().map(|&p| display(p, white)).collect();
+    png_of_display(size, &samples, about)
 }
 
 /// Encodes sRGB pixels as PNG.
-pub fn png_of_display(size: [usize; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>> {
+pub fn png_of_display(size: [usize; 2], pixels: &[[u8; 3]], about: &About) -> Result<Vec<u8>> {
     let failed = |e: png::EncodingError| Failure::message(format!("cannot encode the PNG: {e}"));
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size[0] as u32, size[1] as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    let mut text = about.with(&[("Software", SOFTWARE)]);
+    if let Some(altitude) = about.altitude {
+        text.number("altitude", altitude);
+    }
+    for (name, value) in text.entries {
+        let added = encoder.add_itxt_chunk(name.to_owned(), value.to_string());
+        added.map_err(failed)?;
+    }
     let mut writer = encoder.write_header().map_err(failed)?;
     writer
         .write_image_data(pixels.as_flattened())

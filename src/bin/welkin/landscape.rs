@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 
 use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, Stokes, xyz_to_linear_srgb};
 
+use crate::about::About;
 use crate::camera::{Camera, Lens};
 use crate::difference::{Difference, Method};
 use crate::failure::{Failure, Result};
+use crate::parallel;
 use crate::terrain::{FARTHEST, Field, Terrain, altitude};
 
 /// What stands on the ground.
@@ -26,12 +28,7 @@ pub struct Options {
     terrain_height: Option<f64>,
     /// Look at the landscape through an ideal polariser that passes light along this angle from the top of the picture to the right,
     /// degrees.
-    #[arg(
-        long,
-        allow_negative_numbers = true,
-        value_name = "DEG",
-        requires = "terrain"
-    )]
+    #[arg(long, value_name = "DEG", requires = "terrain")]
     polariser: Option<f64>,
     /// How the light of the air before the terrain is computed.
     #[arg(
@@ -170,16 +167,25 @@ impl Options {
 }
 
 impl Landscape<'_> {
+    /// What the picture of a scene shows besides.
+    pub fn describe(&self, options: &Options, about: &mut About) {
+        let terrain = options.terrain.iter().map(|t| t.display().to_string());
+        about.text("terrain", terrain.collect::<String>());
+        // The camera may stand on a hill.
+        about.altitude = Some(self.place[2]);
+        options.lens.describe(about);
+        if let Some(angle) = options.polariser {
+            about.number("polariserDeg", angle);
+        }
+    }
+
     /// Linear sRGB of every pixel, cd m⁻².
     pub fn pixels(&self, [width, height]: [usize; 2]) -> Result<Vec<[f32; 3]>> {
-        let pixel = |i: usize| {
-            let place = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
-            self.pixel(
-                self.camera
-                    .direction([place(i % width, width), place(i / width, height)]),
-            )
-        };
-        (0..width * height).map(pixel).collect()
+        let place = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
+        parallel::pixels([width, height], |[column, row]| {
+            let at = [place(column, width), place(row, height)];
+            self.pixel(self.camera.direction(at))
+        })
     }
 
     fn pixel(&self, direction: [f64; 3]) -> Result<[f32; 3]> {

@@ -2,17 +2,20 @@
 
 #![forbid(unsafe_code)]
 
+mod about;
 mod camera;
 mod difference;
 mod failure;
 mod froxels;
 mod ground;
+mod header;
 mod image;
 mod info;
 mod irradiance;
 mod landscape;
 mod light;
 mod naming;
+mod parallel;
 mod picture;
 mod plan;
 mod polarised;
@@ -29,7 +32,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::{Failure, Result};
 use welkin::Model;
 use welkin::format::printable;
@@ -117,7 +120,7 @@ fn main() -> ExitCode {
     #[cfg(unix)]
     // Without, the next write cleans up.
     let _ = welkin::output::abandon_on_signals();
-    let arguments = match Arguments::try_parse() {
+    let arguments = match parse() {
         Ok(arguments) => arguments,
         Err(error) => return refuse_arguments(&error),
     };
@@ -138,6 +141,16 @@ fn main() -> ExitCode {
         Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
         Err(Failure::Message(message)) => complain(&message),
     }
+}
+
+/// Every option takes negative numbers: what they mean is for the command to say.
+fn parse() -> std::result::Result<Arguments, clap::Error> {
+    let takes_numbers = |argument: Arg| match argument.get_action().takes_values() {
+        true => argument.allow_negative_numbers(true),
+        false => argument,
+    };
+    let command = Arguments::command().mut_subcommands(|command| command.mut_args(takes_numbers));
+    Arguments::from_arg_matches(&command.try_get_matches()?)
 }
 
 fn done((): ()) -> ExitCode {

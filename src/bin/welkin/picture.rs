@@ -2,17 +2,21 @@
 
 use welkin::{PolarisedSky, Sky};
 
+use crate::about::{About, LUMINANCE, RADIANCE};
 use crate::failure::Result;
 use crate::ground::Ground;
 use crate::image::{Planes, exr, png, png_of_display};
+use crate::parallel;
 use crate::polarised::{self, Colouring};
 use crate::projection::Projection;
 
-/// Which encodings are asked for.
-#[derive(Clone, Copy)]
+/// Which encodings are asked for, and what is the same in all of them.
 pub struct Wanted {
     pub exr: bool,
     pub png: bool,
+    /// Luminance of display white, cd m⁻².
+    pub white: f32,
+    pub about: About,
 }
 
 /// An encoded picture, as far as it is wanted.
@@ -22,31 +26,53 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The sky itself, with Stokes layers if it is `polarised`; `white` is the luminance of display white.
+    /// The sky itself, with Stokes layers if it is `polarised`.
     pub fn of_sky(
         view: &View,
         sky: &Sky,
         polarised: Option<&PolarisedSky>,
         spectral: bool,
-        white: f32,
-        wanted: Wanted,
+        wanted: &Wanted,
     ) -> Result<Self> {
-        let pixels = view.rgb(sky)?;
-        let encode_exr = || exr(planes(view, sky, polarised, spectral, &pixels)?);
-        let encode_png = || png(view.size, &pixels, white);
+        // A spectral EXR alone needs none.
+        let pixels = match wanted.png || !spectral {
+            true => view.rgb(sky)?,
+            false => Vec::new(),
+        };
+        Self::encoded(
+            wanted,
+            || {
+                exr(planes(
+                    view,
+                    sky,
+                    polarised,
+                    spectral,
+                    &pixels,
+                    &wanted.about,
+                )?)
+            },
+            || png(view.size, &pixels, wanted.white, &wanted.about),
+        )
+    }
+
+    /// Both encodings at the same time.
+    fn encoded(
+        wanted: &Wanted,
+        exr: impl FnOnce() -> Result<Vec<u8>> + Send,
+        png: impl FnOnce() -> Result<Vec<u8>> + Send,
+    ) -> Result<Self> {
+        let (exr, png) = rayon::join(
+            || wanted.exr.then(exr).transpose(),
+            || wanted.png.then(png).transpose(),
+        );
         Ok(Self {
-            exr: wanted.exr.then(encode_exr).transpose()?,
-            png: wanted.png.then(encode_png).transpose()?,
+            exr: exr?,
+            png: png?,
         })
     }
 
     /// Finished pixels: linear sRGB, cd m⁻².
-    pub fn of_pixels(
-        size: [usize; 2],
-        pixels: &[[f32; 3]],
-        white: f32,
-        wanted: Wanted,
-    ) -> Result<Self> {
+    pub fn of_pixels(size: [usize; 2], pixels: &[[f32; 3]], wanted: &Wanted) -> Result<Self> {
         let channel = |c: usize| pixels.iter().map(|p| p[c]).collect();
         let encode_exr = || {
             exr(Planes {
@@ -56,14 +82,13 @@ impl Picture {
                     .zip(0..)
                     .map(|(n, c)| ((*n).to_owned(), channel(c)))
                     .collect(),
-                attributes: Vec::new(),
+                about: wanted.about.clone(),
+                units: LUMINANCE,
                 comment: "linear sRGB, cd m^-2",
             })
         };
-        let encode_png = || png(size, pixels, white);
-        Ok(Self {
-            exr: wanted.exr.then(encode_exr).transpose()?,
-            png: wanted.png.then(encode_png).transpose()?,
+        Self::encoded(wanted, encode_exr, || {
+            png(size, pixels, wanted.white, &wanted.about)
         })
     }
 
@@ -72,16 +97,20 @@ impl Picture {
         view: &View,
         sky: &PolarisedSky,
         colouring: &Colouring,
-        white: f32,
-        wanted: Wanted,
+        wanted: &Wanted,
     ) -> Result<Self> {
         let light = colouring.light(view, sky)?;
-        let encode_exr = || exr(colouring.plane(view.size, &light));
-        let encode_png = || png_of_display(view.size, &colouring.pixels(&light, white));
-        Ok(Self {
-            exr: wanted.exr.then(encode_exr).transpose()?,
-            png: wanted.png.then(encode_png).transpose()?,
-        })
+        Self::encoded(
+            wanted,
+            || exr(colouring.plane(view.size, &light, wanted.about.clone())),
+            || {
+                png_of_display(
+                    view.size,
+                    &colouring.pixels(&light, wanted.white),
+                    &wanted.about,
+                )
+            },
+        )
     }
 }
 
@@ -101,17 +130,15 @@ impl View {
         self.projection.up(self.azimuth)
     }
 
-    /// Row by row; `None` outside the fish-eye.
-    pub fn directions(&self) -> impl Iterator<Item = Option<[f32; 3]>> + '_ {
-        let [width, height] = self.size;
-        let pixels = (0..height).flat_map(move |row| (0..width).map(move |column| [column, row]));
-        pixels.map(|pixel| self.projection.direction(pixel, self.size, self.azimuth))
+    /// Of the pixel in a column and a row; `None` outside the fish-eye.
+    pub fn direction(&self, pixel: [usize; 2]) -> Option<[f32; 3]> {
+        self.projection.direction(pixel, self.size, self.azimuth)
     }
 
     /// Linear sRGB, cd m⁻²; black outside the fish-eye.
     pub fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
-        let pixel = |direction: Option<[f32; 3]>| {
-            let Some(direction) = direction else {
+        parallel::pixels(self.size, |pixel| {
+            let Some(direction) = self.direction(pixel) else {
                 return Ok([0.0; 3]);
             };
             let mut rgb = sky.linear_srgb(direction)?;
@@ -119,27 +146,23 @@ impl View {
                 ground.add_srgb(direction, &mut rgb)?;
             }
             Ok(rgb)
-        };
-        self.directions().map(pixel).collect()
+        })
     }
 
     fn spectral(&self, sky: &Sky) -> welkin::Result<Vec<Vec<f32>>> {
-        let count = self.size[0] * self.size[1];
-        let mut planes = vec![vec![0.0; count]; sky.wavelengths().len()];
-        let mut radiance = vec![0.0; planes.len()];
-        for (i, direction) in self.directions().enumerate() {
-            if let Some(direction) = direction {
-                sky.radiance(direction, &mut radiance)?;
-                if let Some(ground) = &self.ground {
-                    ground.add(direction, &mut radiance)?;
-                }
-                planes
-                    .iter_mut()
-                    .zip(&radiance)
-                    .for_each(|(p, &l)| p[i] = l);
+        let count = sky.wavelengths().len();
+        let pixel = |pixel, _: &mut (), out: &mut [f32]| {
+            let Some(direction) = self.direction(pixel) else {
+                out.fill(0.0);
+                return Ok(());
+            };
+            sky.radiance(direction, out)?;
+            match &self.ground {
+                Some(ground) => ground.add(direction, out),
+                None => Ok(()),
             }
-        }
-        Ok(planes)
+        };
+        parallel::planes(self.size, count, || (), pixel)
     }
 }
 
@@ -149,14 +172,18 @@ fn planes(
     polarised: Option<&PolarisedSky>,
     spectral: bool,
     pixels: &[[f32; 3]],
+    about: &About,
 ) -> Result<Planes> {
-    let mut attributes = Vec::new();
+    let mut about = about.clone();
     if spectral {
-        attributes.push(("spectralLayoutVersion", "1.0"));
-        attributes.push(("emissiveUnits", "W.m^-2.sr^-1.nm^-1"));
+        let spectrum = [
+            ("spectralLayoutVersion", "1.0"),
+            ("emissiveUnits", RADIANCE),
+        ];
+        about = about.with(&spectrum);
     }
     if polarised.is_some() {
-        attributes.extend(polarised::ATTRIBUTES);
+        about = about.with(&polarised::ATTRIBUTES);
     }
     let planes = match (spectral, polarised) {
         (true, Some(sky)) => polarised::spectral_layers(view, sky, channel_name)?,
@@ -174,14 +201,15 @@ fn planes(
             planes
         }
     };
-    let comment = match spectral {
-        true => "spectral radiance, W m^-2 sr^-1 nm^-1",
-        false => "linear sRGB, cd m^-2",
+    let (units, comment) = match spectral {
+        true => (RADIANCE, "spectral radiance, W m^-2 sr^-1 nm^-1"),
+        false => (LUMINANCE, "linear sRGB, cd m^-2"),
     };
     Ok(Planes {
         size: view.size,
         planes,
-        attributes,
+        about,
+        units,
         comment,
     })
 }

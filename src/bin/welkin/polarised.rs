@@ -4,7 +4,9 @@ use std::f32::consts::PI;
 
 use welkin::{Frame, PolarisedSky, Stokes, xyz_to_linear_srgb};
 
+use crate::about::About;
 use crate::image::Planes;
+use crate::parallel;
 use crate::picture::View;
 
 /// What a picture shows.
@@ -58,23 +60,35 @@ impl Colouring {
             Some(wavelength) => sky.stokes_at(direction, frame, wavelength),
             None => Ok(sky.xyz(direction, frame)?[1]),
         };
-        let directions = view.directions();
-        directions.map(|d| d.map(stokes).transpose()).collect()
+        let pixel = |pixel| view.direction(pixel).map(stokes).transpose();
+        parallel::pixels(view.size, pixel)
     }
 
     /// The quantity as a plane of numbers; angles in degrees.
-    pub fn plane(&self, size: [usize; 2], light: &[Option<Stokes>]) -> Planes {
-        let (name, comment): (_, &'static str) = match self.quantity {
-            Quantity::Aolp => ("aolp", "angle of linear polarisation, degrees"),
-            Quantity::Q => ("q", "Q/I"),
-            Quantity::U => ("u", "U/I"),
-            _ => ("dolp", "degree of linear polarisation"),
+    pub fn plane(&self, size: [usize; 2], light: &[Option<Stokes>], mut about: About) -> Planes {
+        let (name, units, comment): (_, _, &'static str) = match self.quantity {
+            Quantity::Aolp => ("aolp", "deg", "angle of linear polarisation, degrees"),
+            Quantity::Q => ("q", "1", "Q/I"),
+            Quantity::U => ("u", "1", "U/I"),
+            _ => ("dolp", "1", "degree of linear polarisation"),
         };
+        match self.wavelength {
+            Some(wavelength) => about.number("wavelengthNm", wavelength),
+            None => about.text("wavelengthNm", "luminance"),
+        }
+        about.text(
+            "polarisationAxes",
+            match self.axes {
+                Axes::Sun => "sun",
+                Axes::Vertical => "vertical",
+            },
+        );
         let number = |stokes: &Option<Stokes>| stokes.map_or(0.0, |s| self.number(&s));
         Planes {
             size,
             planes: vec![(name.to_owned(), light.iter().map(number).collect())],
-            attributes: Vec::new(),
+            about,
+            units,
             comment,
         }
     }
@@ -166,20 +180,18 @@ fn components(light: &Stokes) -> [f32; 3] {
 /// Planes `S0.R` … `S3.B` of linear sRGB.
 pub fn colour_layers(view: &View, sky: &PolarisedSky) -> welkin::Result<Vec<(String, Vec<f32>)>> {
     let frame = Frame::Axis(view.up());
-    let mut layers = vec![Vec::new(); 12];
-    for direction in view.directions() {
-        let xyz = match direction {
+    let pixel = |pixel, _: &mut (), out: &mut [f32]| {
+        let xyz = match view.direction(pixel) {
             Some(direction) => sky.xyz(direction, frame)?.map(|s| components(&s)),
             None => [[0.0; 3]; 3],
         };
-        for s in 0..4 {
+        for (s, out) in out.chunks_exact_mut(3).enumerate() {
             let of = |c: usize| if s < 3 { xyz[c][s] } else { 0.0 };
-            let rgb = xyz_to_linear_srgb([of(0), of(1), of(2)]);
-            for (c, value) in rgb.into_iter().enumerate() {
-                layers[3 * s + c].push(value);
-            }
+            out.copy_from_slice(&xyz_to_linear_srgb([of(0), of(1), of(2)]));
         }
-    }
+        Ok(())
+    };
+    let layers = parallel::planes(view.size, 12, || (), pixel)?;
     let name = |i: usize| format!("S{}.{}", i / 3, ["R", "G", "B"][i % 3]);
     Ok((0..12).map(name).zip(layers).collect())
 }
@@ -193,20 +205,21 @@ pub fn spectral_layers(
     let frame = Frame::Axis(view.up());
     let wavelengths = sky.sky().wavelengths();
     let n = wavelengths.len();
-    let mut light = vec![Stokes::default(); n];
-    let mut layers = vec![Vec::new(); 4 * n];
-    for direction in view.directions() {
+    let pixel = |pixel, light: &mut Vec<Stokes>, out: &mut [f32]| {
         light.fill(Stokes::default());
-        if let Some(direction) = direction {
-            sky.stokes(direction, frame, &mut light)?;
+        if let Some(direction) = view.direction(pixel) {
+            sky.stokes(direction, frame, light)?;
         }
         for (w, light) in light.iter().enumerate() {
             let [i, q, u] = components(light);
             for (s, value) in [i, q, u, 0.0].into_iter().enumerate() {
-                layers[s * n + w].push(value);
+                out[s * n + w] = value;
             }
         }
-    }
+        Ok(())
+    };
+    let scratch = || vec![Stokes::default(); n];
+    let layers = parallel::planes(view.size, 4 * n, scratch, pixel)?;
     let name = |i: usize| name(i / n, wavelengths[i % n]);
     Ok((0..4 * n).map(name).zip(layers).collect())
 }

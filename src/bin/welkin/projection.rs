@@ -17,6 +17,16 @@ pub enum Projection {
 }
 
 impl Projection {
+    /// As `--projection` has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Projection::Up => "up",
+            Projection::Side => "side",
+            Projection::LatLong => "lat-long",
+            Projection::Cube => "cube",
+        }
+    }
+
     /// Width and height in pixels of a picture, or of all faces of one, of the given height.
     pub fn dimensions(self, height: usize) -> [usize; 2] {
         match self {

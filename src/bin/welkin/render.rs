@@ -8,6 +8,7 @@ use welkin::output::{self, Target};
 use welkin::{Conditions, Model, PolarisedSky, Sky};
 
 use crate::Source;
+use crate::about::About;
 use crate::failure::{Failure, Result, fixed, plain};
 use crate::ground::Ground;
 use crate::landscape::{self, Landscape};
@@ -29,14 +30,9 @@ pub struct Options {
     #[command(flatten)]
     scene: Scene,
     /// Altitude of the observer above the ground, m.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "M"
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "M")]
     altitude: f64,
-    /// Move conditions that the model does not reach to its nearest.
+    /// Move conditions that the model does not reach to its nearest, and say which on standard error.
     #[arg(long)]
     clamp: bool,
     /// How the sphere of directions is laid onto the picture.
@@ -65,7 +61,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value = "radiance")]
     quantity: Quantity,
     /// Wavelength of the polarisation, nm; that of the luminance if absent.
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "NM")]
     wavelength: Option<f64>,
     /// Axes of q, u and aolp.
     #[arg(long, value_enum, default_value = "sun")]
@@ -73,7 +69,7 @@ pub struct Options {
     #[command(flatten)]
     landscape: landscape::Options,
     /// Exposure value of the PNG at ISO 100; automatic if absent.
-    #[arg(long, allow_negative_numbers = true, value_name = "EV", value_parser = exposure)]
+    #[arg(long, value_name = "EV", value_parser = exposure)]
     exposure: Option<f64>,
 }
 
@@ -98,11 +94,10 @@ fn exposure(text: &str) -> std::result::Result<f64, String> {
 
 impl Options {
     fn conditions(&self, model: &Model) -> Result<Conditions> {
-        let conditions = self.scene.conditions(self.altitude);
-        if self.clamp {
-            return Ok(conditions.clamped(model)?);
+        match self.clamp {
+            true => self.scene.clamped(self.altitude, model),
+            false => Ok(self.scene.conditions(self.altitude)),
         }
-        Ok(conditions)
     }
 
     /// Where to write, checked.
@@ -131,9 +126,14 @@ impl Options {
 }
 
 impl Outputs {
-    fn wanted(&self) -> Wanted {
+    fn wanted(&self, white: f32, about: About) -> Wanted {
         let [exr, png] = [&self.exr, &self.png].map(Option::is_some);
-        Wanted { exr, png }
+        Wanted {
+            exr,
+            png,
+            white,
+            about,
+        }
     }
 
     fn all(&self) -> impl Iterator<Item = &Target> {
@@ -172,7 +172,7 @@ impl Options {
     }
 
     /// The picture of a landscape and the number of its pixels.
-    fn scene(&self, landscape: &Landscape, white: f32, wanted: Wanted) -> Result<(Picture, usize)> {
+    fn scene(&self, landscape: &Landscape, wanted: &mut Wanted) -> Result<(Picture, usize)> {
         if self.spectral || self.stokes || self.quantity != Quantity::Radiance {
             let text = "landscapes are in colour only, without --spectral, --stokes and --quantity";
             return Err(Failure::message(text));
@@ -180,7 +180,8 @@ impl Options {
         let height = usize::from(self.size);
         let size = [(height as f64 * landscape::ASPECT) as usize, height];
         let pixels = landscape.pixels(size)?;
-        let picture = Picture::of_pixels(size, &pixels, white, wanted)?;
+        landscape.describe(&self.landscape, &mut wanted.about);
+        let picture = Picture::of_pixels(size, &pixels, wanted)?;
         Ok((picture, pixels.len()))
     }
 
@@ -189,9 +190,13 @@ impl Options {
         view: &View,
         sky: &Sky,
         polarised: Option<&PolarisedSky>,
-        white: f32,
-        wanted: Wanted,
+        wanted: &mut Wanted,
     ) -> Result<Picture> {
+        let projection = self.projection.name();
+        wanted.about.text("projection", projection);
+        if self.ground {
+            wanted.about.text("ground", "lit");
+        }
         match polarised {
             Some(polarised) if self.quantity != Quantity::Radiance => {
                 let colouring = Colouring {
@@ -199,16 +204,15 @@ impl Options {
                     axes: self.frame,
                     wavelength: self.wavelength,
                 };
-                Picture::of_polarisation(view, polarised, &colouring, white, wanted)
+                Picture::of_polarisation(view, polarised, &colouring, wanted)
             }
-            _ => Picture::of_sky(view, sky, polarised, self.spectral, white, wanted),
+            _ => Picture::of_sky(view, sky, polarised, self.spectral, wanted),
         }
     }
 }
 
 pub fn run(options: &Options) -> Result<()> {
     let outputs = options.outputs()?;
-    let wanted = outputs.wanted();
     let start = Instant::now();
     let model = options.source.open()?;
     let conditions = options.conditions(&model)?;
@@ -232,10 +236,14 @@ pub fn run(options: &Options) -> Result<()> {
         }
         None => automatic_white(&sky)?,
     };
+    let mut about = About::scene(sky.conditions(), azimuth);
+    about.text("model", options.source.name());
+    about.number("exposureValue", (white / WHITE_AT_EV_0).log2());
+    let mut wanted = outputs.wanted(white as f32, about);
     let (picture, count) = match options.landscape.prepare(&model, &conditions, azimuth)? {
-        Some(landscape) => options.scene(&landscape, white as f32, wanted)?,
+        Some(landscape) => options.scene(&landscape, &mut wanted)?,
         None => {
-            let picture = options.picture(&view, &sky, polarised.as_ref(), white as f32, wanted)?;
+            let picture = options.picture(&view, &sky, polarised.as_ref(), &mut wanted)?;
             (picture, view.size[0] * view.size[1])
         }
     };

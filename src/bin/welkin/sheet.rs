@@ -1,18 +1,23 @@
 //! `welkin contact-sheet`: skies from all over the model in one picture.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::PathBuf;
 
+use rayon::prelude::*;
 use welkin::output::{self, Target};
 use welkin::{Conditions, Model};
 
 use crate::Source;
+use crate::about::About;
 use crate::failure::Result;
 use crate::image::{display, png_of_display};
 use crate::naming::{self, Named};
+use crate::parallel::bar;
 use crate::picture::View;
 use crate::projection::Projection;
 use crate::render::automatic_white;
+use crate::scene::moved;
 
 /// Columns: solar elevations, degrees.
 const ELEVATIONS: [f64; 7] = [-4.0, -2.0, 0.0, 2.0, 8.0, 30.0, 70.0];
@@ -43,6 +48,34 @@ struct Canvas {
     pixels: Vec<[u8; 3]>,
 }
 
+/// A sky in a square of the sheet.
+struct Tile {
+    conditions: Conditions,
+    projection: Projection,
+    size: usize,
+    corner: [usize; 2],
+}
+
+impl Tile {
+    /// With its own exposure; `None` outside the fish-eye.
+    fn pixels(&self, model: &Model) -> Result<Vec<Option<[u8; 3]>>> {
+        let sky = model.sky(&self.conditions)?;
+        let view = View {
+            projection: self.projection,
+            size: [self.size; 2],
+            azimuth: 0.0,
+            ground: None,
+        };
+        let white = automatic_white(&sky)? as f32;
+        let pixel = |k: usize| {
+            let direction = view.direction([k % self.size, k / self.size]);
+            let rgb = direction.map(|d| sky.linear_srgb(d)).transpose()?;
+            Ok(rgb.map(|rgb| display(rgb, white)))
+        };
+        (0..self.size * self.size).map(pixel).collect()
+    }
+}
+
 impl Canvas {
     fn new(size: [usize; 2]) -> Self {
         Self {
@@ -51,31 +84,16 @@ impl Canvas {
         }
     }
 
-    /// Renders a sky with its own exposure into the square at `corner`.
-    fn paste(
-        &mut self,
-        model: &Model,
-        conditions: &Conditions,
-        projection: Projection,
-        size: usize,
-        corner: [usize; 2],
-    ) -> Result<()> {
-        let sky = model.sky(conditions)?;
-        let view = View {
-            projection,
-            size: [size, size],
-            azimuth: 0.0,
-            ground: None,
-        };
-        let white = automatic_white(&sky)? as f32;
-        let inside = view.directions().map(|direction| direction.is_some());
-        for (k, (pixel, inside)) in view.rgb(&sky)?.into_iter().zip(inside).enumerate() {
-            if inside {
-                let [x, y] = [corner[0] + k % size, corner[1] + k / size];
-                self.pixels[y * self.size[0] + x] = display(pixel, white);
+    fn paste(&mut self, tile: &Tile, pixels: &[Option<[u8; 3]>]) {
+        for (k, pixel) in pixels.iter().enumerate() {
+            if let Some(pixel) = pixel {
+                let [x, y] = [
+                    tile.corner[0] + k % tile.size,
+                    tile.corner[1] + k / tile.size,
+                ];
+                self.pixels[y * self.size[0] + x] = *pixel;
             }
         }
-        Ok(())
     }
 }
 
@@ -86,37 +104,82 @@ pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let size = usize::from(options.size);
     let width = ELEVATIONS.len() * size;
-    let rows = VISIBILITIES.len() * ALTITUDES.len();
+    let rows = places().count();
     let large = width / BETWEEN.len();
     let mut canvas = Canvas::new([width, rows * size + large]);
-    let mut out = target.report();
-    writeln!(out, "columns: sun at {ELEVATIONS:?} degrees; rows:")?;
-    let places = VISIBILITIES
+    let tiles = tiles(&model, size, large)?;
+    let bar = bar(tiles.len(), "skies");
+    let skies = tiles.par_iter().map(|tile| {
+        let pixels = tile.pixels(&model);
+        bar.inc(1);
+        pixels
+    });
+    // The first failure, whichever came first.
+    let skies: Vec<Result<_>> = skies.collect();
+    bar.finish_and_clear();
+    for (tile, pixels) in tiles.iter().zip(skies) {
+        canvas.paste(tile, &pixels?);
+    }
+    let png = png_of_display(canvas.size, &canvas.pixels, &About::default())?;
+    output::write(&[(&target, &png)])?;
+    describe(&mut target.report())?;
+    writeln!(target.report(), "wrote {target}")?;
+    Ok(())
+}
+
+/// All skies of the sheet, and on standard error which are not quite where they should be.
+fn tiles(model: &Model, size: usize, large: usize) -> Result<Vec<Tile>> {
+    let mut tiles = Vec::new();
+    for (row, (visibility, altitude)) in places().enumerate() {
+        for (column, elevation) in ELEVATIONS.into_iter().enumerate() {
+            tiles.push(Tile {
+                conditions: conditions(elevation, visibility, altitude),
+                projection: Projection::Side,
+                size,
+                corner: [column * size, row * size],
+            });
+        }
+    }
+    for (column, elevation) in BETWEEN.into_iter().enumerate() {
+        tiles.push(Tile {
+            conditions: conditions(elevation, BETWEEN_VISIBILITY, 0.0),
+            projection: Projection::Up,
+            size: large,
+            corner: [column * large, places().count() * size],
+        });
+    }
+    let mut lines = BTreeSet::new();
+    for tile in &mut tiles {
+        let reached = tile.conditions.clamped(model)?;
+        lines.extend(moved(&tile.conditions, &reached));
+        tile.conditions = reached;
+    }
+    for line in lines {
+        // Nobody is left to tell when standard error is closed.
+        let _ = writeln!(std::io::stderr(), "welkin: {line}");
+    }
+    Ok(tiles)
+}
+
+/// Visibilities, km, and altitudes, m, of the rows.
+fn places() -> impl Iterator<Item = (f64, f64)> {
+    VISIBILITIES
         .into_iter()
-        .flat_map(|v| ALTITUDES.map(|h| (v, h)));
-    for (row, (visibility, altitude)) in places.enumerate() {
+        .flat_map(|v| ALTITUDES.map(|h| (v, h)))
+}
+
+fn describe(out: &mut dyn Write) -> Result<()> {
+    writeln!(out, "columns: sun at {ELEVATIONS:?} degrees; rows:")?;
+    for (visibility, altitude) in places() {
         writeln!(
             out,
             "visibility {visibility} km, altitude {altitude} m, towards the sun"
         )?;
-        for (column, elevation) in ELEVATIONS.into_iter().enumerate() {
-            let conditions = conditions(elevation, visibility, altitude).clamped(&model)?;
-            let corner = [column * size, row * size];
-            canvas.paste(&model, &conditions, Projection::Side, size, corner)?;
-        }
     }
     writeln!(
         out,
         "last row: visibility {BETWEEN_VISIBILITY} km, altitude 0 m, upwards, sun at {BETWEEN:?} degrees"
     )?;
-    for (column, elevation) in BETWEEN.into_iter().enumerate() {
-        let conditions = conditions(elevation, BETWEEN_VISIBILITY, 0.0).clamped(&model)?;
-        let corner = [column * large, rows * size];
-        canvas.paste(&model, &conditions, Projection::Up, large, corner)?;
-    }
-    let png = png_of_display(canvas.size, &canvas.pixels)?;
-    output::write(&[(&target, &png)])?;
-    writeln!(out, "wrote {target}")?;
     Ok(())
 }
 

@@ -29,7 +29,7 @@ pub struct SourceArgs {
     )]
     pub wavelengths: Vec<f64>,
     /// Sun elevation where the rows have none, degrees.
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long)]
     pub solar_elevation: Option<f64>,
     /// Ground albedo where the rows have none.
     #[arg(long)]
