@@ -255,7 +255,10 @@ fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
 fn through(case: &Case, query: &Query, i: usize) -> Value {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
-    let within = clamped(query, &ranges(&case.bytes));
+    let within = Query {
+        altitude: query.altitude,
+        ..clamped(query, &ranges(&case.bytes))
+    };
     let expected = Oracle::new(&case.raw).transmittance(&within, distance);
     let absolute = vec![1e-9; expected.len()];
     let asked = over("transmittance", query, distance);
