@@ -68,7 +68,7 @@ fn fast() -> welkin::Result<()> {
         visibility: [40e3, 60e3],
         solar_elevation: [0.1, 1.0],
         tolerance: BakedSky::TOLERANCE,
-        channels: Channels::Spectral,
+        channels: Channels::Stokes,
     };
 
     let baked = sky.bake(BakedSky::TOLERANCE)?;
@@ -77,14 +77,18 @@ fn fast() -> welkin::Result<()> {
     let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
     let sampler = colour.sampler().with_sun(&model.sun_disc(&conditions)?);
     let general = General::new(welkin::DEFAULT_MODEL)?;
+    let mut other = [0.0; 12];
+    general.radiance(&conditions, [0.0, 0.0, 1.0], &mut other)?;
+    assert!(other.iter().all(|&r| r > 0.0));
     let plan = model.plan(&budget)?;
+    let general = model.polarised_general(&plan)?;
+    let frame = Frame::Axis([0.0, 1.0, 0.0]);
+    let light = general.stokes_at(&conditions, [0.3, 0.1, 0.9], frame, 550.0)?;
+    assert!((0.05..1.0).contains(&light.degree()));
 
     assert!(radiance.iter().all(|&r| r > 0.0));
     assert!(baked.bytes() > colour.bytes() && stokes.bytes() > baked.bytes());
     assert!(sampler.bytes() > 0);
-    let mut other = [0.0; 12];
-    general.radiance(&Conditions::default(), [0.0, 0.0, 1.0], &mut other)?;
-    assert!(other.iter().all(|&r| r > 0.0));
     assert!(plan.file_bytes < welkin::DEFAULT_MODEL.len());
     Ok(())
 }
