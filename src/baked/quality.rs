@@ -206,8 +206,6 @@ pub(super) fn bake<const N: usize>(
 /// Relative to the least that tables hold where there is less.
 #[inline(always)]
 pub(super) fn difference(got: f32, expected: f32) -> f32 {
-    if got == expected {
-        return 0.0;
-    }
-    ((got - expected) / expected.abs().max(f32::MIN_POSITIVE)).abs()
+    let off = f64::from((got - expected).abs()) / f64::from(expected.max(f32::MIN_POSITIVE));
+    off.min(f64::from(f32::MAX)) as f32
 }
