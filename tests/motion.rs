@@ -19,7 +19,8 @@ static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap()
 /// the fit of a sky falls through zero no table follows it well.
 fn largest(conditions: &Conditions, jump: &Jump) -> f64 {
     match (jump.held, conditions.altitude < 20.0) {
-        (false, _) | (_, true) => 1e-2,
+        (false, _) => 5e-2,
+        (_, true) => 1e-2,
         _ if conditions.solar_elevation < 0.0 => 2e-3,
         _ => 1e-3,
     }

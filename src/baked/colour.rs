@@ -16,7 +16,7 @@ use crate::sky::Sky;
 /// X, Y, Z and nothing: the width of a vector.
 const LANES: usize = 4;
 
-/// A sky as tables of about 10 kB that hold the colours and no wavelengths. Otherwise as [`BakedSky`](crate::BakedSky).
+/// A sky as tables of about 12 kB that hold the colours and no wavelengths. Otherwise as [`BakedSky`](crate::BakedSky).
 ///
 /// The tables hold CIE XYZ, as the components of wide-gamut skies in RGB can be negative.
 #[derive(Clone, Debug)]

@@ -123,7 +123,7 @@ impl<const N: usize> Known<N> {
     fn place(&self, size: Size, i: u32, j: u32) -> Option<(usize, usize)> {
         let (down, across) = (size.rows / self.size.rows, size.columns / self.size.columns);
         let (row, column) = ((i / down) as usize, (j / across) as usize);
-        let there = i % down == 0 && j % across == 0;
+        let there = i.is_multiple_of(down) && j.is_multiple_of(across);
         let known = self.blocks[0][row].get(column).is_some();
         (there && known).then_some((row, column))
     }

@@ -5,7 +5,7 @@ use super::table::{ENVELOPE, Grid};
 use crate::error::{Error, Result};
 use crate::geometry::Side;
 
-/// What baking adds to the error of a sky: relative differences of all channels at some 500 directions that are not
+/// What baking adds to the error of a sky: relative differences of all channels at some 580 directions that are not
 /// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on the ground.
 /// They are dense where errors are large: at the horizon, and beside the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -206,8 +206,6 @@ pub(super) fn bake<const N: usize>(
 /// Relative to the least that tables hold where there is less.
 #[inline(always)]
 pub(super) fn difference(got: f32, expected: f32) -> f32 {
-    if got == expected {
-        return 0.0;
-    }
-    ((got - expected) / expected.abs().max(f32::MIN_POSITIVE)).abs()
+    let off = f64::from((got - expected).abs()) / f64::from(expected.max(f32::MIN_POSITIVE));
+    off.min(f64::from(f32::MAX)) as f32
 }
