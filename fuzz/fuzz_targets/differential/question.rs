@@ -84,6 +84,8 @@ impl Question {
             !(low - slack..=high + slack).contains(&value)
         };
         let [altitude, visibility, albedo, elevation, ..] = self.cells;
+        // In a depression.
+        let altitude = if (-500.0..0.0).contains(&altitude) { 0.0 } else { altitude };
         let scene = outside(albedo, [0.0, 1.0]) || outside(elevation, ranges.elevation);
         outside(visibility, ranges.visibility)
             || self.name() != "transmittance" && scene
