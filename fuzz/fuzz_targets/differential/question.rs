@@ -84,6 +84,12 @@ impl Question {
             !(low - slack..=high + slack).contains(&value)
         };
         let [altitude, visibility, albedo, elevation, ..] = self.cells;
+        // In a depression.
+        let altitude = if (-500.0..0.0).contains(&altitude) {
+            0.0
+        } else {
+            altitude
+        };
         let scene = outside(albedo, [0.0, 1.0]) || outside(elevation, ranges.elevation);
         outside(visibility, ranges.visibility)
             || self.name() != "transmittance" && scene
@@ -107,7 +113,7 @@ fn scene(bytes: &mut Bytes, ranges: &Ranges) -> Vec<Question> {
     let azimuth = 6.0 * bytes.unit() - 3.0;
     let wavelength = coordinate(bytes, ranges.wavelength);
     let direction = direction(bytes, [elevation, azimuth]);
-    let distance = [1.0, 37.0, 900.0, 2e4, 1e6][bytes.below(5)];
+    let distance = [1.0, 37.0, 900.0, 2e4, 5e4, 1e6][bytes.below(6)];
     let dense = bytes.below(2) as u32;
     let ask = |quantity: usize, direction: [f64; 3]| {
         let [x, y, z] = direction;

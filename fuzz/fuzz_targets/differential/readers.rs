@@ -16,7 +16,10 @@ pub const ABSTAINS: &str = "abstains";
 
 pub fn library(model: &Result<Model, welkin::Error>, questions: &[Question]) -> Report {
     let model = model.as_ref().map_err(|e| e.class().to_owned())?;
+    // What is asked for per unit of sunlight is not known where there is none.
+    let dark = model.head().solar_irradiance.contains(&0.0);
     let answer = |q: &Question| match answer::answer(model, &q.line()) {
+        Ok(values) if dark && values.iter().any(|v| v.is_nan()) => Err(ABSTAINS.to_owned()),
         Ok(values) => Ok(values.into_iter().map(f64::from).collect()),
         Err(class) => Err(class.to_owned()),
     };
