@@ -5,7 +5,7 @@ use super::table::{ENVELOPE, Grid};
 use crate::error::{Error, Result};
 use crate::geometry::Side;
 
-/// What baking adds to the error of a sky: relative differences of all channels at some 580 directions that are not
+/// What baking adds to the error of a sky: relative differences of all channels at some 660 directions that are not
 /// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on the ground.
 /// They are dense where errors are large: at the horizon, and beside the sun.
 #[derive(Clone, Copy, Debug, PartialEq)]

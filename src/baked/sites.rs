@@ -17,6 +17,11 @@ const ROWS: [u32; 2] = [41, 21];
 /// A row at the very horizon, 0.0005° from it.
 const LOWEST: f64 = 0.006;
 
+/// Rows where layers of the air are seen, between 0.2° and 4° above the horizon: under a low sun errors peak there at its azimuth.
+const LAYERS: [f64; 10] = [
+    0.13, 0.155, 0.18, 0.205, 0.23, 0.255, 0.28, 0.31, 0.34, 0.38,
+];
+
 /// Rows beside the sun: distances from its own, and the azimuths in them as in [`Points::azimuth`].
 const BESIDE_SUN: [f64; 8] = [-0.07, -0.045, -0.025, -0.01, 0.004, 0.019, 0.037, 0.06];
 const NEAR_SUN: [f64; WIDTH] = [0.0, 0.006, 0.012, 0.02, 0.034, 0.05, 0.08, 0.12];
@@ -44,7 +49,8 @@ pub(super) fn sites(lattice: Lattice, frame: &Frame) -> Vec<Site> {
     if lattice.side == Side::Up {
         let row = sun_row(lattice);
         let near = BESIDE_SUN.map(|offset| (row + offset).clamp(0.01, 0.99));
-        sites.extend(near.map(|row| site(lattice, frame, row, NEAR_SUN, [0.0; WIDTH])));
+        let rows = LAYERS.into_iter().chain(near);
+        sites.extend(rows.map(|row| site(lattice, frame, row, NEAR_SUN, [0.0; WIDTH])));
     }
     sites
 }
