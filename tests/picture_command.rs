@@ -295,7 +295,7 @@ fn negative_values_parse_everywhere() {
         ),
         ("contact-sheet", vec!["size"]),
         (
-            "irradiance",
+            "light",
             [
                 "altitude",
                 "sun-elevation",
@@ -317,17 +317,21 @@ fn negative_values_parse_everywhere() {
                 let output = run(folder.path(), &format!("{command} --{option} {value}"), 2);
                 let text = String::from_utf8(output.stderr).unwrap();
                 assert!(
-                    !text.contains("unexpected argument"),
+                    !text.contains("unexpected argument") && !text.contains("subcommand"),
                     "{command} {option}: {text}"
                 );
             }
         }
     }
-    let output = run(folder.path(), "froxels --altitude -5", 2);
+    // A little below the ground is on it.
+    let below = "froxels --size 1x1x1 --altitude -5 --out below.exr";
+    works(folder.path(), below, 2);
+    let output = run(folder.path(), "froxels --altitude -10000", 2);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        text.starts_with("welkin: altitude must be in 0..=") && text.ends_with(" m, got -5 m\n"),
+        text.starts_with("welkin: altitude must be in 0..=")
+            && text.ends_with(" m, got -10000 m\n"),
         "{text}"
     );
 }

@@ -17,7 +17,7 @@ pub fn manifest(plan: &Plan, work: &Path) -> Result<Value> {
         let of_kind = units.iter().zip(&entries).filter(|(u, _)| u.kind == kind);
         of_kind
             .filter_map(|(_, e)| e["core_seconds"].as_f64())
-            .sum()
+            .fold(0.0, |sum, seconds| sum + seconds)
     };
     let totals = Kind::ALL.map(|kind| (kind.name().to_owned(), json!(seconds(kind))));
     Ok(json!({

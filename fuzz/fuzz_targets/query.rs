@@ -42,11 +42,11 @@ fuzz_target!(|table: &[u8]| {
     });
     for clamp in [false, true] {
         let mut answers = Vec::new();
-        if let Ok((rows, failures)) = query::answer(model, clamp, threads, table, &mut answers) {
-            assert!(failures <= rows);
+        if let Ok(summary) = query::answer(model, clamp, threads, table, &mut answers) {
+            assert!(summary.failures <= summary.rows);
             let mut reader = csv::Reader::from_reader(answers.as_slice());
             let read = reader.byte_records().filter(|row| row.is_ok()).count();
-            assert_eq!(read as u64, rows);
+            assert_eq!(read as u64, summary.rows);
         }
     }
 });

@@ -54,11 +54,12 @@ impl Target {
         }
     }
 
-    /// Where to say what was done, which is not where the bytes go: standard output, or else standard error.
+    /// Where to say what was done, which is not where the bytes go: standard output, or else standard error, as what is no file
+    /// may be standard output by another name.
     pub fn report(&self) -> Box<dyn Write> {
-        match self {
-            Self::Standard => Box::new(io::stderr()),
-            Self::Path(_) => Box::new(io::stdout()),
+        match self.is_stream() {
+            true => Box::new(io::stderr()),
+            false => Box::new(io::stdout()),
         }
     }
 

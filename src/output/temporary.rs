@@ -46,6 +46,8 @@ pub struct Temporary {
 impl Temporary {
     /// Creates an empty one that nobody may read who may not read the `old` file, and removes those that dead writers have left.
     pub fn beside(target: &Path, old: Option<&Metadata>) -> io::Result<Self> {
+        // A folder may be one that cannot be listed.
+        let _ = sweep(folder(target));
         let name = target.file_name().unwrap_or_default();
         let mut temporary = None;
         let mut free = 0;
@@ -160,7 +162,7 @@ fn remove_if_dead(path: &Path) {
     }
 }
 
-/// Removes the temporary files of dead writers of any target from a folder: for folders of one's own.
+/// Removes the temporary files of dead writers of any target from a folder, as every write does, too.
 ///
 /// # Errors
 /// [`Error::Io`](crate::Error::Io) if the folder cannot be read.

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::prepare::Place;
 
 /// Elevations at which depths are kept, over the visible part of the disc.
-const NODES: usize = 33;
+const NODES: usize = 129;
 /// More lets nothing through, and its differences stay exact.
 const OPAQUE: f32 = 1e4;
 

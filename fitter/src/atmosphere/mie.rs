@@ -52,7 +52,7 @@ fn between(columns: &[Vec<Elements>], nm: f64) -> Result<Vec<Elements>> {
     let last = nodes.len() - 1;
     ensure!(
         (nodes[0] - BEYOND..=nodes[last] + BEYOND).contains(&nm),
-        "wavelength {nm} nm is outside {}..{} nm, where Mie matrices are known",
+        "wavelength {nm:?} nm is outside {}..{} nm, where Mie matrices are known",
         nodes[0] - BEYOND,
         nodes[last] + BEYOND
     );

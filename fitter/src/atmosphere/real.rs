@@ -44,7 +44,8 @@ pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
 pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> Result<Atmosphere> {
     ensure!(
         (VISIBILITIES[0]..=VISIBILITIES[5]).contains(&visibility),
-        "visibility {visibility} m is outside 20..131.8 km"
+        "visibility {:?} km is outside 20..131.8 km",
+        visibility * 1e-3
     );
     ensure!(
         wavelengths.iter().all(|w| (300.0..=1000.0).contains(w)) && !wavelengths.is_empty(),

@@ -11,16 +11,16 @@ use welkin_fitter::atmosphere::real;
 #[derive(ClapArgs)]
 pub struct Args {
     /// Visibility, km (20..131.8).
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long)]
     visibility: f64,
     /// Wavelengths, nm (300..1000), separated by commas.
     #[arg(long, value_delimiter = ',', default_value = "550")]
     wavelengths: Vec<f64>,
     /// Albedo of the ground that goes into the file.
-    #[arg(long, default_value_t = 0.2, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.2)]
     albedo: f64,
     /// Sun elevation that goes into the file, degrees.
-    #[arg(long, default_value_t = 20.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 20.0)]
     solar_elevation: f64,
     /// Output JSON; `-` or nothing for standard output.
     #[arg(long)]

@@ -225,7 +225,7 @@ impl Args {
     fn scene(&self, radius: f64) -> Result<Scene> {
         ensure!(
             (0.0..=1.0).contains(&self.surface_albedo),
-            "--surface-albedo {} is outside 0..1",
+            "--surface-albedo {:?} is outside 0..1",
             self.surface_albedo
         );
         let reflectance = Reflectance::grey(self.surface_albedo);

@@ -95,6 +95,10 @@ impl Store {
 
     /// What is in the file of the unit `name`. Reads and checks all of it.
     pub fn state(&self, name: &str) -> Result<State> {
+        // A folder cannot be read, and a pipe would keep the reader waiting.
+        if fs::metadata(self.path(name, UNIT)).is_ok_and(|m| !m.is_file()) {
+            return Ok(State::Damaged);
+        }
         if self.has(name)? {
             return Ok(State::Done);
         }

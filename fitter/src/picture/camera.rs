@@ -32,17 +32,17 @@ impl Camera {
         let [width, height] = self.size;
         ensure!(
             (1..=16_384).contains(&width) && (1..=16_384).contains(&height),
-            "size {width} x {height} is outside 1..16384"
+            "size {width} x {height:?} is outside 1..16384"
         );
         ensure!(
             self.pitch.abs() <= FRAC_PI_2 + 1e-12,
-            "pitch {} is outside -90..90 degrees",
+            "pitch {:?} is outside -90..90 degrees",
             self.pitch.to_degrees()
         );
         if let Projection::Perspective(view) = self.projection {
             ensure!(
                 (1e-3..=0.99 * PI).contains(&view),
-                "field of view {} is outside 0.1..178 degrees",
+                "field of view {:?} is outside 0.1..178 degrees",
                 view.to_degrees()
             );
         }

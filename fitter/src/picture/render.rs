@@ -43,7 +43,7 @@ impl Settings {
         self.camera.check()?;
         ensure!(
             self.sun_elevation.abs() <= FRAC_PI_2 + 1e-12,
-            "sun elevation {} is outside -90..90 degrees",
+            "sun elevation {:?} is outside -90..90 degrees",
             self.sun_elevation.to_degrees()
         );
         ensure!(

@@ -47,7 +47,7 @@ impl Place {
         for (name, value) in [("ahead", self.ahead), ("left", self.left)] {
             ensure!(
                 value.abs() <= FARTHEST,
-                "distance {name} {} km is outside -1000..1000",
+                "distance {name} {:?} km is outside -1000..1000",
                 value / 1000.0
             );
         }
@@ -84,7 +84,7 @@ impl Builder {
         for (name, value) in [("width", tower.width), ("height", tower.height)] {
             ensure!(
                 (1.0..=100_000.0).contains(&value),
-                "tower {name} {} km is outside 0.001..100",
+                "tower {name} {:?} km is outside 0.001..100",
                 value / 1000.0
             );
         }
@@ -123,7 +123,7 @@ impl Builder {
     pub fn build(self, ground: Ground) -> Result<Scene> {
         ensure!(
             (0.0..=1.0).contains(&ground.albedo),
-            "ground albedo {} is outside 0..1",
+            "ground albedo {:?} is outside 0..1",
             ground.albedo
         );
         ensure!(

@@ -120,7 +120,7 @@ impl Query {
         let field = |name: &str, value: f64, low: f64, high: f64| {
             ensure!(
                 value.is_finite() && (low..=high).contains(&value),
-                "{name} {value} is outside {low}..{high}"
+                "{name} {value:?} is outside {low}..{high}"
             );
             Ok(())
         };
@@ -160,7 +160,7 @@ impl Tracer {
         );
         ensure!(
             (0.0..=0.1).contains(&options.sun_radius),
-            "sun radius {} is outside 0..0.1 rad",
+            "sun radius {:?} is outside 0..0.1 rad",
             options.sun_radius
         );
         let all: Vec<usize> = (0..atmosphere.wavelengths.len()).collect();
@@ -222,7 +222,7 @@ impl Tracer {
         ensure!(samples > 0, "a pixel needs at least one sample");
         ensure!(
             (0.0..=self.top).contains(&view.altitude),
-            "altitude {} is outside 0..{}",
+            "altitude {:?} is outside 0..{}",
             view.altitude,
             self.top
         );

@@ -91,6 +91,14 @@ fn worst(model: &Model, kind: Kind, error: impl Fn(&Entry) -> f32) -> f64 {
 
 fn chunk(model: &Model, entry: &Entry) -> Value {
     let head = model.head();
+    // Of other kinds nothing else is known.
+    if let Kind::Unknown(_) = entry.kind {
+        return json!({
+            "kind": entry.kind.name(),
+            "offset": entry.offset,
+            "bytes": entry.length,
+        });
+    }
     json!({
         "kind": entry.kind.name(),
         "altitude_m": entry.altitude.and_then(|i| head.altitudes.get(i)),
@@ -116,6 +124,15 @@ fn chunk_table(out: &mut impl Write, model: &Model) -> Result<()> {
         value.map_or("-".to_owned(), |v| plain(v * scale))
     };
     for entry in model.directory() {
+        if let Kind::Unknown(_) = entry.kind {
+            let [kind, bytes] = [entry.kind.name().to_owned(), entry.length.to_string()];
+            writeln!(
+                out,
+                "{kind:10} {0:>10} {0:>13} {bytes:>9} {0:>5} {0:>12} {0:>9}",
+                "-"
+            )?;
+            continue;
+        }
         writeln!(
             out,
             "{:10} {:>10} {:>13} {:>9} {:>5} {:>12} {:>9}",

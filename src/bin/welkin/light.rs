@@ -8,7 +8,7 @@ use welkin::Model;
 use crate::Source;
 use crate::failure::Result;
 use crate::irradiance::{Light, Spectrum};
-use crate::scene::Place;
+use crate::scene::{Place, moved};
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -17,12 +17,7 @@ pub struct Options {
     #[command(flatten)]
     place: Place,
     /// Altitude of the observer above the ground, m.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        allow_negative_numbers = true,
-        value_name = "M"
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "M")]
     altitude: f64,
     /// Move conditions that the model does not reach to its nearest.
     #[arg(long)]
@@ -36,7 +31,12 @@ pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let mut conditions = options.place.conditions(options.altitude);
     if options.clamp {
-        conditions = conditions.clamped(&model)?;
+        let reached = conditions.clamped(&model)?;
+        for line in moved(&conditions, &reached) {
+            // Nobody is left to tell when standard error is closed.
+            let _ = writeln!(io::stderr(), "welkin: {line}");
+        }
+        conditions = reached;
     }
     let light = Light::new(&model, &conditions)?;
     let mut out = io::stdout().lock();

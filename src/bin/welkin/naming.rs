@@ -14,10 +14,11 @@ fn extension(path: &Path) -> Option<String> {
     (!extension.is_empty() && !is_number).then(|| extension.to_owned())
 }
 
-/// Whether nothing is before the extension: `folder/.exr`.
+/// Whether nothing but dots is before the extension: `folder/.exr`, `..exr`.
 fn is_bare(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    name.len() > 1 && name.rfind('.') == Some(0)
+    let stem = name.rsplit_once('.').map(|(stem, _)| stem);
+    stem.is_some_and(|stem| stem.chars().all(|c| c == '.'))
 }
 
 /// A file of a certain format.

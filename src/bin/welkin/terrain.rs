@@ -43,7 +43,9 @@ impl Field {
         for height in &mut heights {
             *height *= scale as f32;
             if !(-500.0..=50_000.0).contains(height) {
-                return Err(fail(format!("height {height} m is outside -500..50000 m")));
+                return Err(fail(format!(
+                    "height {height:?} m is outside -500..50000 m"
+                )));
             }
         }
         let highest = heights.iter().copied().fold(0.0, f32::max).into();

@@ -98,7 +98,7 @@ impl Case {
 fn within(field: &str, value: f64, low: f64, high: f64) -> Result<()> {
     ensure!(
         value.is_finite() && (low..=high).contains(&value),
-        "{field} = {value} is outside {low}..{high}"
+        "{field} = {value:?} is outside {low}..{high}"
     );
     Ok(())
 }

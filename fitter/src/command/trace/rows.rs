@@ -38,7 +38,7 @@ fn row(
         .context("albedo is missing; give the column or --albedo")?;
     ensure!(
         (0.0..=1.0).contains(&albedo),
-        "albedo {albedo} is outside 0..1"
+        "albedo {albedo:?} is outside 0..1"
     );
     Ok(Row {
         query,

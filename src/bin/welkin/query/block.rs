@@ -7,6 +7,7 @@ use csv::ByteRecord;
 use rayon::prelude::*;
 
 use super::answer::Answerer;
+use super::bounded::Bounded;
 use super::columns::Columns;
 use super::quantity::Question;
 use super::shared::Shared;
@@ -14,7 +15,7 @@ use crate::failure::describe;
 
 /// Most rows of a block, and most bytes of their cells.
 const MOST_ROWS: usize = 1 << 16;
-const MOST_BYTES: usize = 1 << 25;
+pub const MOST_BYTES: usize = 1 << 25;
 /// Rows that a thread takes at once.
 const PORTION: usize = 256;
 
@@ -33,7 +34,7 @@ pub struct Block {
 
 impl Block {
     /// Reads rows until the block is full or the table ends; what precedes an error is kept.
-    pub fn read(&mut self, reader: &mut csv::Reader<impl io::Read>) -> csv::Result<()> {
+    pub fn read(&mut self, reader: &mut csv::Reader<Bounded<impl io::Read>>) -> csv::Result<()> {
         self.len = 0;
         let mut bytes = 0;
         while self.len < MOST_ROWS && bytes < MOST_BYTES {
@@ -41,6 +42,7 @@ impl Block {
                 self.records.push(ByteRecord::new());
             }
             let record = &mut self.records[self.len];
+            reader.get_ref().allow(MOST_BYTES);
             if !reader.read_byte_record(record)? {
                 break;
             }

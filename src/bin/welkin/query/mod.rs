@@ -2,13 +2,15 @@
 
 mod answer;
 mod block;
+mod bounded;
 mod columns;
 mod progress;
 mod quantity;
 mod shared;
 
+use std::fmt;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::PathBuf;
 use std::sync::Mutex;
 
@@ -18,6 +20,7 @@ use welkin::Model;
 use crate::Source;
 use crate::failure::{Failure, Result};
 use block::Block;
+use bounded::Bounded;
 use columns::Columns;
 use progress::Progress;
 use shared::Shared;
@@ -46,12 +49,28 @@ pub fn run(options: &Options) -> Result<()> {
         .num_threads(options.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
-    let (rows, failures) = answer(&model, options.clamp, &threads, input, io::stdout().lock())?;
+    let summary = answer(&model, options.clamp, &threads, input, io::stdout().lock())?;
+    if summary.moved {
+        // Nobody is left to tell when standard error is closed.
+        let text =
+            "welkin: rows whose conditions the model does not reach were moved to its nearest";
+        let _ = writeln!(io::stderr(), "{text}");
+    }
+    let Summary { rows, failures, .. } = summary;
     if options.strict && failures > 0 {
         let text = format!("{failures} of {rows} rows failed (see their column \"error\")");
         return Err(Failure::message(text));
     }
     Ok(())
+}
+
+/// What became of a table.
+pub struct Summary {
+    pub rows: u64,
+    /// Rows that got an error.
+    pub failures: u64,
+    /// Whether conditions of any row were moved.
+    pub moved: bool,
 }
 
 /// Answers a table; returns how many rows it has and how many of them failed.
@@ -61,12 +80,12 @@ pub fn answer(
     threads: &rayon::ThreadPool,
     input: impl Read,
     output: impl io::Write,
-) -> Result<(u64, u64)> {
+) -> Result<Summary> {
     let shared = &Shared::new(model, clamp);
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .buffer_capacity(BUFFER)
-        .from_reader(input);
+        .from_reader(Bounded::new(input, block::MOST_BYTES));
     let header = reader.byte_headers().map_err(unreadable)?.clone();
     let columns = Columns::find(&header)?;
     let mut writer = csv::WriterBuilder::new()
@@ -89,9 +108,8 @@ pub fn answer(
             value.clear();
             let error = match answer {
                 Ok(number) => {
-                    use std::fmt::Write;
                     // Writing to a string never fails.
-                    let _ = write!(value, "{number:?}");
+                    let _ = fmt::Write::write_fmt(&mut value, format_args!("{number:?}"));
                     ""
                 }
                 Err(error) => error,
@@ -104,7 +122,11 @@ pub fn answer(
         read.map_err(unreadable)?;
     }
     writer.flush()?;
-    Ok((rows, failures))
+    Ok(Summary {
+        rows,
+        failures,
+        moved: shared.has_moved(),
+    })
 }
 
 /// Bytes that are read and written at once.

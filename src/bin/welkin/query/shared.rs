@@ -1,6 +1,7 @@
 //! What all threads share: the model, and its evaluators for questions that have nothing in common.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use welkin::{
     Budget, Channels, Conditions, General, GeneralHaze, Interpolation, Model, Plan,
@@ -17,6 +18,7 @@ pub struct Shared<'a> {
     pub clamp: bool,
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
+    moved: AtomicBool,
     general: OnceLock<Option<Box<General<'a>>>>,
     polarised: OnceLock<Option<Box<PolarisedGeneral<'a>>>>,
     haze: OnceLock<Option<GeneralHaze<'a>>>,
@@ -30,6 +32,7 @@ impl<'a> Shared<'a> {
             irradiance: head.wavelengths.iter().map(irradiance).collect(),
             model,
             clamp,
+            moved: AtomicBool::new(false),
             general: OnceLock::new(),
             polarised: OnceLock::new(),
             haze: OnceLock::new(),
@@ -75,10 +78,19 @@ impl<'a> Shared<'a> {
 
     /// The conditions, moved into the model if that is wanted.
     pub fn reachable(&self, conditions: &Conditions) -> Result<Conditions> {
-        match self.clamp {
-            true => conditions.clamped(self.model),
-            false => Ok(*conditions),
+        if !self.clamp {
+            return Ok(*conditions);
         }
+        let reached = conditions.clamped(self.model)?;
+        if reached != *conditions {
+            self.moved.store(true, Ordering::Relaxed);
+        }
+        Ok(reached)
+    }
+
+    /// Whether conditions of any row were moved.
+    pub fn has_moved(&self) -> bool {
+        self.moved.load(Ordering::Relaxed)
     }
 
     /// Between the wavelengths of the model.

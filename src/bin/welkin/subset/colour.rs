@@ -139,6 +139,17 @@ impl Quadrature {
     }
 }
 
+/// Refuses weights that no file can hold.
+pub fn check_weights(weights: &[f64]) -> welkin::Result<()> {
+    const LARGEST: f64 = 1e30;
+    match weights.iter().all(|w| w.abs() <= LARGEST) {
+        true => Ok(()),
+        false => Err(absurd(
+            "the colours of its skies need weights beyond those of a file: it is not a sensible sky",
+        )),
+    }
+}
+
 fn absurd(detail: &str) -> welkin::Error {
     welkin::Error::Invalid {
         what: "model",

@@ -3,7 +3,7 @@
 use welkin::Model;
 use welkin::format::{Chunk, Head, Payload, Selection, crop, encode};
 
-use super::colour::Quadrature;
+use super::colour::{Quadrature, check_weights};
 use super::nodes::{covers, needed};
 use super::samples::{Differences, Quantity, Samples, Scope};
 use crate::failure::{Failure, Result, plain};
@@ -196,6 +196,7 @@ impl<'a> Reducer<'a> {
         crop(&mut head, &mut chunks, selection)?;
         if selection.wavelengths.len() < self.head.wavelengths.len() {
             head.xyz = quadrature.weights(&selection.wavelengths);
+            check_weights(head.xyz.as_flattened())?;
         }
         Ok((head, chunks))
     }
