@@ -97,14 +97,36 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
     weight: f32,
     sum: &mut Components,
 ) {
+    if chunk.padded {
+        return add_padded(chunk, heights, [alpha, elevation], weight, sum);
+    }
     let heights = Rows::new(heights, chunk.stride, alpha);
     let suns = Rows::new(chunk.elevation, chunk.stride, elevation);
     let scales = chunk.scale[..chunk.stride].as_chunks::<WIDTH>().0;
-    let scales = &scales[..chunk.rank.div_ceil(WIDTH)];
     for (b, (sum, scale)) in sum.iter_mut().zip(scales).enumerate() {
-        let scale = read(scale, chunk.rank - b * WIDTH);
-        let value = heights.sum(instructions, b) * (scale * weight);
+        let value = heights.sum(instructions, b) * (read(scale) * weight);
         *sum = *sum + value * suns.sum(instructions, b);
+    }
+}
+
+/// The same of a chunk whose padding is not zero, one component after another: no writer makes such.
+#[cold]
+#[inline(never)]
+fn add_padded<const N: usize>(
+    chunk: &FactorsView,
+    heights: &[U16],
+    [alpha, elevation]: [&Taps<N>; 2],
+    weight: f32,
+    sum: &mut Components,
+) {
+    for i in 0..chunk.rank {
+        let at = |table: &[U16], taps: &Taps<N>| -> f32 {
+            let taps = taps.index.iter().zip(taps.weight);
+            taps.map(|(row, weight)| weight * widen(table[row * chunk.stride + i]))
+                .sum()
+        };
+        let value = at(heights, alpha) * chunk.scale[i].get() * weight;
+        sum[i / WIDTH].0[i % WIDTH] += value * at(chunk.elevation, elevation);
     }
 }
 
@@ -230,12 +252,11 @@ fn add_columns<const N: usize, I: Instructions>(
     sums
 }
 
-/// The first `count` numbers; the others are padding, which may be anything.
 #[inline(always)]
-fn read(numbers: &[F32; WIDTH], count: usize) -> Lanes<WIDTH> {
+fn read(numbers: &[F32; WIDTH]) -> Lanes<WIDTH> {
     let mut lanes = Lanes::splat(0.0);
     for i in 0..WIDTH {
-        lanes.0[i] = if i < count { numbers[i].get() } else { 0.0 };
+        lanes.0[i] = numbers[i].get();
     }
     lanes
 }

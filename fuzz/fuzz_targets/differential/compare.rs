@@ -86,13 +86,12 @@ fn class(case: &Case, question: &Question, a: &str, b: &str) -> Option<String> {
         return Some(format!("outside the range, but {a} and {b}"));
     }
     let both = |one, other| [(one, other), (other, one)].contains(&(a, b));
-    let checksums = both("checksum", "encoding");
     // Where a chunk is missing, others may be broken, and a wavelength is no condition.
     let free = ["checksum", "encoding", "value", "direction"]
         .iter()
         .any(|c| both("missing", c));
     let free = free || question.has_wavelength() && (a, b) != ("range", "range");
-    let several = case.changes.count > 1 && !checksums;
+    let several = case.changes.count > 1;
     (a != b && !several && !free).then(|| format!("{a} and {b}"))
 }
 
