@@ -100,8 +100,14 @@ fn sun_transmittance_and_haze_are_one_physics() {
     let outside = outside();
     let mut random = Random(5);
     let [mut air_errors, mut haze_errors, mut lean_errors] = [(); 3].map(|()| vec![]);
-    for i in 0..1000 {
-        let conditions = random_conditions(&mut random);
+    for i in 0..1500 {
+        let mut conditions = random_conditions(&mut random);
+        if i >= 1000 {
+            // Grazing rays cross the edges of layers.
+            conditions.altitude = random.between(10e3, 15e3);
+            let above = random.between(0.1, 0.6).to_radians();
+            conditions.solar_elevation = above - dip(conditions.altitude);
+        }
         let from = [0.0, 0.0, conditions.altitude];
         let sun = MODEL.sun_disc(&conditions).unwrap();
         let towards = sun.direction().map(f64::from);
