@@ -20,8 +20,6 @@ pub struct FactorsView<'a> {
     pub rank: usize,
     /// `rank` rounded up to a multiple of 16.
     pub stride: usize,
-    /// Whether weights beyond the rank are other than zero; they do not count.
-    pub padded: bool,
     /// Weight of each component, `[stride]`.
     pub scale: &'a [F32],
     /// `[up][stride]`.
@@ -53,15 +51,19 @@ impl<'a> FactorsView<'a> {
         Self::divide(bytes, shape, rank, 0)
     }
 
+    /// Whether weights beyond the rank are other than zero; they do not count.
+    #[inline(always)]
+    pub(crate) fn is_padded(&self) -> bool {
+        self.scale[self.rank..].iter().any(|s| s.get() != 0.0)
+    }
+
     fn divide(bytes: &'a [u8], shape: &Shape, rank: usize, levels: usize) -> Result<Self> {
         let stride = ceil16(rank);
         let mut rest = bytes;
-        let scale: &[F32] = take(&mut rest, stride)?;
         Ok(Self {
             rank,
             stride,
-            padded: scale[rank..].iter().any(|s| s.get() != 0.0),
-            scale,
+            scale: take(&mut rest, stride)?,
             alpha_up: take(&mut rest, shape.up * stride)?,
             alpha_down: take(&mut rest, shape.down * stride)?,
             elevation: take(&mut rest, shape.elevation * stride)?,

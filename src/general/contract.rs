@@ -97,7 +97,7 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
     weight: f32,
     sum: &mut Components,
 ) {
-    if chunk.padded {
+    if chunk.is_padded() {
         return add_padded(chunk, heights, [alpha, elevation], weight, sum);
     }
     let heights = Rows::new(heights, chunk.stride, alpha);

@@ -1,9 +1,9 @@
 //! Asks a model everything that gives numbers.
 
 use welkin::{
-    BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Frame,
-    General, GeneralHaze, Haze, Interpolation, Model, PolarisedGeneral, PolarisedSky, Result, Sky,
-    Stokes, StokesSpectra, SunDisc,
+    BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Error,
+    Frame, General, GeneralHaze, Haze, Interpolation, Model, PolarisedGeneral, PolarisedSky,
+    Result, Sky, Stokes, StokesSpectra, SunDisc,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -71,6 +71,8 @@ impl Asker {
     fn allowed<T>(&mut self, what: &str, answer: Result<T>) -> Option<T> {
         match answer {
             Ok(answer) => Some(answer),
+            // On a small planet a point is soon far away.
+            Err(Error::Reach { .. }) => None,
             Err(error) => {
                 let class = error.class();
                 assert!(matches!(class, "value" | "tolerance"), "{what}: {error}");
@@ -280,12 +282,14 @@ impl Asker {
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
         let [mut q, mut u] = [(); 2].map(|()| vec![0.0; n]);
         for [from, to] in SEGMENTS {
-            haze.in_scatter(from, to, &mut light, &mut through).unwrap();
+            if !within_reach(haze.in_scatter(from, to, &mut light, &mut through)) {
+                continue;
+            }
             self.light("in-scatter", &light);
             self.share("transmittance", &through);
-            haze.to_end(from, [0.1, 0.2, 0.05], &mut light, &mut through)
-                .unwrap();
-            self.light("in-scatter to the end", &light);
+            if within_reach(haze.to_end(from, [0.1, 0.2, 0.05], &mut light, &mut through)) {
+                self.light("in-scatter to the end", &light);
+            }
             let (colour, factors) = haze.xyz(from, to).unwrap();
             self.finite("in-scatter, XYZ", colour);
             self.share("factors of XYZ", &factors);
@@ -340,7 +344,9 @@ impl Asker {
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
         let before = haze.before(sky).unwrap();
         for [_, to] in SEGMENTS {
-            before.in_scatter(to, &mut light, &mut through).unwrap();
+            if !within_reach(before.in_scatter(to, &mut light, &mut through)) {
+                continue;
+            }
             self.light("foreground", &light);
             self.share("foreground, transmittance", &through);
             let (colour, factors) = before.xyz(to).unwrap();
@@ -393,6 +399,17 @@ impl Asker {
                     self.stokes("polarised general, at a wavelength", &[at]);
                 }
             }
+        }
+    }
+}
+
+/// On a small planet a point is soon far away.
+fn within_reach(answer: Result<()>) -> bool {
+    match answer {
+        Err(Error::Reach { .. }) => false,
+        answer => {
+            answer.unwrap();
+            true
         }
     }
 }
