@@ -128,10 +128,12 @@ fn values(
 }
 
 /// Whether the specification promises nothing about the light of a segment: the source is not smooth, or the view so steep that
-/// it may count as vertical; or only wishes, for segments that leave the air.
+/// it may count as vertical; or only wishes, for segments that leave the air, and for long ones in twilight, of which quadratures
+/// differ most.
 fn is_rough(case: &Case, question: &Question) -> bool {
     let [.., distance] = question.cells;
-    let jagged = case.base == "haze-negative" || distance > 1e5;
+    let twilight = question.cells[3] < 0.0 && distance > 100.0;
+    let jagged = case.base == "haze-negative" || distance > 1e5 || twilight;
     let [x, y, z] = [5, 6, 7].map(|i| question.cells[i]);
     let vertical = question.name() == "in_scatter_stokes" && x.hypot(y) <= 1e-6 * z.abs();
     question.name().starts_with("in_scatter") && (jagged || vertical)
