@@ -146,6 +146,58 @@ proptest! {
     }
 }
 
+/// Spectrum of the zenith from the ground at a place, away from the sun from where the haze was prepared, in this many pieces.
+fn zenith(haze: &Haze, away: f64, pieces: u32) -> Vec<f64> {
+    let radius = haze.air().planet().radius;
+    let up = unit(FRAC_PI_2 - away, std::f64::consts::PI);
+    let n = haze.wavelengths().len();
+    let (mut sum, mut through) = (vec![0.0; n], vec![1.0; n]);
+    let at = |i: u32| {
+        let height = 1e5 * f64::from(i) / f64::from(pieces);
+        add([0.0, 0.0, -radius], up.map(|v| (radius + height) * v))
+    };
+    for i in 0..pieces {
+        let piece = in_scatter(haze, at(i), at(i + 1)).unwrap();
+        for w in 0..n {
+            sum[w] += through[w] * f64::from(piece[w]);
+            through[w] *= f64::from(piece[n + w]);
+        }
+    }
+    sum
+}
+
+/// Where the sun stands locally lower than any that skies are made for, light goes on to fall as its source does.
+#[test]
+fn twilight_fades_beyond_the_lowest_sun_of_skies() {
+    const LOWEST: f64 = -4.2;
+    /// 560 nm.
+    const GREEN: usize = 6;
+    let mut errors = vec![];
+    for visibility in [25e3, 59.4e3, 120e3] {
+        let dusk = Conditions {
+            solar_elevation: LOWEST.to_radians(),
+            visibility,
+            ..Conditions::default()
+        };
+        let haze = MODEL.haze(&dusk).unwrap();
+        let mut before = f64::INFINITY;
+        for step in 0..=12 {
+            let away = (0.5 * f64::from(step)).to_radians();
+            let light = zenith(&haze, away, 1)[GREEN];
+            assert!(light < before, "{visibility} {step}: {before} {light}");
+            before = light;
+            // Where little changes in a piece, it is what the specification says.
+            let exact = zenith(&haze, away, 1000)[GREEN];
+            errors.push((light / exact).ln().abs());
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let [median, max] =
+        [0.5, 1.0].map(|share| errors[(share * (errors.len() - 1) as f64) as usize]);
+    println!("zenith in one piece and in many: {median:.3}, {max:.3}");
+    assert!(median < 0.15 && max < 0.8, "{median} {max}");
+}
+
 #[test]
 fn all_that_is_seen_from_the_air_above_the_origin_is_within_reach() {
     let haze = MODEL.haze(&Conditions::default()).unwrap();

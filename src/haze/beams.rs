@@ -9,6 +9,9 @@ use crate::air::QUADS;
 use crate::lanes::Lanes;
 use crate::math::LANES;
 
+/// Over which the density of the air falls to 1/e, roughly, m.
+const SCALE: f32 = 8e3;
+
 /// Two panels, each for a block of wavelengths.
 pub(crate) type Pair = Lanes<8>;
 
@@ -29,18 +32,20 @@ impl Sunlight {
             shares: [Pair::splat(0.0); MOST_PANELS / 2],
         };
         let pairs = (panels + 1).div_ceil(2);
-        let mut rise = [0.0; MOST_PLACES + BATCH];
+        let [mut rise, mut altitude] = [[0.0; MOST_PLACES + BATCH]; 2];
         for (i, columns) in out.columns.chunks_mut(PAIRS).enumerate() {
             let pairs = pairs.saturating_sub(i * PAIRS);
             if pairs > 0 {
                 let heights = haze.beam.at(&haze.air.layers, &places[i], pairs, columns);
-                rise[i * BATCH..][..BATCH].copy_from_slice(&heights.0);
+                heights.store(&mut rise, i * BATCH);
+                places[i].altitude.store(&mut altitude, i * BATCH);
             }
         }
         for (i, shares) in out.shares.chunks_mut(PAIRS).enumerate() {
             if i * BATCH < panels {
                 let [a, b] = [0, 1].map(|end| Lanes::load(&rise, i * BATCH + end));
-                let means = mean_shares(a, b).0;
+                let [low, high] = [0, 1].map(|end| Lanes::load(&altitude, i * BATCH + end));
+                let means = mean_shares(a, b, (high - low) * (1.0 / SCALE)).0;
                 for (share, mean) in shares.iter_mut().zip(means.chunks_exact(2)) {
                     *share = Pair::pair(mean[0], mean[1]);
                 }

@@ -4,7 +4,7 @@ use core::f32::consts::FRAC_1_PI;
 
 use super::places::BATCH;
 use crate::lanes::Lanes;
-use crate::math::{asin, bound, sqrt};
+use crate::math::{asin, bound, one_minus_exp_neg, sqrt};
 
 /// Height of the centroid of what is seen; 0 where nothing is.
 #[inline(always)]
@@ -31,36 +31,53 @@ fn visible_share(rise: f32) -> f32 {
     0.5 + (rise * sqrt(1.0 - rise * rise) + asin(rise)) * FRAC_1_PI
 }
 
-/// Integral of the visible share up to `rise`.
+/// Integral of the visible share up to a rise of −1..=1.
 #[inline(always)]
-fn accumulated_share(rise: f32) -> f32 {
-    let x = bound(rise, -1.0, 1.0);
+fn accumulated_share(x: f32) -> f32 {
     let root = sqrt(1.0 - x * x);
-    let inside = 0.5 * x + (root - root * root * root * (1.0 / 3.0) + x * asin(x)) * FRAC_1_PI;
-    inside + (rise - 1.0).max(0.0)
+    0.5 * x + (root - root * root * root * (1.0 / 3.0) + x * asin(x)) * FRAC_1_PI
 }
 
-/// Mean shares of the disc that are seen between two places each.
+/// Mean shares of the disc that are seen from the air between two places each, over which its density falls by e to these powers.
 #[inline(always)]
-pub(crate) fn mean_shares(a: Lanes<BATCH>, b: Lanes<BATCH>) -> Lanes<BATCH> {
+pub(crate) fn mean_shares(a: Lanes<BATCH>, b: Lanes<BATCH>, falls: Lanes<BATCH>) -> Lanes<BATCH> {
     let mut out = Lanes::splat(1.0);
     if a.min(b).0.iter().all(|&low| low >= 1.0) {
         return out;
     }
     for i in 0..BATCH {
-        out.0[i] = mean_share(a.0[i], b.0[i]);
+        out.0[i] = mean_share(a.0[i], b.0[i], falls.0[i]);
     }
     out
 }
 
 #[inline(always)]
-fn mean_share(a: f32, b: f32) -> f32 {
+fn mean_share(a: f32, b: f32, fall: f32) -> f32 {
     /// Differences of smaller steps lose their digits.
     const STEP: f32 = 1e-2;
     let step = b - a;
-    let mean = (accumulated_share(b) - accumulated_share(a)) / step;
-    let middle = visible_share(0.5 * (a + b));
-    bound(if step.abs() < STEP { middle } else { mean }, 0.0, 1.0)
+    // In the penumbra the density counts as even; beyond it all of the disc is seen, or nothing.
+    let edges = [a, b].map(|rise| bound(rise, -1.0, 1.0));
+    let change = edges[1] - edges[0];
+    let mean = (accumulated_share(edges[1]) - accumulated_share(edges[0])) / change;
+    let middle = visible_share(0.5 * (edges[0] + edges[1]));
+    let partly = if change.abs() < STEP { middle } else { mean };
+    let before = passed(bound((edges[0] - a) / step, 0.0, 1.0), fall);
+    let after = passed(bound((edges[1] - a) / step, 0.0, 1.0), fall);
+    let start = if a >= 1.0 { before } else { 0.0 };
+    let end = if b >= 1.0 { 1.0 - after } else { 0.0 };
+    let uneven = start + (after - before) * partly + end;
+    let even = visible_share(0.5 * (a + b));
+    bound(if step.abs() < STEP { even } else { uneven }, 0.0, 1.0)
+}
+
+/// Share of the air on the first `share` of a way over which its density falls by e to the power `fall`.
+#[inline(always)]
+fn passed(share: f32, fall: f32) -> f32 {
+    let steep = fall.abs().max(1e-3);
+    let share = if fall > 0.0 { share } else { 1.0 - share };
+    let passed = one_minus_exp_neg(steep * share) / one_minus_exp_neg(steep);
+    if fall > 0.0 { passed } else { 1.0 - passed }
 }
 
 #[cfg(test)]
@@ -89,9 +106,21 @@ mod tests {
             (-4.0, -1.5),
         ] {
             let n = 10_000;
-            let at = |i: i32| visible_share(a + (b - a) * (i as f32 + 0.5) / n as f32);
-            let mean = (0..n).map(at).sum::<f32>() / n as f32;
-            assert!((mean_share(a, b) - mean).abs() < 1e-3, "{a} {b}");
+            for fall in [0.0f32, 0.2, -0.4, 8.0, -5.0] {
+                // All the density counts but within a penumbra.
+                let steep = f32::abs(b - a) < 4.0;
+                let fall = if steep { 0.1 * fall } else { fall };
+                let (mut sum, mut all) = (0.0, 0.0);
+                for i in 0..n {
+                    let t = (f64::from(i) + 0.5) / f64::from(n);
+                    let weight = (-f64::from(fall) * t).exp();
+                    sum += weight * f64::from(visible_share(a + (b - a) * t as f32));
+                    all += weight;
+                }
+                let error = f64::from(mean_share(a, b, fall)) - sum / all;
+                assert!(error.abs() < 0.03, "{a} {b} {fall}: {error}");
+                assert!(fall != 0.0 || error.abs() < 1e-3, "{a} {b}: {error}");
+            }
         }
     }
 }

@@ -57,7 +57,9 @@ impl Glance {
     /// Visible and ultraviolet light between these distances: between the glow of a dark sky and the light of day.
     #[inline(always)]
     fn light(&self, start: &[f64; BATCH], end: &[f64; BATCH]) -> [Batch; 2] {
+        /// At the edge of the planet's shadow, and the depth in the shadow (m) over which it falls to 1/e.
         const GLOW: f32 = 0.1;
+        const SHADE: f32 = 8e3;
         // How high above the ground the sunlight of these points passes.
         let mut clearance = Batch::splat(0.0);
         for (i, clearance) in clearance.0.iter_mut().enumerate() {
@@ -68,8 +70,9 @@ impl Glance {
             let ahead = w + 0.03 * towards;
             *clearance = if towards < 0.0 { behind } else { ahead } as f32;
         }
+        let glow = clearance.map(|c| bound(c * (1.0 / SHADE), -60.0, 0.0));
         [
-            clearance.map(|c| GLOW + bound(c * (1.0 / 10e3), 0.0, 1.0)),
+            glow.exp() * GLOW + clearance.map(|c| bound(c * (1.0 / 10e3), 0.0, 1.0)),
             clearance.map(|c| bound((c - 20e3) * (1.0 / 30e3), 0.0, 1.0)),
         ]
     }
@@ -80,8 +83,8 @@ const KINDS: usize = 3;
 /// How much each counts.
 const SHARES: [f32; KINDS] = [0.7, 0.1, 0.2];
 
-/// As much of a kind, in all of a segment, as gets its full share.
-const NOTICED: f32 = 0.01;
+/// As much of each kind, in all of a segment, as gets its full share: little light is all there is in deep twilight.
+const NOTICED: [f32; KINDS] = [1e-4, 0.01, 0.01];
 
 /// What has been seen of a segment up to some distances: its start and the ends of its pieces; after the last, the last once more.
 pub(crate) struct Marks {
@@ -189,7 +192,7 @@ impl Marks {
         let total = total.map(|lanes| lanes.0.iter().sum::<f32>());
         // What is hardly there gets no panels of its own.
         let factor: [f32; KINDS] = core::array::from_fn(|k| {
-            let share = SHARES[k] * (total[k] / NOTICED).min(1.0);
+            let share = SHARES[k] * (total[k] / NOTICED[k]).min(1.0);
             share / total[k].max(f32::MIN_POSITIVE)
         });
         let (mut seen, [visible, ultraviolet, change]) = (0.0, &light);

@@ -219,7 +219,7 @@ mod tests {
                 };
                 let mut columns = [[Lanes::splat(0.0); QUADS]; BATCH / 2];
                 let rise = beam.at(&air.layers, &places, 1, &mut columns);
-                let share = mean_shares(rise, rise).0[0];
+                let share = mean_shares(rise, rise, Lanes::splat(0.0)).0[0];
                 let depth = |w: usize| -> f32 {
                     let column = |k: usize| columns[0][k / LANES].0[k % LANES];
                     let row = |k: usize| air.extinction.row(k, w / LANES)[w % LANES];
