@@ -118,8 +118,8 @@ fn values(
     let zenith = zenith.as_ref().map(Vec::as_slice).unwrap_or_default();
     let mut floors: Vec<f64> = zenith.iter().map(|l| l * OF_ZENITH).collect();
     if case.base == "negative" {
-        // Where a sum passes through zero, f32 has few digits: a millionth of the skies of this file, whose radiance is about 0.1.
-        floors.fill(1e-7);
+        // Where a sum passes through zero, f32 has few digits: the terms are some tenths, their rounding 1e-8 each.
+        floors.fill(1e-6);
     }
     let tolerances = tolerances(question, a, &floors)?;
     let mut all = a.iter().zip(b).zip(tolerances);
