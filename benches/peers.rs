@@ -16,7 +16,7 @@ use paper::{Cell, Paper};
 use random::{Sequence, sphere};
 use std::hint::black_box;
 use texture::Texture;
-use welkin::{BakedSky, Conditions, General, Interpolation, Model, Sky};
+use welkin::{BakedSky, Conditions, Interpolation, Model, PointQuery, Sky};
 
 const QUERIES: usize = 4096;
 
@@ -112,7 +112,7 @@ fn general(c: &mut Criterion) {
         ("general: 6 chunks", Interpolation::Lean),
         ("general: 16 chunks", Interpolation::Full),
     ] {
-        let general = General::new(welkin::DEFAULT_MODEL)
+        let general = PointQuery::new(welkin::DEFAULT_MODEL)
             .expect("the embedded model is valid")
             .with_interpolation(interpolation);
         each(c, name, |i| {

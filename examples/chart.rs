@@ -1,7 +1,7 @@
 //! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release --example chart`
 //! writes `docs/settings.csv` and `docs/settings.svg`.
 //!
-//! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of general queries over
+//! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of point queries over
 //! the whole model; times are the least of many repetitions.
 
 #[allow(dead_code)]
@@ -13,7 +13,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use random::{Sequence, p95, sphere};
-use welkin::{BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky};
+use welkin::{BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky};
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
 const QUERIES: usize = 1024;
@@ -126,7 +126,7 @@ fn exact(sky: &Sky) -> Point {
 
 /// Queries anywhere in the model without preparation.
 fn general(model: &Model, name: &'static str, interpolation: Interpolation) -> Result<Point> {
-    let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+    let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
     let (mut places, mut views) = (Sequence::<4>::new(), Sequence::<2>::new());
     let queries: Vec<_> = (0..QUERIES)
         .map(|_| {
@@ -224,7 +224,7 @@ fn svg(points: &[Point]) -> String {
         };
         let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 4.0);
         let kilobytes = format!("{:.0}", p.bytes as f64 / 1e3);
-        // General queries are close together, so their names stand above and below.
+        // Point queries are close together, so their names stand above and below.
         let (label, above) = match p.channels {
             "spectral" => (kilobytes, true),
             "RGB" => (kilobytes, false),

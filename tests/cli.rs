@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use welkin::{Conditions, Frame, Model};
+use welkin::{Conditions, Model, PolarisationFrame};
 
 struct Bench {
     folder: tempfile::TempDir,
@@ -408,8 +408,12 @@ fn query_answers_polarisation() {
     let (z, r) = 30f64.to_radians().sin_cos();
     let (y, x) = 30f64.to_radians().sin_cos();
     let direction = [r * x, r * y, z].map(|v| v as f32);
-    let aligned = sky.stokes_at(direction, Frame::SunAligned, 543.0).unwrap();
-    let vertical = sky.stokes_at(direction, Frame::Vertical, 543.0).unwrap();
+    let aligned = sky
+        .stokes_at(direction, PolarisationFrame::SunAligned, 543.0)
+        .unwrap();
+    let vertical = sky
+        .stokes_at(direction, PolarisationFrame::Vertical, 543.0)
+        .unwrap();
     let expected = [aligned.i, aligned.q / aligned.i, vertical.q, vertical.u];
     for (got, expected) in got.into_iter().zip(expected) {
         assert!(
@@ -564,7 +568,7 @@ fn the_light_of_the_air_is_computed_by_any_method() {
     }
 }
 
-/// Two polarisers across each other share the light of a landscape; one of them lifts the haze.
+/// Two polarisers across each other share the light of a landscape; one of them lifts the aerial perspective.
 #[test]
 fn a_polariser_stands_before_a_landscape() {
     let bench = Bench::new();
@@ -679,8 +683,8 @@ fn query_answers_the_polarisation_of_segments() {
     let answers: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
     let value = |i: usize| answers[i][9].parse::<f32>().unwrap();
     let model = welkin::Model::default_model().unwrap();
-    let haze = model
-        .haze(&welkin::Conditions {
+    let aerial = model
+        .aerial_perspective(&welkin::Conditions {
             solar_elevation: 10f64.to_radians(),
             solar_azimuth: 0.0,
             visibility: 59.4e3,
@@ -696,10 +700,15 @@ fn query_answers_the_polarisation_of_segments() {
         q: &mut q,
         u: &mut u,
     };
-    let frame = welkin::Frame::Vertical;
-    haze.in_scatter_stokes([0.0, 0.0, 300.0], to, frame, out, &mut through)
+    let frame = welkin::PolarisationFrame::Vertical;
+    aerial
+        .in_scattering_stokes([0.0, 0.0, 300.0], to, frame, out, &mut through)
         .unwrap();
-    let at = haze.wavelengths().iter().position(|&w| w == 560.0).unwrap();
+    let at = aerial
+        .wavelengths()
+        .iter()
+        .position(|&w| w == 560.0)
+        .unwrap();
     for (got, expected) in [(value(0), i[at]), (value(2), q[at]), (value(3), u[at])] {
         assert!((got - expected).abs() < 1e-4 * i[at], "{got} {expected}");
     }
@@ -747,8 +756,8 @@ fn query_answers_finite_distances_and_the_sun() {
         albedo: 0.2,
         altitude: 300.0,
     };
-    let haze = model.haze(&place).unwrap();
-    let nm = |nm: f64| haze.wavelengths().iter().position(|&w| w == nm).unwrap();
+    let aerial = model.aerial_perspective(&place).unwrap();
+    let nm = |nm: f64| aerial.wavelengths().iter().position(|&w| w == nm).unwrap();
     let along = |zenith: f64, distance: f64| -> [f64; 3] {
         let ((s, c), (y, x)) = (zenith.to_radians().sin_cos(), 40f64.to_radians().sin_cos());
         [distance * s * x, distance * s * y, distance * c]
@@ -757,7 +766,8 @@ fn query_answers_finite_distances_and_the_sun() {
     let to = along(92.0, 5000.0);
     let (mut light, mut through) = ([0.0; 12], [0.0; 12]);
     let end = [to[0], to[1], to[2] + 300.0];
-    haze.in_scatter(from, end, &mut light, &mut through)
+    aerial
+        .in_scattering(from, end, &mut light, &mut through)
         .unwrap();
     let close =
         |got: f32, expected: f32| assert!((got / expected - 1.0).abs() < 1e-5, "{got} {expected}");
@@ -765,11 +775,12 @@ fn query_answers_finite_distances_and_the_sun() {
     close(value(1), through[nm(600.0)]);
     close(value(2), light[nm(600.0)]);
     assert!(value(6) < light[nm(560.0)] && value(6) > light[nm(600.0)]);
-    haze.to_end(from, along(60.0, 1.0), &mut light, &mut through)
+    aerial
+        .to_end(from, along(60.0, 1.0), &mut light, &mut through)
         .unwrap();
     close(value(3), light[nm(400.0)]);
     close(value(4), through[nm(400.0)]);
-    let disc = model.sun_disc(&place).unwrap();
+    let disc = model.solar_disc(&place).unwrap();
     disc.radiance(disc.direction(), &mut light).unwrap();
     close(value(5), light[nm(560.0)]);
     for (i, error) in [

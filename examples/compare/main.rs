@@ -21,7 +21,7 @@ use random::{Sequence, p95, sphere};
 use report::Row;
 use texture::Texture;
 use welkin::{
-    BakedColour, BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky,
+    BakedColourSky, BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky,
 };
 
 const QUERIES: usize = 8192;
@@ -58,7 +58,7 @@ struct Scene {
     conditions: Conditions,
     sky: Sky,
     spectral: BakedSky,
-    colour: BakedColour,
+    colour: BakedColourSky,
     directions: Vec<[f32; 3]>,
     components: [Vec<f32>; 3],
 }
@@ -265,7 +265,7 @@ impl Scene {
             ("general_spectral_linear", Interpolation::Linear),
             ("general_spectral_full", Interpolation::Full),
         ] {
-            let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+            let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
             let error = self.error_in(&anywhere, |i, d, out| {
                 general.radiance(&anywhere[i], d, out)
             })?;

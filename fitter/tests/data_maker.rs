@@ -9,7 +9,7 @@ use welkin_fitter::atmosphere::json::Case;
 use welkin_fitter::atmosphere::real;
 use welkin_fitter::dataset::{Sample, WAVELENGTHS, truth};
 use welkin_fitter::judge::judge;
-use welkin_fitter::orders::{Gatherer, LightField, Medium, SUN_RADIUS, Settings, solve};
+use welkin_fitter::orders::{Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve};
 use welkin_fitter::reference::{data_maker, sky};
 
 const VISIBILITY: f64 = 59_400.0;
@@ -26,7 +26,7 @@ fn solved() -> &'static (Medium, LightField) {
     static SOLVED: OnceLock<(Medium, LightField)> = OnceLock::new();
     SOLVED.get_or_init(|| {
         let air = real(VISIBILITY, &WAVELENGTHS).unwrap();
-        let medium = Medium::new(air, SUN_RADIUS).unwrap();
+        let medium = Medium::new(air, SOLAR_ANGULAR_RADIUS).unwrap();
         let light = solve(&medium, COARSE, &|_| ());
         (medium, light)
     })

@@ -1,10 +1,10 @@
 //! Many directions at once.
 
-use super::frame::{Frame, prepared};
-use super::table::{Spots, Table};
+use super::coordinates::{Frame, prepared};
+use super::spline_table::{Spots, Table};
 use crate::error::{Error, Result};
-use crate::lanes::Lanes;
-use crate::simd::{Instructions, Kernel};
+use crate::kernel::lanes::Lanes;
+use crate::kernel::simd::{Instructions, Kernel};
 
 /// Directions as a structure of arrays of equal length. They need not be normalised.
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +144,7 @@ fn unsound(d: [Lanes<WIDTH>; 3]) -> [f32; 3] {
 mod tests {
     use super::super::{Baked, BakedSky};
     use super::*;
-    use crate::simd::{Portable, dispatch};
+    use crate::kernel::simd::{Portable, dispatch};
     use crate::{Conditions, Model};
 
     struct Values(Vec<[f32; 16]>);

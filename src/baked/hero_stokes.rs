@@ -1,19 +1,19 @@
 //! Stokes vectors at a few wavelengths that differ from query to query. Format specification, section 7.5: Q/I and U/I are
 //! interpolated as the logarithm of I is.
 
+use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
+use super::baked_spectral::LANES;
 use super::batch::{Directions, Each, One, Sink, check_length};
-use super::degrees::{self, turned};
-use super::polarised::{ALMOST_WHOLE, BakedPolarisedSky};
-use super::spectral::LANES;
-use super::table::{Spots, Table};
-use super::turn::{Axes, Turn};
+use super::frame_rotation::{Axes, Turn};
+use super::polarisation_table::{self, turned};
+use super::spline_table::{Spots, Table};
 use crate::error::Result;
-use crate::lanes::Lanes;
-use crate::polarisation::{Frame, Stokes};
-use crate::simd::dispatch;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::simd::dispatch;
+use crate::polarisation::{PolarisationFrame, Stokes};
 
 /// Most blocks of wavelengths.
-const BLOCKS: usize = 256usize.div_ceil(degrees::LANES);
+const BLOCKS: usize = 256usize.div_ceil(polarisation_table::LANES);
 
 impl BakedPolarisedSky {
     /// Stokes vectors at four wavelengths (nm) within the range of the model, as [`PolarisedSky::stokes_at`]. The radiance is that
@@ -30,7 +30,7 @@ impl BakedPolarisedSky {
     pub fn hero(
         &self,
         direction: [f32; 3],
-        frame: Frame,
+        frame: PolarisationFrame,
         wavelengths: [f32; 4],
     ) -> Result<[Stokes; 4]> {
         self.sky().check_wavelengths(&[wavelengths])?;
@@ -57,7 +57,7 @@ impl BakedPolarisedSky {
     pub fn hero_batch(
         &self,
         directions: &Directions,
-        frame: Frame,
+        frame: PolarisationFrame,
         wavelengths: &[[f32; 4]],
         out: &mut [[Stokes; 4]],
     ) -> Result<()> {
@@ -125,7 +125,7 @@ impl Heroes<'_> {
         if degrees.blocks == 1 {
             return at(0).map(|ratios| axis.mix(wavelengths, &ratios.0));
         }
-        let mut ratios = [[[0.0; degrees::LANES]; BLOCKS]; 2];
+        let mut ratios = [[[0.0; polarisation_table::LANES]; BLOCKS]; 2];
         for block in 0..degrees.blocks {
             let [q, u] = at(block);
             (ratios[0][block], ratios[1][block]) = (q.0, u.0);

@@ -2,16 +2,17 @@
 
 use zerocopy::little_endian::U16;
 
-use super::chunk::{BasisView, ColumnView, FactorsView, widen};
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
 use super::layout::POLARISATION_PARTS;
 use super::parse::parse;
-use super::polarisation::{PolarisationBasis, PolarisationFactors};
-use super::source::{SourceBasis, SourceBasisView, SourceCore, SourceView};
+use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
+use super::source_function::{SourceBasis, SourceBasisView, SourceCore, SourceView};
+use super::views::{BasisView, ColumnView, FactorsView};
 use super::write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors};
 use crate::error::{Error, Result};
+use crate::kernel::half::widen;
 
 /// Indices of the nodes that [`crop`] keeps, each strictly increasing.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use core::ops::Range;
 use zerocopy::little_endian::{F32, F64, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use super::chunk::{check_length, take};
 use super::crop::narrow;
+use super::views::{check_length, take};
 use super::write::check;
 use crate::error::{Error, Number, Result};
 

@@ -10,8 +10,8 @@ use super::assemble::assemble;
 use super::density::DensityTable;
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
-use super::polarisation::{PolarisationBasis, PolarisationFactors};
-use super::source::{SourceBasis, SourceCore, check_together};
+use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
+use super::source_function::{SourceBasis, SourceCore, check_together};
 use crate::error::{Error, Number, Result};
 use crate::output::replace_file;
 

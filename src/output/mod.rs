@@ -12,7 +12,7 @@
 //! lives. One that a killed process has left behind is removed by the next write of the same target, or by [`sweep`]. With the feature
 //! `signals`, `abandon_on_signals` leaves none behind where a process is asked to end.
 
-mod place;
+mod path_kind;
 #[cfg(all(unix, feature = "signals"))]
 mod signals;
 mod target;
@@ -22,7 +22,7 @@ use std::io;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use place::Place;
+use path_kind::Place;
 use temporary::Temporary;
 
 #[cfg(all(unix, feature = "signals"))]

@@ -12,7 +12,7 @@ pub type Spectrum = [f32; NW];
 /// Highest degree of the spherical harmonics of multiply scattered light.
 pub const DEGREE: usize = 12;
 /// Angular radius of the sun, rad (0.2667°, as in the published model).
-pub const SUN_RADIUS: f64 = 0.004_654_793;
+pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 
 /// Isotropic share of a phase function, per steradian.
 pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;

@@ -16,7 +16,7 @@ pub mod source;
 /// The grid of the moments.
 pub use self::moments as grid;
 pub use gather::{FIELDS, Fields, Gatherer, POLARISED};
-pub use medium::{DEGREE, Medium, NW, PER_SPHERE, SUN_RADIUS, Spectrum, rayleigh_phase};
+pub use medium::{DEGREE, Medium, NW, PER_SPHERE, SOLAR_ANGULAR_RADIUS, Spectrum, rayleigh_phase};
 pub use moments::Moments;
 pub use path::Path;
 pub use solve::{LightField, Settings, solve};

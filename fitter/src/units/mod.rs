@@ -6,7 +6,7 @@ pub use unit::{Kind, Unit};
 
 use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
-use crate::orders::{Gatherer, LightField, Medium, SUN_RADIUS, Settings, solve};
+use crate::orders::{Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve};
 use anyhow::{Context, Result};
 use std::path::Path;
 
@@ -133,7 +133,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
+        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SOLAR_ANGULAR_RADIUS)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;

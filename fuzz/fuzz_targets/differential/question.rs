@@ -13,7 +13,7 @@ pub const QUANTITIES: [&str; 9] = [
     "stokes_at",
     "transmittance",
     "in_scatter",
-    "in_scatter_stokes",
+    "in_scattering_stokes",
 ];
 pub const FIRST_SEGMENT: u32 = 6;
 

@@ -10,7 +10,7 @@ use crate::polarimetry::difference;
 use anyhow::Result;
 use rayon::prelude::*;
 use std::fmt::Write;
-use welkin::{Frame, StokesSpectra};
+use welkin::{PolarisationFrame, StokesSpectra};
 
 /// Errors of the polarisation for one kind of segment, all wavelengths.
 #[derive(Clone, Debug)]
@@ -84,8 +84,8 @@ fn stokes(methods: &Methods, case: &Case) -> Result<Stokes> {
         q: &mut q,
         u: &mut u,
     };
-    let haze = methods.haze(case)?;
-    haze.in_scatter_stokes(from, to, Frame::Vertical, out, &mut through)?;
+    let aerial = methods.aerial(case)?;
+    aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, out, &mut through)?;
     Ok([i, q, u])
 }
 
