@@ -4,7 +4,7 @@ use crate::baked::{check_tolerance, largest_bytes};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
 use crate::model::{Key, Model};
-use crate::point_query::{Chunks, Factors, HeadView, PointQuery};
+use crate::point_query::{Chunks, Factors, PointQuery, checked_head};
 use crate::polarisation::PolarisedPointQuery;
 
 /// What the skies of a scene are asked for.
@@ -128,7 +128,7 @@ impl Model {
     /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`].
     pub fn point_query(&self, plan: &Plan) -> Result<PointQuery<'_>> {
         self.load(plan)?;
-        let head = HeadView::new(self.front())?;
+        let head = checked_head(self.front())?;
         let mut chunks = Chunks::new(&head)?;
         for &i in &plan.chunks {
             let entry = &self.directory()[i];

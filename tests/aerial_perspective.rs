@@ -194,7 +194,7 @@ fn a_uniform_source_saturates() {
 }
 
 #[test]
-fn in_scatter_is_linear_at_first_adds_up_and_is_never_negative() {
+fn in_scattering_is_linear_at_first_adds_up_and_is_never_negative() {
     for elevation in [-4.0, 0.0, 8.0, 60.0] {
         let aerial = aerial(elevation);
         let mut differences = vec![];

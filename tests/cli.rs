@@ -544,7 +544,12 @@ fn the_light_of_the_air_is_computed_by_any_method() {
     // Mostly ground, tens of kilometres away.
     let scene = "--altitude 250 --field-of-view 3 --pitch -1.2";
     let scene: Vec<&str> = scene.split(' ').collect();
-    let picture = |method| landscape(&bench, &[&scene[..], &["--haze", method]].concat());
+    let picture = |method| {
+        landscape(
+            &bench,
+            &[&scene[..], &["--aerial-perspective", method]].concat(),
+        )
+    };
     let source = picture("source");
     assert_eq!(source, landscape(&bench, &scene));
     let mut pictures = vec![source.clone()];
@@ -657,8 +662,14 @@ fn landscapes_and_froxel_volumes_are_written() {
         &["render", "--terrain", "nowhere.png"],
         &["render", "--terrain", "hills", "--spectral"],
         &["render", "--terrain", "hills", "--polariser", "NaN"],
-        &["render", "--terrain", "hills", "--haze", "fog"],
-        &["render", "--haze", "eq2"],
+        &[
+            "render",
+            "--terrain",
+            "hills",
+            "--aerial-perspective",
+            "fog",
+        ],
+        &["render", "--aerial-perspective", "eq2"],
         &["render", "--polariser", "65"],
         &["render", "--terrain", "hills", "--field-of-view", "0"],
         &["render", "--terrain", "hills", "--terrain-height", "-3"],
@@ -671,7 +682,7 @@ fn landscapes_and_froxel_volumes_are_written() {
 fn query_answers_the_polarisation_of_segments() {
     let bench = Bench::new();
     let row = |quantity: &str, nm: f64| format!("{quantity},59.4,0.2,300,10,88,40,20000,{nm}");
-    let quantities = ["in_scatter", "polarisation", "stokes_q", "stokes_u"];
+    let quantities = ["in_scattering", "polarisation", "stokes_q", "stokes_u"];
     let mut rows: Vec<_> = quantities.iter().map(|q| row(q, 560.0)).collect();
     rows.extend([
         row("polarisation", 579.0),
@@ -732,15 +743,15 @@ fn query_answers_finite_distances_and_the_sun() {
     let rows = [
         row("transmittance", 92.0, 40.0, "0", 600.0),
         row("transmittance", 92.0, 40.0, "5000", 600.0),
-        row("in_scatter", 92.0, 40.0, "5000", 600.0),
-        row("in_scatter", 60.0, 40.0, "", 400.0),
+        row("in_scattering", 92.0, 40.0, "5000", 600.0),
+        row("in_scattering", 60.0, 40.0, "", 400.0),
         row("transmittance", 60.0, 40.0, "inf", 400.0),
         row("sun_radiance", 80.0, 0.0, "", 560.0),
-        row("in_scatter", 92.0, 40.0, "5000", 571.0),
-        row("in_scatter", 92.0, 40.0, "-1", 600.0),
+        row("in_scattering", 92.0, 40.0, "5000", 571.0),
+        row("in_scattering", 92.0, 40.0, "-1", 600.0),
         row("transmittance", 92.0, 40.0, "NaN", 600.0),
         row("sun_radiance", 80.0, 0.0, "7", 560.0),
-        row("in_scatter", 92.0, 40.0, "1e12", 600.0),
+        row("in_scattering", 92.0, 40.0, "1e12", 600.0),
         row("transmittance", 92.0, 40.0, "10", 800.0),
     ];
     let output = bench.run(&["query"], &format!("{HEADER}\n{}\n", rows.join("\n")));

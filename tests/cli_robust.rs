@@ -96,7 +96,7 @@ fn answers_about_absurd_files_are_numbers_or_errors() {
         "stokes_q",
         "stokes_u",
         "transmittance",
-        "in_scatter",
+        "in_scattering",
         "sun_radiance",
     ] {
         for (elevation, zenith, nm) in [

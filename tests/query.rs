@@ -14,7 +14,7 @@ const QUANTITIES: [&str; 8] = [
     "stokes_q",
     "stokes_u",
     "transmittance",
-    "in_scatter",
+    "in_scattering",
     "sun_radiance",
 ];
 
@@ -84,7 +84,7 @@ impl Row {
         let radiance = quantity.contains("radiance");
         // An aerial perspective takes long to prepare.
         let endless = match quantity {
-            "transmittance" | "in_scatter" => 0.3,
+            "transmittance" | "in_scattering" => 0.3,
             _ => 0.95,
         };
         let distance = match radiance || random.share() < endless {
@@ -169,7 +169,7 @@ impl Row {
                 disc.radiance(direction, &mut light).unwrap();
                 own(irradiance * over_sun(&mut light))
             }
-            "transmittance" | "in_scatter" => {
+            "transmittance" | "in_scattering" => {
                 let aerial = model.aerial_perspective(&conditions).unwrap();
                 let (mut light, mut through) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
                 let from = [0.0, 0.0, altitude];
@@ -180,7 +180,7 @@ impl Row {
                 }
                 .unwrap();
                 match self.quantity {
-                    "in_scatter" => own(irradiance * over_sun(&mut light)),
+                    "in_scattering" => own(irradiance * over_sun(&mut light)),
                     _ => own(welkin::between_wavelengths(nodes, &through, wavelength).unwrap()),
                 }
             }
@@ -219,7 +219,7 @@ fn random_rows_are_answered_as_by_what_is_prepared_for_them_alone() {
     for quantity in QUANTITIES {
         // An aerial perspective takes twenty times as long to prepare as a sky.
         let count = match quantity {
-            "transmittance" | "in_scatter" => 120,
+            "transmittance" | "in_scattering" => 120,
             "polarisation" | "stokes_q" | "stokes_u" => 500,
             _ => 1500,
         };
@@ -268,7 +268,7 @@ fn rows_that_differ_in_the_wavelength_only_share_no_answer() {
     for nm in [450.0, 650.0] {
         table += &row("radiance", nm);
         table += &row("relative_radiance", nm);
-        table += &row("in_scatter", nm);
+        table += &row("in_scattering", nm);
         table += &row("transmittance", nm);
     }
     let answers: Vec<f32> = answers(&query(&[], table))

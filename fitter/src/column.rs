@@ -184,7 +184,7 @@ fn table_altitudes(top: f64) -> Vec<f64> {
             z if z < 50_000.0 => 250.0,
             _ => 500.0,
         };
-        // Transmittance that is thousands of kilometres high gets no more nodes.
+        // Air that is thousands of kilometres high gets no more nodes.
         z += step.max(top / 8192.0);
         nodes.push(z.min(top));
     }

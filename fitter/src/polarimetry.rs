@@ -2,7 +2,7 @@
 
 use crate::assess::Quantiles;
 use crate::dataset::Sample;
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use anyhow::Result;
 use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 

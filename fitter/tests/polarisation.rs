@@ -7,12 +7,13 @@ use welkin::geometry::Side;
 use welkin::output::Target;
 use welkin::{Conditions, Model, PolarisationFrame, PolarisedSky, Stokes};
 use welkin_fitter::assess::Quantiles;
-use welkin_fitter::build::{Fitting, build};
+use welkin_fitter::build::build;
 use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
-use welkin_fitter::orders::source::Sun;
-use welkin_fitter::orders::{NW, Settings};
+use welkin_fitter::fitting::Fitting;
 use welkin_fitter::polarimetry;
+use welkin_fitter::successive_orders::scattered_source::Sun;
+use welkin_fitter::successive_orders::{NW, Settings};
 use welkin_fitter::units::{HeldOut, Plan};
 
 const CLEAR: f64 = 131_800.0;

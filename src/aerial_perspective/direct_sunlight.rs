@@ -2,7 +2,7 @@
 
 use super::AerialPerspective;
 use super::path_points::{BATCH, Places};
-use super::quadrature_panels::{MOST_PANELS, MOST_PLACES};
+use super::quadrature_limits::{MOST_PANELS, MOST_PLACES};
 use super::sun_transmittance::Two;
 use super::visible_disc::mean_shares;
 use crate::kernel::lanes::Lanes;

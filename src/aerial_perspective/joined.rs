@@ -4,7 +4,8 @@
 //! should vanish in it without a seam: so where hardly any light can come from beyond a segment, the sky takes over.
 
 use super::AerialPerspective;
-use super::segment_integral::{Block, Integral, UNPOLARISED};
+use super::local_scattering::UNPOLARISED;
+use super::segment_integral::{Block, Integral};
 use super::xyz_sum::Colours;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};

@@ -2,11 +2,16 @@
 
 use super::AerialPerspective;
 use super::direct_sunlight::{Pair, Sun};
-use super::segment_integral::POLARISED;
 use super::sun_transmittance::Two;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::transmittance::Amounts;
+
+/// Light alone: the source of molecules and that of particles.
+pub(crate) const UNPOLARISED: usize = 2;
+
+/// And Q and U of what molecules scatter.
+pub(crate) const POLARISED: usize = 4;
 
 /// What is in two panels, for a block of wavelengths.
 pub(crate) struct Air {

@@ -1,4 +1,4 @@
-//! AerialPerspective: the light that the air between two points scatters towards the first. Format specification, section 7.7.
+//! Aerial perspective: the light that the air between two points scatters towards the first. Format specification, section 7.7.
 
 mod aerial_perspective_query;
 mod angular_basis;
@@ -7,6 +7,7 @@ mod joined;
 mod joined_stokes;
 mod local_scattering;
 mod path_points;
+mod quadrature_limits;
 mod quadrature_nodes;
 mod quadrature_panels;
 mod reach;
@@ -33,9 +34,10 @@ use crate::transmittance::{Segment, Transmittance};
 pub use aerial_perspective_query::AerialPerspectiveQuery;
 pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;
+use local_scattering::UNPOLARISED;
 use reach::Reach;
 use scatterers::Species;
-use segment_integral::{Block, Integral, UNPOLARISED};
+use segment_integral::{Block, Integral};
 use source_table::{SourceTable, blocks, ground_factor};
 use sun_transmittance::Beam;
 use xyz_sum::Colours;

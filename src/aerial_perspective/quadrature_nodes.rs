@@ -1,7 +1,7 @@
 //! What can be seen of a segment up to a distance, and how much light is there: roughly, to place panels by.
 
 use super::path_points::BATCH;
-use super::quadrature_panels::MOST_PLACES;
+use super::quadrature_limits::MOST_PLACES;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::{bound, log2, one_minus_exp_neg};
 use crate::transmittance::{Layers, Piece, Segment, dot};

@@ -4,16 +4,12 @@
 //! is roughly there. Panels hold equal shares of it. Their columns are exact; sunlight is known at their ends, and the diffuse source
 //! at a few stations.
 
+use super::quadrature_limits::{MOST_PANELS, MOST_PLACES};
 use super::quadrature_nodes::{Heaven, Marks};
-use super::source_nodes::{MOST_STATIONS, Stations};
+use super::source_nodes::Stations;
 use super::sun_transmittance::Two;
 use crate::kernel::lanes::Lanes;
 use crate::transmittance::{Amounts, Layers, QUADS, Segment};
-
-/// Most panels of a segment; even.
-pub(crate) const MOST_PANELS: usize = 12;
-/// Most places of a segment: ends of panels, and stations.
-pub(crate) const MOST_PLACES: usize = MOST_PANELS + 1 + MOST_STATIONS;
 
 /// The panels of a segment.
 pub(crate) struct Panels {

@@ -7,11 +7,11 @@
 use super::AerialPerspective;
 use super::angular_basis::{Components, MOST_VECTORS, Sightline};
 use super::direct_sunlight::{Beams, Pair, Sun, Sunlight};
-use super::local_scattering::{Air, Scattered, sunlit_beyond};
+use super::local_scattering::{Air, POLARISED, Scattered, sunlit_beyond};
 use super::path_points::{BATCH, Places};
+use super::quadrature_limits::{MOST_PLACES, MOST_STATIONS};
 use super::quadrature_nodes::Heaven;
-use super::quadrature_panels::{MOST_PLACES, Panels};
-use super::source_nodes::MOST_STATIONS;
+use super::quadrature_panels::Panels;
 use super::source_table::Spot;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
@@ -36,11 +36,6 @@ pub(crate) struct Block {
     /// the way; zero unless it is asked for.
     pub beyond: [f32; LANES],
 }
-
-/// Light alone: the source of molecules and that of particles.
-pub(crate) const UNPOLARISED: usize = 2;
-/// And Q and U of what molecules scatter.
-pub(crate) const POLARISED: usize = 4;
 
 /// Hands what the segment does to `emit` block by block; `M` is [`UNPOLARISED`] or [`POLARISED`].
 pub(crate) struct Integral<'a, const M: usize, F> {

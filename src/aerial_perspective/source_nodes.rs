@@ -1,13 +1,10 @@
 //! Where along a segment the diffuse source is looked up.
 
-use super::quadrature_panels::MOST_PANELS;
+use super::quadrature_limits::{MOST_PANELS, MOST_STATIONS};
 use crate::kernel::lanes::Lanes;
 
 /// Two panels, each for a block of wavelengths.
 type Pair = Lanes<8>;
-
-/// Most stations of the diffuse source.
-pub(crate) const MOST_STATIONS: usize = 3;
 
 /// Places where the diffuse source is looked up: nodes of a Gauss-Legendre rule over what is seen.
 pub(crate) struct Stations {

@@ -5,7 +5,8 @@
 
 use super::AerialPerspective;
 use super::joined::sky_weights;
-use super::segment_integral::{Block, Integral, POLARISED};
+use super::local_scattering::POLARISED;
+use super::segment_integral::{Block, Integral};
 use crate::error::Result;
 use crate::kernel::math::{LANES, bound, finite};
 use crate::kernel::simd::dispatch;

@@ -1,6 +1,7 @@
 //! How many nodes a baked sky needs: measured at directions between its nodes.
 
-use super::hemisphere_spline::{Size, Surface, grid};
+use super::hemisphere_spline::{Surface, grid};
+use super::spline_size::Size;
 use super::spline_table::{ENVELOPE, Grid};
 use crate::error::{Error, Result};
 use crate::geometry::Side;

@@ -1,8 +1,9 @@
 //! Where the nodes of baked tables stand, and coefficients from values there.
 
 use super::coordinates::share_at_row;
-use super::hemisphere_spline::{Size, Surface};
+use super::hemisphere_spline::Surface;
 use super::spline::{Start, coefficients};
+use super::spline_size::Size;
 use crate::conditions::direction;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;

@@ -22,6 +22,7 @@ mod irradiance;
 mod polarisation_table;
 mod sampler;
 mod spline;
+mod spline_size;
 mod spline_table;
 
 pub use baked_colour::BakedColourSky;

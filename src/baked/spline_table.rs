@@ -4,8 +4,8 @@
 //! + cubic B-spline over the angle from the sun, which holds what the phase functions do.
 
 use super::coordinates::Points;
-use super::hemisphere_spline::Size;
 use super::spline::{Taps, taps};
+use super::spline_size::Size;
 use crate::kernel::lanes::Lanes;
 
 /// Intervals over the angle from the sun. More of them change nothing that matters.

@@ -16,6 +16,9 @@ pub use views::{BasisView, ColumnView, FactorsView, Payload16};
 cfg_if::cfg_if! {
     if #[cfg(feature = "std")] {
         mod assemble;
+        mod matrix;
+        mod payload_bytes;
+        mod rewrite;
         mod crop;
         mod density;
         mod encoding;
@@ -34,7 +37,7 @@ cfg_if::cfg_if! {
         pub(crate) use source_function::phase_function;
 
         pub use crate::output::replace_file;
-        pub use assemble::{extend, recode};
+        pub use rewrite::{extend, recode};
         pub use crop::{Selection, crop, unpack};
         pub use density::{DensityTable, DensityView, MAX_LAYERS};
         pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};

@@ -1,7 +1,7 @@
 //! Factors of the polarisation (kinds 6 and 7). Format specification, sections 6.6 and 6.7.
 
 use super::layout::Shape;
-use super::write::{check_rank, push_half, push_scale};
+use super::payload_bytes::{check_rank, push_half, push_scale};
 use crate::error::Result;
 
 /// Factors of the polarisation at one altitude and visibility, to be written; unpadded and row-major.

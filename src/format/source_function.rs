@@ -7,10 +7,10 @@ use half::f16;
 use zerocopy::little_endian::{F32, F64, U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use super::crop::{columns, narrow, rows};
 use super::head::PhaseFunction;
+use super::matrix::{columns, narrow, rows};
+use super::payload_bytes::check;
 use super::views::{Payload16, check_length, half_is_finite, take};
-use super::write::{Chunk, Payload, check};
 use crate::error::{Error, Number, Result};
 use crate::kernel::half::widen;
 
@@ -334,28 +334,6 @@ impl From<&SourceView<'_>> for SourceCore {
             core: view.core.iter().map(|&h| view.scale * widen(h)).collect(),
         }
     }
-}
-
-/// What the specification says about all source chunks of a file: they fit their basis, and their species agree.
-pub(super) fn check_together(chunks: &[Chunk], wavelengths: usize) -> Result<()> {
-    let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
-        Payload::SourceBasis(basis) => Some((basis.ranks, basis.sun.len())),
-        _ => None,
-    });
-    let mut cores = chunks.iter().filter_map(|chunk| match &chunk.payload {
-        Payload::Source(core) => Some(core),
-        _ => None,
-    });
-    let Some(first) = cores.clone().next() else {
-        return Ok(());
-    };
-    let shape = |core: &SourceCore| (core.ranks, core.level.len() / (SOURCE_FIELDS * wavelengths));
-    let expected = basis.unwrap_or_else(|| shape(first));
-    if cores.all(|core| shape(core) == expected && core.phase == first.phase) {
-        return Ok(());
-    }
-    let detail = "all need the ranks and suns of the source basis, and the same species";
-    Err(Error::invalid("source chunks", detail))
 }
 
 impl SourceBasis {

@@ -1,7 +1,7 @@
 //! The directory, checked in place. Format specification, section 5.
 
 use super::chunk_table::{MOST_ALTITUDES, MOST_CHUNKS};
-use super::head_rules::require;
+use super::head_counts::require;
 use super::head_view::HeadView;
 use crate::error::Result;
 use crate::format::{

@@ -5,50 +5,22 @@ use core::f64::consts::FRAC_PI_2;
 use zerocopy::little_endian::F64;
 
 use super::chunk_directory;
-use super::head_view::HeadView;
+use super::head_counts::require;
+use super::head_view::{HeadView, Rest};
 use crate::error::{Error, Result};
-use crate::format::{FIELD_GROUND, Header, MAX_TABLE};
+use crate::format::FIELD_GROUND;
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
-/// What stands in a head that no query needs.
-pub(super) struct Rest<'a> {
-    pub xyz: &'a [F64],
-    pub metadata: &'a [u8],
-    pub padding: &'a [u8],
-    pub head_length: u64,
-}
-
-/// Refuses counts beyond their limits, so that no product of them overflows.
-pub(super) fn check_counts(header: &Header) -> Result<()> {
-    let limits = [
-        (header.wavelengths, 2, 256),
-        (header.altitudes, 1, 1024),
-        (header.visibilities, 1, 1024),
-        (header.fields, 1, 16),
-        (header.constituents, 1, 16),
-        (header.alpha_up_intervals, 1, 1024),
-        (header.alpha_down_intervals, 1, 1024),
-        (header.phi_intervals, 1, 1024),
-        (header.elevation_intervals, 1, 1024),
-        (header.solar_samples, 2, 16384),
-    ];
-    let kept = |&(count, least, most): &(zerocopy::little_endian::U16, u16, u16)| {
-        (least..=most).contains(&count.get())
-    };
-    let n = |count: zerocopy::little_endian::U16| u64::from(count.get());
-    let rows = n(header.alpha_up_intervals) + 3 + n(header.alpha_down_intervals) + 3;
-    let channels = n(header.fields) * n(header.wavelengths);
-    let table = rows * (n(header.phi_intervals) + 1) * channels;
-    require(
-        limits.iter().all(kept) && table <= MAX_TABLE as u64,
-        "header",
-        "a count is out of its range",
-    )
+/// The head of a file whose first bytes, up to the end of the head at least, are here.
+pub(crate) fn checked_head(bytes: &[u8]) -> Result<HeadView<'_>> {
+    let (head, rest) = HeadView::parse(bytes)?;
+    check(&head, &rest)?;
+    Ok(head)
 }
 
 /// Everything that can be said about a head whose counts are right.
-pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
+fn check(head: &HeadView, rest: &Rest) -> Result<()> {
     check_axes(head)?;
     check_scalars(head)?;
     check_solar(head)?;
@@ -161,11 +133,4 @@ fn all_within(values: &[F64], range: [f64; 2]) -> bool {
 fn rises(axis: &[F64], scale: impl Fn(f64) -> f64) -> bool {
     let mut pairs = axis.windows(2);
     pairs.all(|pair| scale(pair[0].get()) < scale(pair[1].get()))
-}
-
-pub(super) fn require(holds: bool, what: &'static str, detail: &'static str) -> Result<()> {
-    match holds {
-        true => Ok(()),
-        false => Err(Error::invalid(what, detail)),
-    }
 }

@@ -3,7 +3,7 @@
 use zerocopy::FromBytes;
 use zerocopy::little_endian::{F32, F64, U32};
 
-use super::head_rules::{Rest, check, check_counts};
+use super::head_counts::check_counts;
 use crate::error::{Error, Result};
 use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
 use crate::geometry::Planet;
@@ -34,8 +34,17 @@ pub(crate) struct HeadView<'a> {
     pub directory: &'a [RawEntry],
 }
 
+/// What stands in a head that no query needs.
+pub(super) struct Rest<'a> {
+    pub xyz: &'a [F64],
+    pub metadata: &'a [u8],
+    pub padding: &'a [u8],
+    pub head_length: u64,
+}
+
 impl<'a> HeadView<'a> {
-    pub fn new(bytes: &'a [u8]) -> Result<Self> {
+    /// Takes a head apart after comparing lengths, counts and checksum; its values are not checked yet.
+    pub(super) fn parse(bytes: &'a [u8]) -> Result<(Self, Rest<'a>)> {
         let (header, head) = split(bytes)?;
         check_counts(header)?;
         let n = |count: zerocopy::little_endian::U16| usize::from(count.get());
@@ -103,8 +112,7 @@ impl<'a> HeadView<'a> {
             padding,
             head_length: header.head_length.get(),
         };
-        check(&view, &rest)?;
-        Ok(view)
+        Ok((view, rest))
     }
 
     /// Solar spectral irradiance, W m⁻² nm⁻¹.

@@ -5,6 +5,7 @@ mod chunk_directory;
 mod chunk_table;
 mod contraction;
 mod evaluate;
+mod head_counts;
 mod head_rules;
 mod head_view;
 mod neighbours;
@@ -22,6 +23,7 @@ pub(crate) use chunk_table::Chunks;
 use chunk_table::limit;
 use contraction::{MOST_CHANNELS, MOST_RANK, WIDTH};
 use evaluate::One;
+pub(crate) use head_rules::checked_head;
 pub(crate) use head_view::HeadView;
 use neighbours::Axis;
 pub use neighbours::Interpolation;
@@ -64,7 +66,7 @@ impl<'a> PointQuery<'a> {
     /// Typed errors for a head or a directory that breaks the format specification, [`Error::Limit`] for a model that
     /// is too large, [`Error::Encoding`] for chunks that are compressed.
     pub fn new(bytes: &'a [u8]) -> Result<Self> {
-        let head = HeadView::new(bytes)?;
+        let head = checked_head(bytes)?;
         if head.file_length != bytes.len() as u64 {
             return Err(Error::Length {
                 what: "file (is it truncated?)",

@@ -113,7 +113,9 @@ impl Asker {
             if let Some(air) = self.allowed("air", model.transmittance(conditions.visibility)) {
                 self.air(&air);
             }
-            if let Some(aerial) = self.allowed("haze", model.aerial_perspective(&conditions)) {
+            if let Some(aerial) =
+                self.allowed("aerial perspective", model.aerial_perspective(&conditions))
+            {
                 self.aerial_perspective(&aerial, wavelength);
                 if let (Some(sky), Some(polarised)) = (&sky, &polarised) {
                     self.foreground(&aerial, sky, polarised);

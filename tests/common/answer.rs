@@ -38,7 +38,9 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     let segment = ends(altitude, [x, y, z], distance);
     match quantity {
         "transmittance" => return transmittance(model, visibility, segment).map_err(|e| e.class()),
-        "in_scatter" => return in_scattering(model, &conditions, segment).map_err(|e| e.class()),
+        "in_scattering" => {
+            return in_scattering(model, &conditions, segment).map_err(|e| e.class());
+        }
         "in_scattering_stokes" => {
             return in_scattering_stokes(model, &conditions, segment).map_err(|e| e.class());
         }

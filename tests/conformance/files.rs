@@ -445,7 +445,7 @@ fn unknown_kinds(raw: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Transmittance whose lowest layer is as thin as layers may be.
+/// Air whose lowest layer is as thin as layers may be.
 fn thin_air() -> Vec<u8> {
     let head = small(&[0.0, 900.0], &[25e3, 75e3]);
     let mut table = common::densities();

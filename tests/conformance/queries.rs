@@ -279,7 +279,7 @@ fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
             .powf(farthest * (0.618_034 * i as f64).fract())
             .round(),
     };
-    let asked = ["in_scatter", "in_scattering_stokes"].map(|name| over(name, query, distance));
+    let asked = ["in_scattering", "in_scattering_stokes"].map(|name| over(name, query, distance));
     let query = Query {
         altitude: query.altitude,
         ..clamped(query, &ranges(&case.bytes))
@@ -325,9 +325,9 @@ fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
         return vec![ask("transmittance", &far)];
     }
     vec![
-        ask("in_scatter", &far),
-        ask("in_scatter", &|q| q.albedo = 1.1),
-        ask("in_scatter", &|q| {
+        ask("in_scattering", &far),
+        ask("in_scattering", &|q| q.albedo = 1.1),
+        ask("in_scattering", &|q| {
             q.solar_elevation = ranges.elevation[0] - 0.01
         }),
         ask("in_scattering_stokes", &far),

@@ -6,7 +6,9 @@ pub use unit::{Kind, Unit};
 
 use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
-use crate::orders::{Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve};
+use crate::successive_orders::{
+    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+};
 use anyhow::{Context, Result};
 use std::path::Path;
 
@@ -28,7 +30,7 @@ pub struct Plan {
 pub struct Judging {
     /// Held-out samples per chunk.
     pub samples: usize,
-    /// Relative standard error of the judge.
+    /// Relative standard error of the reference tracer.
     pub target_error: f64,
 }
 
@@ -170,7 +172,7 @@ impl Plan {
         Ok(Sample::from_values(&values))
     }
 
-    /// The atmosphere of a visibility (m) and traced samples for the judge: every direction has two suns of its own.
+    /// The atmosphere of a visibility (m) and traced samples for the reference tracer: every direction has two suns of its own.
     pub fn judged_samples(
         &self,
         work: &Path,

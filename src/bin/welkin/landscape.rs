@@ -41,7 +41,7 @@ pub struct Options {
         requires = "terrain",
         conflicts_with = "polariser"
     )]
-    aerial: Method,
+    aerial_perspective: Method,
 }
 
 /// Width over height of a picture in perspective.
@@ -108,7 +108,7 @@ impl Options {
         };
         let sky = model.sky(&there)?;
         Ok(Some(Landscape {
-            difference: Difference::new(model, &aerial, self.aerial)?,
+            difference: Difference::new(model, &aerial, self.aerial_perspective)?,
             aerial,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),

@@ -1,7 +1,7 @@
 //! Ways to the light of a finite segment.
 
-use super::case::Case;
-use crate::orders::{NW, Spectrum};
+use super::segment_case::Case;
+use crate::successive_orders::{NW, Spectrum};
 use crate::units::Solved;
 use anyhow::Result;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,12 +1,12 @@
 //! How far the polarisation of in-scattered light is from exact integrals.
 
-use super::case::Case;
 use super::method::Methods;
-use super::report::CLASSES;
+use super::quantile_table::CLASSES;
+use super::segment_case::Case;
 use crate::assess::Quantiles;
-use crate::orders::NW;
-use crate::orders::source::Stokes;
 use crate::polarimetry::difference;
+use crate::successive_orders::NW;
+use crate::successive_orders::scattered_source::Stokes;
 use anyhow::Result;
 use rayon::prelude::*;
 use std::fmt::Write;

@@ -28,7 +28,7 @@ impl Quantity {
             b"stokes_q" => Ok(Self::StokesQ),
             b"stokes_u" => Ok(Self::StokesU),
             b"transmittance" => Ok(Self::Transmittance),
-            b"in_scatter" => Ok(Self::InScatter),
+            b"in_scattering" => Ok(Self::InScatter),
             b"sun_radiance" => Ok(Self::SunRadiance),
             other => Err(format!(
                 "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q, stokes_u, transmittance, in_scattering or sun_radiance",

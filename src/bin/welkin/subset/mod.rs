@@ -70,7 +70,7 @@ enum Extra {
 }
 
 impl Extra {
-    /// What needs a chunk, if it is not radiance. AerialPerspective needs the transmittance too.
+    /// What needs a chunk, if it is not radiance. Aerial perspective needs the transmittance too.
     fn of(payload: &Payload) -> Option<Self> {
         match payload {
             Payload::Polarisation(_) | Payload::PolarisationBasis(_) => Some(Self::Polarisation),

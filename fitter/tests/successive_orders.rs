@@ -1,16 +1,18 @@
-//! The noise-free data maker against the unbiased tracer, and the embedded model against both.
+//! The noise-free successive-orders solver against the unbiased tracer, and the embedded model against both.
 //!
-//! The solver runs at a resolution that fits a test; `welkin-fit judge` and `welkin-fit assess` do the same at production resolution.
+//! The solver runs at a resolution that fits a test; `welkin-fit cross-check` and `welkin-fit assess` do the same at production resolution.
 
 use std::sync::OnceLock;
 use welkin::{Conditions, Model};
 use welkin_fitter::assess::{Quantiles, errors, table};
 use welkin_fitter::atmosphere::json::Case;
 use welkin_fitter::atmosphere::real;
+use welkin_fitter::cross_check::cross_check;
 use welkin_fitter::dataset::{Sample, WAVELENGTHS, truth};
-use welkin_fitter::judge::judge;
-use welkin_fitter::orders::{Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve};
-use welkin_fitter::reference::{data_maker, sky};
+use welkin_fitter::reference::{sky, successive_orders};
+use welkin_fitter::successive_orders::{
+    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+};
 
 const VISIBILITY: f64 = 59_400.0;
 const COARSE: Settings = Settings {
@@ -51,8 +53,8 @@ fn the_unbiased_tracer_confirms_the_data() {
         .flat_map(|h| samples(h, [3, 2], h as u64 + 5))
         .filter(|s| s.solar_elevation > (-3f64).to_radians())
         .collect();
-    let differences = judge(&air, &samples, 0.01, &|| ()).unwrap();
-    println!("{}", welkin_fitter::judge::table(&differences));
+    let differences = cross_check(&air, &samples, 0.01, &|| ()).unwrap();
+    println!("{}", welkin_fitter::cross_check::table(&differences));
     let n = differences.len() as f64;
     let bias = differences.iter().map(|d| d.relative).sum::<f64>() / n;
     assert!(n > 60.0 && bias.abs() < 0.006, "{bias}");
@@ -61,7 +63,7 @@ fn the_unbiased_tracer_confirms_the_data() {
     }
 }
 
-/// A defect of 3 % in the data must not pass the judge.
+/// A defect of 3 % in the data must not pass the reference tracer.
 #[test]
 fn the_judge_can_say_no() {
     let air = real(VISIBILITY, &WAVELENGTHS).unwrap();
@@ -69,7 +71,7 @@ fn the_judge_can_say_no() {
     for sample in &mut wrong {
         sample.radiance.iter_mut().for_each(|l| *l *= 1.03);
     }
-    let differences = judge(&air, &wrong, 0.01, &|| ()).unwrap();
+    let differences = cross_check(&air, &wrong, 0.01, &|| ()).unwrap();
     let bias = differences.iter().map(|d| d.relative).sum::<f64>() / differences.len() as f64;
     assert!(bias > 0.02, "{bias}");
 }
@@ -127,13 +129,13 @@ fn no_solar_elevation_stands_out() {
     }
 }
 
-/// The data maker before an outside code: I, Q and U of reference case O2 (Rayleigh, ozone and three aerosols, sun at 20°).
-/// `welkin-fit validate --data-maker` runs all cases at production resolution.
+/// The successive-orders solver before an outside code: I, Q and U of reference case O2 (Rayleigh, ozone and three aerosols, sun at 20°).
+/// `welkin-fit validate --successive-orders` runs all cases at production resolution.
 #[test]
 fn outside_references_confirm_the_data_maker() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/sky_O2.json");
     let case = Case::read(path.as_ref()).unwrap();
-    let results = data_maker::gather(&case, COARSE).unwrap();
+    let results = successive_orders::gather(&case, COARSE).unwrap();
     for verdict in sky::judge(&case, &results, sky::Columns::Path).unwrap() {
         println!("{verdict}");
         let (bias, _) = verdict.bias();

@@ -1,26 +1,11 @@
 //! What walks bring home: sunlight at sampled points, at collisions and on the ground.
 
-use super::line::Line;
 use super::medium::Columns;
+use super::shell_crossings::Line;
+use super::tally::Tally;
 use super::walk::{Path, Walker};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};
-
-/// Sums of Stokes vectors by number of ground bounces.
-pub struct Tally<const N: usize> {
-    /// `sums[bounces][component][wavelength]`.
-    pub sums: Vec<[[f64; N]; 3]>,
-}
-
-impl<const N: usize> Tally<N> {
-    fn add(&mut self, bounces: usize, stokes: &[[f64; N]; 3], factor: &[f64; N]) {
-        for (sum, s) in self.sums[bounces].iter_mut().zip(stokes) {
-            for w in 0..N {
-                sum[w] += s[w] * factor[w];
-            }
-        }
-    }
-}
 
 impl<const N: usize> Walker<'_, N> {
     /// Sunlight scattered towards the walk from one sampled point of its flight.

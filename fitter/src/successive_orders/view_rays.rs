@@ -1,10 +1,10 @@
 //! View rays through a solved light field: the fields that the model stores.
 
-use super::medium::{Medium, NW, Spectrum, henyey_greenstein};
-use super::path::{Path, trace};
-use super::single;
+use super::first_order;
+use super::ray_points::{Path, trace};
+use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
 use super::solve::LightField;
-use super::source::{DARK, SourceTable, Stokes, Sun};
+use super::spectral_medium::{Medium, NW, Spectrum, henyey_greenstein};
 use crate::column::planet;
 use welkin::geometry::{Planet, Side};
 
@@ -119,7 +119,7 @@ impl<'a> Gatherer<'a> {
             for (i, sun) in suns.iter().enumerate() {
                 let local = sun.at(node);
                 if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                    single::add(
+                    first_order::add(
                         &profiles,
                         &t,
                         &node.weight,
@@ -144,7 +144,7 @@ impl<'a> Gatherer<'a> {
         for node in &path.nodes {
             let local = sun.at(node);
             if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                single::add(
+                first_order::add(
                     &self.medium.profiles(node.altitude),
                     &t,
                     &node.weight,
@@ -159,7 +159,7 @@ impl<'a> Gatherer<'a> {
                 table.add(self.medium, &local, &node.weight, out);
             }
         }
-        let mut out = single::stokes(self.medium, &sums, mu, sun);
+        let mut out = first_order::stokes(self.medium, &sums, mu, sun);
         for (s, total) in out.iter_mut().enumerate() {
             for w in 0..NW {
                 let ground = albedo / (1.0 - albedo * self.light.spherical_albedo[w]);
@@ -171,17 +171,17 @@ impl<'a> Gatherer<'a> {
 
     fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
         let [mut multiple, ground] = light;
-        let waso = single::aerosol(self.medium, WASO, sums);
-        let soot = single::aerosol(self.medium, SOOT, sums);
+        let waso = first_order::aerosol(self.medium, WASO, sums);
+        let soot = first_order::aerosol(self.medium, SOOT, sums);
         let shared = henyey_greenstein(&self.asymmetry(WASO), cosine);
         let own = henyey_greenstein(&self.asymmetry(SOOT), cosine);
         for w in 0..NW {
             multiple[0][w] += soot[w] * (own[w] - shared[w]);
         }
         Fields {
-            rayleigh: single::rayleigh(self.medium, sums),
+            rayleigh: first_order::rayleigh(self.medium, sums),
             fine: std::array::from_fn(|w| waso[w] + soot[w]),
-            coarse: single::aerosol(self.medium, INSO, sums),
+            coarse: first_order::aerosol(self.medium, INSO, sums),
             multiple,
             ground,
         }

@@ -1,7 +1,7 @@
 //! Singly scattered sunlight along a ray.
 
-use super::medium::{Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
-use super::source::{DARK, Stokes, Sun};
+use super::scattered_source::{DARK, Stokes, Sun};
+use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
 
 /// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one per constituent.
 pub fn add(profiles: &[f32], sunlight: &Spectrum, weight: &Spectrum, sums: &mut [Spectrum]) {

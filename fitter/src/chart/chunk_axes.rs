@@ -2,7 +2,7 @@
 
 use crate::dataset::{Axis, Grid};
 use crate::decompose::{Chunk, chunk_geometry};
-use crate::orders::{NW, Spectrum};
+use crate::successive_orders::{NW, Spectrum};
 use crate::units::Solved;
 use std::f64::consts::PI;
 use welkin::axis::{Ends, Taps, alpha_coordinate, spline};

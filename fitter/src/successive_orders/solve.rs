@@ -1,13 +1,13 @@
 //! Orders of scattering, one after the other, until what is left is a geometric tail.
 
-use super::medium::{Medium, NW, Spectrum};
+use super::first_order;
 use super::moments::{
     ALTITUDES, COUNT, HARMONICS, Moments, SUNS, TENSOR, altitudes, azimuth_harmonics, order_start,
     polar_harmonics, sun_coordinate, sun_node,
 };
-use super::path::{Path, trace};
-use super::single;
-use super::source::{DARK, SourceTable, Stokes, Sun};
+use super::ray_points::{Path, trace};
+use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
+use super::spectral_medium::{Medium, NW, Spectrum};
 use crate::column::planet;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -260,12 +260,12 @@ impl<'a> Solver<'a> {
             let profiles = self.medium.profiles(node.altitude);
             for (sun, sum) in suns.iter().zip(sums.chunks_exact_mut(parts)) {
                 if let Some(t) = self.medium.sunlight(node.altitude, sun.at(node).mu) {
-                    single::add(&profiles, &t, &node.weight, sum);
+                    first_order::add(&profiles, &t, &node.weight, sum);
                 }
             }
         }
         for ((sun, sum), out) in suns.iter().zip(sums.chunks_exact(parts)).zip(light) {
-            *out = single::stokes(self.medium, sum, direction.mu, sun);
+            *out = first_order::stokes(self.medium, sum, direction.mu, sun);
         }
     }
 

@@ -1,9 +1,9 @@
 //! A fit as it is before its factors are rounded to half precision.
 
+use super::chunk_axes::{Frame, Look, cosine};
 use super::cost::Components;
-use super::frame::{Frame, Look, cosine};
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 
 /// The factors of a chunk in single precision.
 pub struct Single<'a> {

@@ -1,8 +1,8 @@
 //! Light scattered once, and sunlit ground seen directly: deterministic quadrature along the line of sight.
 
+use super::line_of_sight::Sight;
 use super::medium::Medium;
 use super::phase::Aerosol;
-use super::sight::Sight;
 use super::stokes::{Mueller, Scattering};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};

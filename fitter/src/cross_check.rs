@@ -1,8 +1,8 @@
-//! The data maker before its judge: traced data against the unbiased Monte Carlo tracer at held-out points.
+//! The successive-orders solver before the reference tracer: traced data against the unbiased Monte Carlo tracer at held-out points.
 
 use crate::atmosphere::Atmosphere;
 use crate::dataset::Sample;
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use crate::tracer::{Options, Query, Tracer};
 use anyhow::Result;
 use std::f64::consts::FRAC_PI_2;
@@ -15,9 +15,9 @@ pub const SYSTEMATIC: f64 = 1e-3;
 pub struct Difference {
     /// Solar elevation, rad.
     pub solar_elevation: f64,
-    /// (data − judge) / judge.
+    /// (data − tracer) / tracer.
     pub relative: f64,
-    /// Relative standard error of the judge.
+    /// Relative standard error of the reference tracer.
     pub standard_error: f64,
 }
 
@@ -47,8 +47,8 @@ impl Difference {
     }
 }
 
-/// Traces every sample with the judge to the relative standard error `target` and compares.
-pub fn judge(
+/// Traces every sample with the reference tracer to the relative standard error `target` and compares.
+pub fn cross_check(
     atmosphere: &Atmosphere,
     samples: &[Sample],
     target: f64,
@@ -104,8 +104,8 @@ pub struct Summary {
     pub standard_error: f64,
     /// Root mean square of the differences.
     pub rms: f64,
-    /// Root mean square of the judge's own standard errors, the part of `rms` that is not due to the data.
-    pub judge_rms: f64,
+    /// Root mean square of the reference tracer's own standard errors, the part of `rms` that is not due to the data.
+    pub tracer_rms: f64,
     /// Mean of z².
     pub chi2: f64,
     /// Largest |z|.
@@ -126,7 +126,7 @@ impl Summary {
             // The wavelengths of a sample share their walks: count samples, not values.
             standard_error: ((square - mean * mean) / (n / NW as f64)).sqrt(),
             rms: square.sqrt(),
-            judge_rms: mean_of(&|d| d.standard_error.powi(2)).sqrt(),
+            tracer_rms: mean_of(&|d| d.standard_error.powi(2)).sqrt(),
             chi2: mean_of(&|d| d.z().powi(2)),
             worst_z: all.iter().map(|d| d.z().abs()).fold(0.0, f64::max),
         })

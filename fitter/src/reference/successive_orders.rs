@@ -1,11 +1,11 @@
-//! The data maker before outside references: the light field of a reference's atmosphere, gathered along its lines of sight.
+//! The successive-orders solver before outside references: the light field of a reference's atmosphere, gathered along its lines of sight.
 
-use super::case::query;
+use super::traced_lines::query;
 use crate::atmosphere::json::Case;
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::dataset::WAVELENGTHS;
-use crate::orders::source::Sun;
-use crate::orders::{Gatherer, Medium, Settings, solve};
+use crate::successive_orders::scattered_source::Sun;
+use crate::successive_orders::{Gatherer, Medium, Settings, solve};
 use crate::tracer::Radiance;
 use anyhow::{Context, Result, bail};
 use std::f64::consts::FRAC_PI_2;
@@ -54,7 +54,9 @@ fn repeated(air: &Atmosphere) -> Result<Atmosphere> {
             match &mut scatterer.phase {
                 Phase::Rayleigh { depolarisation } => repeat(depolarisation)?,
                 Phase::HenyeyGreenstein { g } => repeat(g)?,
-                Phase::Tabulated(_) => bail!("the data maker knows no tabulated phase functions"),
+                Phase::Tabulated(_) => {
+                    bail!("the successive-orders solver knows no tabulated phase functions")
+                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The line of sight of a query, prepared for sampling its first scattering point.
 
-use super::line::Line;
 use super::medium::{Columns, MAX_CONSTITUENTS, Medium};
+use super::shell_crossings::Line;
 use super::stokes::Frame;
 use glam::DVec3;
 

@@ -5,7 +5,7 @@
 //! local mixture's phase function. Divided by a level per sun and wavelength, both are smooth in every variable.
 
 use super::modes::{Tensor, gram, leading, project};
-use crate::orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
+use crate::successive_orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
 use crate::units::Solved;
 use faer::Mat;
 use grid::{ALTITUDES, COUNT, ORDERS, SUNS, TENSOR};

@@ -1,9 +1,9 @@
 //! Quantiles of the errors of each method, by kind of segment.
 
-use super::case::Case;
 use super::method::{Lights, METHODS, Method};
+use super::segment_case::Case;
 use crate::assess::Quantiles;
-use crate::orders::source::Stokes;
+use crate::successive_orders::scattered_source::Stokes;
 use std::fmt::Write;
 
 /// Errors of one method for one kind of segment.

@@ -1,8 +1,8 @@
 //! Segments under suns, and what exact integrals say about them.
 
-use crate::orders::Gatherer;
-use crate::orders::path::trace;
-use crate::orders::source::{Stokes, Sun};
+use crate::successive_orders::Gatherer;
+use crate::successive_orders::ray_points::trace;
+use crate::successive_orders::scattered_source::{Stokes, Sun};
 use crate::units::Solved;
 use anyhow::{Result, ensure};
 use rand_pcg::Pcg64Mcg;
@@ -26,7 +26,7 @@ pub struct Case {
     pub albedo: f64,
 }
 
-/// Length of the segments of the exact integral, relative to the finest of the data maker.
+/// Length of the segments of the exact integral, relative to the finest of the successive-orders solver.
 const FINENESS: f64 = 0.5;
 
 impl Case {

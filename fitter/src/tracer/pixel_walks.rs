@@ -2,34 +2,13 @@
 
 use super::disc::Disc;
 use super::engine::Lanes;
-use super::gather::Tally;
 use super::random::{Lattice, Stream};
 use super::segment::{Scene, Segment};
-use super::solids::Solids;
 use super::stokes::{Frame, Mueller};
+use super::tally::Tally;
+use super::view::{Pixel, View};
 use super::walk::{Numbers, Path, Walker};
 use glam::DVec3;
-
-/// A camera in front of a scene.
-pub struct View<'a> {
-    /// Altitude of the camera, m.
-    pub altitude: f64,
-    /// Elevation of the sun above the camera's horizontal plane, radians.
-    pub sun_elevation: f64,
-    /// Azimuth of the sun, counter-clockwise from x, radians.
-    pub sun_azimuth: f64,
-    /// What stands on the ground, and the ground itself.
-    pub solids: &'a dyn Solids,
-}
-
-/// A pixel's radiance per unit solar irradiance (sr⁻¹), per wavelength.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pixel {
-    /// Means over the samples.
-    pub radiance: Vec<f64>,
-    /// Their standard errors; samples are spread evenly, so these are rather too large.
-    pub error: Vec<f64>,
-}
 
 impl<const N: usize> Lanes<N> {
     /// The mean over `samples` walks in directions that `direction` makes of two numbers in 0..1.
@@ -98,6 +77,7 @@ impl<const N: usize> Lanes<N> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::solids::Solids;
     use super::super::solids::{Hit, Reflectance};
     use super::super::test_atmosphere::conservative;
     use super::super::walk::Light;

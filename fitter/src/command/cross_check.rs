@@ -1,9 +1,9 @@
-//! `welkin-fit judge`: the traced data before the unbiased tracer.
+//! `welkin-fit cross-check`: the traced data before the unbiased tracer.
 
 use anyhow::Result;
 use indicatif::ProgressBar;
 use std::path::PathBuf;
-use welkin_fitter::judge::{judge, table};
+use welkin_fitter::cross_check::{cross_check, table};
 use welkin_fitter::units::Plan;
 
 /// Compares traced data with the unbiased tracer at random points of an atmosphere.
@@ -18,7 +18,7 @@ pub struct Args {
     /// View directions per altitude, each under two suns.
     #[arg(long, default_value_t = 8)]
     directions: usize,
-    /// Relative standard error of the judge.
+    /// Relative standard error of the reference tracer.
     #[arg(long, default_value_t = 0.005)]
     target_error: f64,
     /// Folder for finished work units.
@@ -32,7 +32,7 @@ pub fn run(args: &Args) -> Result<()> {
     let (air, samples) =
         Plan::default().judged_samples(&args.work, visibility, &args.altitudes, args.directions)?;
     let progress = ProgressBar::new(samples.len() as u64).with_message("judging");
-    let differences = judge(&air, &samples, args.target_error, &|| progress.inc(1))?;
+    let differences = cross_check(&air, &samples, args.target_error, &|| progress.inc(1))?;
     progress.finish();
     println!(
         "visibility {} km, {} samples\n{}",

@@ -1,7 +1,7 @@
 //! The points along a view ray at which the source function is sampled.
 
-use super::medium::{Medium, NW, Spectrum};
 use super::moments::HIGHEST;
+use super::spectral_medium::{Medium, NW, Spectrum};
 use crate::column::ColumnIntegrator;
 
 /// A quadrature node on a ray.
