@@ -2,7 +2,7 @@
 
 mod common;
 #[allow(dead_code)]
-#[path = "../examples/compare/random.rs"]
+#[path = "../tools/src/random.rs"]
 mod random;
 
 use proptest::prelude::*;
@@ -14,13 +14,16 @@ fn differences(interpolation: Interpolation) -> [f64; 3] {
     let general = PointQuery::new(welkin::DEFAULT_MODEL)
         .unwrap()
         .with_interpolation(interpolation);
-    let (mut places, mut views) = (random::Sequence::<4>::new(), random::Sequence::<2>::new());
+    let (mut places, mut views) = (
+        random::Sequence::<4>::default(),
+        random::Sequence::<2>::default(),
+    );
     let mut differences = Vec::new();
     for _ in 0..400 {
-        let conditions = random::conditions(&model, places.next());
+        let conditions = random::conditions(&model, places.draw());
         let sky = model.sky(&conditions).unwrap();
         for _ in 0..4 {
-            let direction = random::sphere(views.next());
+            let direction = random::sphere(views.draw());
             let [mut got, mut expected] = [[0.0; 12]; 2];
             general.radiance(&conditions, direction, &mut got).unwrap();
             sky.radiance(direction, &mut expected).unwrap();

@@ -1,7 +1,7 @@
 //! Models that are read in pieces: the same skies from the head and the chunks of the scene, and nothing else.
 
 mod common;
-#[path = "../examples/stream/http_file.rs"]
+#[path = "../tools/src/http_file.rs"]
 mod http_file;
 
 use std::io;

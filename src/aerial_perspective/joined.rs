@@ -18,7 +18,7 @@ use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 /// The share of light from beyond a segment below which the sky begins to take over.
 const REST: f32 = 0.04;
 
-/// The air between an observer and things before the observer's sky; see [`AerialPerspective::before`].
+/// The air between an observer and things before the observer's sky; see [`AerialPerspective::joined_to`].
 ///
 /// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that of
 /// [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air, be it before the sky or
@@ -88,7 +88,7 @@ impl JoinedAerialPerspective<'_> {
         self.in_scattering_batch(&[to], in_scattering, transmittance)
     }
 
-    /// As [`AerialPerspective::aerial_perspective`] from the observer.
+    /// As [`AerialPerspective::in_scattering_batch`] from the observer.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering`]. What precedes a bad point is written.

@@ -12,10 +12,10 @@ pub struct JoinedPolarisedAerialPerspective<'a> {
 }
 
 impl AerialPerspective {
-    /// As [`AerialPerspective::before`], for Stokes vectors.
+    /// As [`AerialPerspective::joined_to`], for Stokes vectors.
     ///
     /// # Errors
-    /// As [`AerialPerspective::before`].
+    /// As [`AerialPerspective::joined_to`].
     pub fn joined_to_polarised<'a>(
         &'a self,
         sky: &'a PolarisedSky,

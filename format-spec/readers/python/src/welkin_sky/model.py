@@ -49,7 +49,7 @@ def _read(path, in_memory):
 
 
 class Model:
-    """A model of the clear sky. Made by `welkin.open` or `welkin.from_bytes`."""
+    """A model of the clear sky. Made by `welkin_sky.open` or `welkin_sky.from_bytes`."""
 
     def __init__(self, source, recipe=None):
         self._recipe = recipe

@@ -5,10 +5,10 @@ use std::hint::black_box;
 use welkin::{AerialPerspective, Conditions, Result};
 
 use crate::clock;
-use crate::paper::Paper;
-use crate::random::Sequence;
 use crate::report::Row;
 use crate::{QUERIES, SLOW, Scene, cell, span, unwrapped};
+use welkin_tools::paper::Paper;
+use welkin_tools::random::Sequence;
 
 /// Segments of one round.
 const ROUND: usize = 128;
@@ -136,9 +136,9 @@ fn low_sun(scene: &Scene, day: &AerialPerspective, segments: &[Ends]) -> Result<
 
 /// Up to 100 km long, all between 0 and 14 km.
 fn segments() -> Vec<Ends> {
-    let mut sequence = Sequence::<4>::new();
+    let mut sequence = Sequence::<4>::default();
     let mut segment = || {
-        let [a, b, c, d] = sequence.next();
+        let [a, b, c, d] = sequence.draw();
         [[0.0, 0.0, 14e3 * a], [1e5 * b, 3e4 * c, 14e3 * d]]
     };
     (0..QUERIES).map(|_| segment()).collect()

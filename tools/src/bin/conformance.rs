@@ -2,7 +2,7 @@
 //!
 //! The contract is `format-spec/conformance/README.md`.
 
-#[path = "../tests/common/answer.rs"]
+#[path = "../../../tests/common/answer.rs"]
 mod answer;
 
 use std::io::{self, BufRead, Write};

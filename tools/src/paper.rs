@@ -14,9 +14,13 @@ const COPIES: usize = 128;
 
 /// The two nodes around conditions, per parameter.
 pub struct Cell {
+    /// m.
     pub visibility: [f64; 2],
+    /// Of the ground.
     pub albedo: [f64; 2],
+    /// Of the observer, m.
     pub altitude: [f64; 2],
+    /// Of the sun, radians.
     pub elevation: [f64; 2],
 }
 
@@ -78,6 +82,7 @@ impl Breaks {
     }
 }
 
+/// The tables of one cell, as often as a grid would hold such.
 pub struct Paper {
     cell: Cell,
     wavelengths: usize,
@@ -88,6 +93,7 @@ pub struct Paper {
 }
 
 impl Paper {
+    /// Decomposes the skies at the corners of the cell.
     pub fn fit(model: &Model, cell: Cell) -> welkin::Result<Self> {
         let mut paper = Self {
             cell,
@@ -104,6 +110,7 @@ impl Paper {
         Ok(paper)
     }
 
+    /// Memory of all copies.
     pub fn bytes(&self) -> usize {
         size_of_val(self.tables.as_slice())
     }

@@ -9,10 +9,12 @@ pub struct Texture<const N: usize> {
 }
 
 impl<const N: usize> Texture<N> {
+    /// 512 x 256 pixels.
     pub fn new(sky: &Sky, pixel: impl Fn(&Sky, [f32; 3]) -> [f32; N]) -> Self {
         Self::with_height(sky, 256, pixel)
     }
 
+    /// What `pixel` says for the direction of each.
     pub fn with_height(
         sky: &Sky,
         height: usize,
@@ -33,10 +35,12 @@ impl<const N: usize> Texture<N> {
         }
     }
 
+    /// Memory of the pixels.
     pub fn bytes(&self) -> usize {
         size_of_val(self.pixels.as_slice())
     }
 
+    /// The pixel nearest to a direction.
     pub fn at(&self, [x, y, z]: [f32; 3]) -> [f32; N] {
         let (width, height) = (2 * self.height, self.height);
         let azimuth = y.atan2(x) * std::f32::consts::FRAC_1_PI * 0.5;

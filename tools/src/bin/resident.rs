@@ -1,4 +1,4 @@
-//! Memory that a process holds: `cargo run --release --example resident -- MODEL [LOW HIGH]` evaluates one sky on the
+//! Memory that a process holds: `cargo run --release -p welkin-tools --bin resident -- MODEL [LOW HIGH]` evaluates one sky on the
 //! ground, or skies at altitudes between two (m), and prints what that added to an empty process (Linux).
 
 use std::hint::black_box;

@@ -1,28 +1,25 @@
 //! Times and errors next to those of others, on the same directions in the same run.
 //!
-//! `cargo run --release --example compare` prints a table, `-- --json` the same as JSON. Times are medians per query
+//! `cargo run --release -p welkin-tools --bin compare` prints a table, `-- --json` the same as JSON. Times are medians per query
 //! on one core; errors are 95th percentiles of relative differences from [`welkin::Sky`] (peers: from what they stand
 //! for). Only ratios mean something on another machine.
 
 mod clock;
 mod finite;
-mod paper;
 mod polarised;
-mod random;
 mod report;
-mod texture;
 
 use std::hint::black_box;
 use std::ops::Range;
 
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
-use paper::{Cell, Paper};
-use random::{Sequence, p95, sphere};
 use report::Row;
-use texture::Texture;
 use welkin::{
     BakedColourSky, BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky,
 };
+use welkin_tools::paper::{Cell, Paper};
+use welkin_tools::random::{self, Sequence, p95, sphere};
+use welkin_tools::texture::Texture;
 
 const QUERIES: usize = 8192;
 /// Queries of one round: of prepared skies, of the paper's scheme, of the whole model.
@@ -78,8 +75,8 @@ impl Scene {
         let model = Model::default_model()?;
         let conditions = cell().inside([0.5; 4]);
         let sky = model.sky(&conditions)?;
-        let mut sequence = Sequence::<2>::new();
-        let directions: Vec<_> = (0..QUERIES).map(|_| sphere(sequence.next())).collect();
+        let mut sequence = Sequence::<2>::default();
+        let directions: Vec<_> = (0..QUERIES).map(|_| sphere(sequence.draw())).collect();
         Ok(Self {
             components: [0, 1, 2].map(|i| directions.iter().map(|d| d[i]).collect()),
             spectral: sky.bake(BakedSky::TOLERANCE)?,
@@ -248,8 +245,8 @@ impl Scene {
     /// Everything random: ours anywhere in the model, the paper's scheme in copies of one cell of its grid.
     fn general(&self) -> Result<Vec<Row>> {
         let paper = Paper::fit(&self.model, cell())?;
-        let mut sequence = Sequence::<4>::new();
-        let places: Vec<_> = (0..QUERIES).map(|_| sequence.next()).collect();
+        let mut sequence = Sequence::<4>::default();
+        let places: Vec<_> = (0..QUERIES).map(|_| sequence.draw()).collect();
         let anywhere: Vec<_> = places
             .iter()
             .map(|&p| random::conditions(&self.model, p))
@@ -396,10 +393,10 @@ impl Scene {
     /// Four wavelengths per direction: one at random and three that divide the range with it.
     pub fn heroes(&self) -> Vec<[f32; 4]> {
         let [low, high] = self.model.wavelength_range();
-        let mut sequence = Sequence::<1>::new();
+        let mut sequence = Sequence::<1>::default();
         let place = |t: f64, k: usize| low + (high - low) * (t + 0.25 * k as f64).fract();
         let four = |t: f64| std::array::from_fn(|k| place(t, k) as f32);
-        (0..QUERIES).map(|_| four(sequence.next()[0])).collect()
+        (0..QUERIES).map(|_| four(sequence.draw()[0])).collect()
     }
 
     fn hero_error(&self, wavelengths: &[[f32; 4]], got: &[[f32; 4]]) -> Result<f64> {

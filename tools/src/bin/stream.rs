@@ -1,15 +1,14 @@
 //! What scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
 
-mod http_file;
-#[path = "../../tests/common/server.rs"]
+#[path = "../../../tests/common/server.rs"]
 #[allow(dead_code, reason = "tests need more of it")]
 mod server;
 
 use std::time::Duration;
 
-use http_file::HttpFile;
 use server::Server;
 use welkin::{Conditions, DEFAULT_MODEL, Model, Result, Traffic};
+use welkin_tools::http_file::HttpFile;
 
 fn main() -> Result<()> {
     let server = Server::start(DEFAULT_MODEL.to_vec());

@@ -1,22 +1,12 @@
-//! The same questions to this library and to others, in one run: `cargo bench --bench peers`.
-
-#[allow(dead_code)]
-#[path = "../examples/compare/paper.rs"]
-mod paper;
-#[allow(dead_code)]
-#[path = "../examples/compare/random.rs"]
-mod random;
-#[allow(dead_code)]
-#[path = "../examples/compare/texture.rs"]
-mod texture;
+//! The same questions to this library and to others, in one run: `cargo bench -p welkin-tools`.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
-use paper::{Cell, Paper};
-use random::{Sequence, sphere};
 use std::hint::black_box;
-use texture::Texture;
 use welkin::{BakedSky, Conditions, Interpolation, Model, PointQuery, Sky};
+use welkin_tools::paper::{Cell, Paper};
+use welkin_tools::random::{self, Sequence, sphere};
+use welkin_tools::texture::Texture;
 
 const QUERIES: usize = 4096;
 
@@ -31,9 +21,9 @@ fn cell() -> Cell {
 
 /// Directions and, for each, a place among the conditions.
 fn queries() -> Vec<([f32; 3], [f64; 4])> {
-    let (mut views, mut places) = (Sequence::<2>::new(), Sequence::<4>::new());
+    let (mut views, mut places) = (Sequence::<2>::default(), Sequence::<4>::default());
     (0..QUERIES)
-        .map(|_| (sphere(views.next()), places.next()))
+        .map(|_| (sphere(views.draw()), places.draw()))
         .collect()
 }
 

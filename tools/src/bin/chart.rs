@@ -1,19 +1,15 @@
-//! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release --example chart`
+//! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release -p welkin-tools --bin chart`
 //! writes `docs/settings.csv` and `docs/settings.svg`.
 //!
 //! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of point queries over
 //! the whole model; times are the least of many repetitions.
 
-#[allow(dead_code)]
-#[path = "compare/random.rs"]
-mod random;
-
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
-use random::{Sequence, p95, sphere};
 use welkin::{BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky};
+use welkin_tools::random::{self, Sequence, p95, sphere};
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
 const QUERIES: usize = 1024;
@@ -127,12 +123,12 @@ fn exact(sky: &Sky) -> Point {
 /// Queries anywhere in the model without preparation.
 fn general(model: &Model, name: &'static str, interpolation: Interpolation) -> Result<Point> {
     let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
-    let (mut places, mut views) = (Sequence::<4>::new(), Sequence::<2>::new());
+    let (mut places, mut views) = (Sequence::<4>::default(), Sequence::<2>::default());
     let queries: Vec<_> = (0..QUERIES)
         .map(|_| {
             (
-                random::conditions(model, places.next()),
-                sphere(views.next()),
+                random::conditions(model, places.draw()),
+                sphere(views.draw()),
             )
         })
         .collect();

@@ -8,8 +8,8 @@ pub struct Sequence<const N: usize> {
     step: [f64; N],
 }
 
-impl<const N: usize> Sequence<N> {
-    pub fn new() -> Self {
+impl<const N: usize> Default for Sequence<N> {
+    fn default() -> Self {
         // The root of x^(N+1) = x + 1.
         let root = (0..64).fold(1.5f64, |x, _| (1.0 + x).powf(1.0 / (N as f64 + 1.0)));
         let step = std::array::from_fn(|i| root.powi(-(i as i32) - 1));
@@ -18,8 +18,11 @@ impl<const N: usize> Sequence<N> {
             step,
         }
     }
+}
 
-    pub fn next(&mut self) -> [f64; N] {
+impl<const N: usize> Sequence<N> {
+    /// The next of them.
+    pub fn draw(&mut self) -> [f64; N] {
         for (state, step) in self.state.iter_mut().zip(self.step) {
             *state = (*state + step).fract();
         }
