@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::source_expansion::{Expansion, Fill, Scratch};
 use super::source_table::{ground_factor, overflow, reach, sun_nodes};
 use super::sun_transmittance::NODES;
-use super::{AerialPerspective, Species, sun_direction};
+use super::{AerialPerspective, Scatterers, sun_direction};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::visibility_node;
@@ -168,7 +168,7 @@ impl AerialPerspectiveQuery<'_> {
             .map(|(v, weight)| (sources[v], weight))
             .collect();
         let aerial = &mut self.aerial;
-        aerial.species = Species::new(head, around.into_iter());
+        aerial.species = Scatterers::new(head, around.into_iter());
         aerial.air.extinction = Extinction::new(head, visibility);
         aerial.grey = aerial.air.grey();
         aerial.beam.turn(&aerial.air.planet(), solar_elevation);

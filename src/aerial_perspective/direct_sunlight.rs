@@ -1,8 +1,8 @@
 //! Sunlight along a segment, at the ends of its panels and between them.
 
 use super::AerialPerspective;
-use super::path_points::{BATCH, Places};
-use super::quadrature_limits::{MOST_PANELS, MOST_PLACES};
+use super::path_points::{BATCH, PathPoints};
+use super::quadrature_limits::{MOST_PANELS, MOST_PATH_POINTS};
 use super::sun_transmittance::Two;
 use super::visible_disc::mean_shares;
 use crate::kernel::lanes::Lanes;
@@ -25,14 +25,14 @@ pub(crate) struct Sunlight {
 
 impl Sunlight {
     #[inline(always)]
-    pub fn new(aerial: &AerialPerspective, places: &[Places], panels: usize) -> Self {
+    pub fn new(aerial: &AerialPerspective, places: &[PathPoints], panels: usize) -> Self {
         const PAIRS: usize = BATCH / 2;
         let mut out = Self {
             columns: [[Pair::splat(0.0); QUADS]; MOST_PANELS / 2 + 1],
             shares: [Pair::splat(0.0); MOST_PANELS / 2],
         };
         let pairs = (panels + 1).div_ceil(2);
-        let [mut rise, mut altitude] = [[0.0; MOST_PLACES + BATCH]; 2];
+        let [mut rise, mut altitude] = [[0.0; MOST_PATH_POINTS + BATCH]; 2];
         for (i, columns) in out.columns.chunks_mut(PAIRS).enumerate() {
             let pairs = pairs.saturating_sub(i * PAIRS);
             if pairs > 0 {
@@ -59,12 +59,12 @@ impl Sunlight {
 
 /// Sunlight at two ends of panels, for a block of wavelengths.
 #[derive(Clone, Copy)]
-pub(crate) struct Beams {
+pub(crate) struct DirectSunlight {
     depth: Pair,
     through: Pair,
 }
 
-impl Beams {
+impl DirectSunlight {
     #[inline(always)]
     pub fn new(aerial: &AerialPerspective, block: usize, columns: &Two) -> Self {
         let mut depth = Pair::splat(0.0);
@@ -93,8 +93,8 @@ impl Beams {
 
 /// Sunlight at the ends of two panels.
 pub(crate) struct Sun {
-    pub start: Beams,
-    pub end: Beams,
+    pub start: DirectSunlight,
+    pub end: DirectSunlight,
     /// Mean share of the disc that is visible.
     pub share: Pair,
 }

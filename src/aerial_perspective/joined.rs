@@ -6,7 +6,7 @@
 use super::AerialPerspective;
 use super::local_scattering::UNPOLARISED;
 use super::segment_integral::{Block, Integral};
-use super::xyz_sum::Colours;
+use super::xyz_sum::XyzSum;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::kernel::math::LANES;
@@ -118,7 +118,7 @@ impl JoinedAerialPerspective<'_> {
     /// # Errors
     /// As [`AerialPerspective::xyz`].
     pub fn xyz(&self, to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
-        let mut colours = Colours::default();
+        let mut colours = XyzSum::default();
         self.integrate(to, |block, result| {
             colours.add(&self.aerial.xyz[block], &result);
         })?;

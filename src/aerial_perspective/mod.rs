@@ -5,10 +5,10 @@ mod angular_basis;
 mod direct_sunlight;
 mod joined;
 mod joined_stokes;
+mod light_estimate;
 mod local_scattering;
 mod path_points;
 mod quadrature_limits;
-mod quadrature_nodes;
 mod quadrature_panels;
 mod reach;
 mod scatterers;
@@ -36,11 +36,11 @@ pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;
 use local_scattering::UNPOLARISED;
 use reach::Reach;
-use scatterers::Species;
+use scatterers::Scatterers;
 use segment_integral::{Block, Integral};
 use source_table::{SourceTable, blocks, ground_factor};
 use sun_transmittance::Beam;
-use xyz_sum::Colours;
+use xyz_sum::XyzSum;
 
 /// Transmittance and in-scattered light of finite segments: aerial perspective.
 ///
@@ -64,7 +64,7 @@ pub struct AerialPerspective {
     conditions: Conditions,
     air: Transmittance,
     sun: [f64; 3],
-    species: Species,
+    species: Scatterers,
     source: SourceTable,
     beam: Beam,
     reach: Reach,
@@ -102,7 +102,7 @@ impl Model {
         let (elevation, azimuth) = (conditions.solar_elevation, conditions.solar_azimuth);
         Ok(AerialPerspective {
             source: SourceTable::new(self, conditions.visibility, elevation, &ground)?,
-            species: Species::new(head, around.into_iter()),
+            species: Scatterers::new(head, around.into_iter()),
             sun: sun_direction(elevation, azimuth),
             beam: Beam::new(&air.layers, elevation),
             reach: Reach::new(&head.planet),
@@ -232,7 +232,7 @@ impl AerialPerspective {
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`AerialPerspective::reach`].
     pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
         let segment = self.segment(from, to)?;
-        let mut colours = Colours::default();
+        let mut colours = XyzSum::default();
         self.integrate(&segment, |block, result| {
             colours.add(&self.xyz[block], &result);
         });

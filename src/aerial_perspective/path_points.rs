@@ -9,7 +9,7 @@ pub(crate) const BATCH: usize = 8;
 
 /// Points of a segment.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Places {
+pub(crate) struct PathPoints {
     /// m.
     pub altitude: Lanes<BATCH>,
     /// Cosine and sine of the zenith angle of the segment there.
@@ -19,7 +19,7 @@ pub(crate) struct Places {
     pub sun: Lanes<BATCH>,
 }
 
-impl Default for Places {
+impl Default for PathPoints {
     fn default() -> Self {
         let [altitude, zenith, slope, sun] = [Lanes::splat(0.0); 4];
         Self {
@@ -31,7 +31,7 @@ impl Default for Places {
     }
 }
 
-impl Places {
+impl PathPoints {
     /// At these distances from the tangent point (m), which is `nearest` to the planet's centre; `sun` is the unit vector towards it.
     #[inline(always)]
     pub fn new(

@@ -4,9 +4,9 @@
 //! is roughly there. Panels hold equal shares of it. Their columns are exact; sunlight is known at their ends, and the diffuse source
 //! at a few stations.
 
-use super::quadrature_limits::{MOST_PANELS, MOST_PLACES};
-use super::quadrature_nodes::{Heaven, Marks};
-use super::source_nodes::Stations;
+use super::light_estimate::{CumulativeLight, SunEstimate};
+use super::quadrature_limits::{MOST_PANELS, MOST_PATH_POINTS};
+use super::source_nodes::SourceNodes;
 use super::sun_transmittance::Two;
 use crate::kernel::lanes::Lanes;
 use crate::transmittance::{Amounts, Layers, QUADS, Segment};
@@ -15,21 +15,21 @@ use crate::transmittance::{Amounts, Layers, QUADS, Segment};
 pub(crate) struct Panels {
     pub count: usize,
     /// Distances from the tangent point, m: of the ends, then of the stations, then that of the last end.
-    pub places: [f64; MOST_PLACES],
+    pub places: [f64; MOST_PATH_POINTS],
     /// Columns in each panel, m; two panels at a time.
     pub columns: [Two; MOST_PANELS / 2],
-    pub stations: &'static Stations,
+    pub stations: &'static SourceNodes,
 }
 
 impl Panels {
     #[inline(always)]
-    pub fn place(layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &Heaven) -> Self {
+    pub fn place(layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &SunEstimate) -> Self {
         let count = count(layers, segment, sky);
-        let stations = Stations::of(count);
+        let stations = SourceNodes::of(count);
         let (from, to) = (segment.from, segment.to());
         let mut out = Self {
             count,
-            places: [to; MOST_PLACES],
+            places: [to; MOST_PATH_POINTS],
             columns: [[Lanes::splat(0.0); QUADS]; MOST_PANELS / 2],
             stations,
         };
@@ -37,14 +37,14 @@ impl Panels {
         if count == 1 {
             out.places[2] = from + 0.5 * segment.length;
         } else {
-            let mut shares = [1.0; MOST_PLACES];
+            let mut shares = [1.0; MOST_PATH_POINTS];
             for (i, share) in shares[..count].iter_mut().enumerate() {
                 *share = i as f32 / count as f32;
             }
             let stations = stations.shares;
             shares[count + 1..][..stations.len()].copy_from_slice(stations);
             let places = count + 1 + stations.len();
-            let mut marks = Marks::default();
+            let mut marks = CumulativeLight::default();
             marks.fill(layers, segment, grey, sky);
             marks.distances(&shares[..places], &mut out.places);
             out.places[0] = from;
@@ -65,7 +65,7 @@ impl Panels {
 
 /// How many panels a segment needs. Light changes with altitude above all; near the shadow of the planet it changes
 /// along level lines, too.
-fn count(layers: &Layers, segment: &Segment, sky: &Heaven) -> usize {
+fn count(layers: &Layers, segment: &Segment, sky: &SunEstimate) -> usize {
     let diameter = 2.0 * layers.planet().radius;
     let squared = |s: f64| s * s / diameter;
     let rise = (squared(segment.from) - squared(segment.to())).abs();

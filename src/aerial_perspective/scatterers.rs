@@ -48,7 +48,7 @@ fn scatters(row: &[[f32; LANES]]) -> bool {
 
 /// All scatterers at one visibility.
 #[derive(Clone, Debug)]
-pub(crate) struct Species {
+pub(crate) struct Scatterers {
     blocks: usize,
     scatterers: Vec<Scatterer>,
     /// Sums over molecules and over particles, `[constituent][block]`.
@@ -57,7 +57,7 @@ pub(crate) struct Species {
     present: [Vec<bool>; 2],
 }
 
-impl Species {
+impl Scatterers {
     /// From the sources around a visibility with their weights (linear in 1/V).
     pub fn new<'a>(
         head: &Head,

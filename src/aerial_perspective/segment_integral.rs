@@ -6,11 +6,11 @@
 
 use super::AerialPerspective;
 use super::angular_basis::{Components, MOST_VECTORS, Sightline};
-use super::direct_sunlight::{Beams, Pair, Sun, Sunlight};
+use super::direct_sunlight::{DirectSunlight, Pair, Sun, Sunlight};
+use super::light_estimate::SunEstimate;
 use super::local_scattering::{Air, POLARISED, Scattered, sunlit_beyond};
-use super::path_points::{BATCH, Places};
-use super::quadrature_limits::{MOST_PLACES, MOST_STATIONS};
-use super::quadrature_nodes::Heaven;
+use super::path_points::{BATCH, PathPoints};
+use super::quadrature_limits::{MOST_PATH_POINTS, MOST_SOURCE_NODES};
 use super::quadrature_panels::Panels;
 use super::source_table::Spot;
 use crate::kernel::lanes::Lanes;
@@ -59,7 +59,7 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
         let pairs = panels.count.div_ceil(2);
         let stations = panels.stations;
         let sunlight = Sunlight::new(aerial, &places, panels.count);
-        let mut views = [View::<M>::default(); MOST_STATIONS];
+        let mut views = [View::<M>::default(); MOST_SOURCE_NODES];
         let views = &mut views[..stations.shares.len()];
         for (i, view) in views.iter_mut().enumerate() {
             let i = panels.count + 1 + i;
@@ -80,13 +80,13 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
             if M == POLARISED {
                 aerial.species.dipoles(block, dipoles);
             }
-            let mut diffuse = [[Pair::splat(0.0); M]; MOST_STATIONS];
+            let mut diffuse = [[Pair::splat(0.0); M]; MOST_SOURCE_NODES];
             for (out, view) in diffuse.iter_mut().zip(views.iter()) {
                 let source = aerial.source.scattered(&view.spot, &view.seen, block);
                 *out = source.map(|half| Pair::twice(&half));
             }
             let mut walk = Walk::start();
-            let mut near = Beams::new(aerial, block, &sunlight.columns[0]);
+            let mut near = DirectSunlight::new(aerial, block, &sunlight.columns[0]);
             for (i, weights) in stations.weights.iter().enumerate().take(pairs) {
                 let mut light = [Pair::splat(0.0); M];
                 for (at, weight) in diffuse.iter().zip(weights) {
@@ -97,7 +97,7 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                 for light in &mut light[..2] {
                     *light = light.max(Pair::splat(0.0));
                 }
-                let far = Beams::new(aerial, block, &sunlight.columns[i + 1]);
+                let far = DirectSunlight::new(aerial, block, &sunlight.columns[i + 1]);
                 let sun = Sun {
                     start: near,
                     end: near.shift(&far),
@@ -124,24 +124,24 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
 }
 
 /// Ends of panels, then stations, in batches.
-pub(super) type AllPlaces = [Places; MOST_PLACES / BATCH];
+pub(super) type AllPlaces = [PathPoints; MOST_PATH_POINTS / BATCH];
 
 impl AerialPerspective {
     /// Where light is evaluated along a segment.
     #[inline(always)]
     pub(super) fn panels(&self, segment: &Segment) -> (Panels, AllPlaces, Sightline) {
         let layers = &self.air.layers;
-        let sky = Heaven {
+        let sky = SunEstimate {
             sun: self.sun,
             low: self.conditions.solar_elevation < LOW_SUN,
         };
         let panels = Panels::place(layers, segment, &self.grey, &sky);
         let line = Sightline::new(segment, self.sun);
-        let mut places = [Places::default(); MOST_PLACES / BATCH];
+        let mut places = [PathPoints::default(); MOST_PATH_POINTS / BATCH];
         let used = panels.count + 1 + panels.stations.shares.len();
         let (at, _) = panels.places.as_chunks();
         for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
-            *places = Places::new(&layers.planet(), segment, self.sun, line.nearest, at);
+            *places = PathPoints::new(&layers.planet(), segment, self.sun, line.nearest, at);
         }
         (panels, places, line)
     }
@@ -205,7 +205,13 @@ impl<const M: usize> Default for View<M> {
 impl<const M: usize> View<M> {
     /// Looks along a segment from one of its places.
     #[inline(always)]
-    fn look(&mut self, aerial: &AerialPerspective, line: &Sightline, places: &Places, i: usize) {
+    fn look(
+        &mut self,
+        aerial: &AerialPerspective,
+        line: &Sightline,
+        places: &PathPoints,
+        i: usize,
+    ) {
         let local = line.local(places.zenith.0[i], places.slope.0[i]);
         let directions = &aerial.source.directions;
         self.seen[..2].copy_from_slice(&directions.at(&local));

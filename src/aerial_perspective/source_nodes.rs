@@ -1,16 +1,16 @@
 //! Where along a segment the diffuse source is looked up.
 
-use super::quadrature_limits::{MOST_PANELS, MOST_STATIONS};
+use super::quadrature_limits::{MOST_PANELS, MOST_SOURCE_NODES};
 use crate::kernel::lanes::Lanes;
 
 /// Two panels, each for a block of wavelengths.
 type Pair = Lanes<8>;
 
-/// Places where the diffuse source is looked up: nodes of a Gauss-Legendre rule over what is seen.
-pub(crate) struct Stations {
+/// PathPoints where the diffuse source is looked up: nodes of a Gauss-Legendre rule over what is seen.
+pub(crate) struct SourceNodes {
     pub shares: &'static [f32],
     /// How much each station counts in the middle of each panel, two panels at a time.
-    pub weights: [[Pair; MOST_STATIONS]; MOST_PANELS / 2],
+    pub weights: [[Pair; MOST_SOURCE_NODES]; MOST_PANELS / 2],
 }
 
 /// One, two and three of them.
@@ -21,24 +21,24 @@ const SHARES: [&[f32]; 3] = [
 ];
 
 /// For 1 panel, 2, 4, 6 …
-static STATIONS: [Stations; MOST_PANELS / 2 + 1] = [
-    Stations::new(1, SHARES[0]),
-    Stations::new(2, SHARES[1]),
-    Stations::new(4, SHARES[2]),
-    Stations::new(6, SHARES[2]),
-    Stations::new(8, SHARES[2]),
-    Stations::new(10, SHARES[2]),
-    Stations::new(12, SHARES[2]),
+static SOURCE_NODES: [SourceNodes; MOST_PANELS / 2 + 1] = [
+    SourceNodes::new(1, SHARES[0]),
+    SourceNodes::new(2, SHARES[1]),
+    SourceNodes::new(4, SHARES[2]),
+    SourceNodes::new(6, SHARES[2]),
+    SourceNodes::new(8, SHARES[2]),
+    SourceNodes::new(10, SHARES[2]),
+    SourceNodes::new(12, SHARES[2]),
 ];
 
-impl Stations {
+impl SourceNodes {
     pub fn of(panels: usize) -> &'static Self {
-        &STATIONS[panels / 2]
+        &SOURCE_NODES[panels / 2]
     }
 
     /// Lagrange's interpolation from the stations to the middles of the panels.
     const fn new(panels: usize, shares: &'static [f32]) -> Self {
-        let mut weights = [[Lanes([0.0; 8]); MOST_STATIONS]; MOST_PANELS / 2];
+        let mut weights = [[Lanes([0.0; 8]); MOST_SOURCE_NODES]; MOST_PANELS / 2];
         let mut i = 0;
         while i < panels {
             let share = (i as f32 + 0.5) / panels as f32;

@@ -1,6 +1,6 @@
 //! Sunlight at points: how high the disc stands above the planet's edge, and the air that it crosses.
 
-use super::path_points::{BATCH, Places};
+use super::path_points::{BATCH, PathPoints};
 use super::visible_disc::visible_rise;
 use crate::geometry::Planet;
 use crate::kernel::lanes::Lanes;
@@ -83,7 +83,13 @@ impl Beam {
     /// How many radii the sun's centre stands above the geometric horizon of each place; for the first `pairs` pairs of places, the
     /// columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
     #[inline(always)]
-    pub fn at(&self, layers: &Layers, places: &Places, pairs: usize, out: &mut [Two]) -> Heights {
+    pub fn at(
+        &self,
+        layers: &Layers,
+        places: &PathPoints,
+        pairs: usize,
+        out: &mut [Two],
+    ) -> Heights {
         let [dip, rise, angle] = heights(&layers.planet(), places);
         let spots = self.spots(places.altitude, angle);
         for (p, out) in out.iter_mut().enumerate().take(pairs) {
@@ -106,7 +112,7 @@ impl Beam {
 
     /// The nodes that [`Beam::at`] may look up for each of these places.
     #[inline(always)]
-    pub fn nodes(&self, planet: &Planet, places: &Places) -> [[usize; 4]; BATCH] {
+    pub fn nodes(&self, planet: &Planet, places: &PathPoints) -> [[usize; 4]; BATCH] {
         let [_, _, angle] = heights(planet, places);
         let spots = self.spots(places.altitude, angle);
         let first = spots.node.map(|row| row / self.quads);
@@ -153,7 +159,7 @@ impl Beam {
 
 /// Dip of the horizon (rad), height of the sun's centre above it (radii), and that of the visible share of the disc (rad).
 #[inline(always)]
-fn heights(planet: &Planet, places: &Places) -> [Heights; 3] {
+fn heights(planet: &Planet, places: &PathPoints) -> [Heights; 3] {
     let dip = dips(planet, places.altitude.max(Heights::splat(0.0)));
     let rise = (places.sun.asin() + dip) * (1.0 / SOLAR_ANGULAR_RADIUS) as f32;
     [dip, rise, visible_rise(rise) * SOLAR_ANGULAR_RADIUS as f32]
@@ -212,10 +218,10 @@ mod tests {
                 };
                 let air = model.transmittance(conditions.visibility).unwrap();
                 let beam = Beam::new(&air.layers, elevation);
-                let places = Places {
+                let places = PathPoints {
                     altitude: Lanes::splat(altitude as f32),
                     sun: Lanes::splat(elevation.sin() as f32),
-                    ..Places::default()
+                    ..PathPoints::default()
                 };
                 let mut columns = [[Lanes::splat(0.0); QUADS]; BATCH / 2];
                 let rise = beam.at(&air.layers, &places, 1, &mut columns);

@@ -6,9 +6,9 @@ use crate::kernel::math::{LANES, bound, finite};
 
 /// Sums over wavelengths: X, Y and Z of in-scattered light, and of sunlight behind the segment.
 #[derive(Default)]
-pub(crate) struct Colours([[[f32; LANES]; 3]; 2]);
+pub(crate) struct XyzSum([[[f32; LANES]; 3]; 2]);
 
-impl Colours {
+impl XyzSum {
     /// Adds a block of wavelengths.
     #[inline(always)]
     pub fn add(&mut self, weights: &[[f32; LANES]; 3], result: &Block) {

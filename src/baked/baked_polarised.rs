@@ -6,7 +6,7 @@ use super::BakeError;
 use super::baked_spectral::{BakedSky, LANES, write};
 use super::batch::{Directions, Each, One, Sink};
 use super::frame_rotation::Axes;
-use super::polarisation_table::{self, Degrees, turned};
+use super::polarisation_table::{self, PolarisationTable, turned};
 use super::spline_table::{Spots, Table};
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
@@ -20,7 +20,7 @@ use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
 #[derive(Clone, Debug)]
 pub struct BakedPolarisedSky {
     sky: BakedSky,
-    pub(super) degrees: Degrees,
+    pub(super) degrees: PolarisationTable,
     error: BakeError,
 }
 
@@ -33,7 +33,7 @@ impl PolarisedSky {
     pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
         let mut sky = self.sky().bake(tolerance)?;
         let grid = sky.baked.table.grid;
-        let (degrees, error) = Degrees::new(self, grid, sky.frame(), tolerance)?;
+        let (degrees, error) = PolarisationTable::new(self, grid, sky.frame(), tolerance)?;
         sky.baked.table.refine(degrees.grid());
         Ok(BakedPolarisedSky {
             sky,

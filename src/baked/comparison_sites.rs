@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use super::coordinates::{Frame, Points, row_at_share, share_at_row};
-use super::grid_nodes::Lattice;
+use super::grid_nodes::GridNodes;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;
 
@@ -37,7 +37,7 @@ pub(super) struct Site {
 }
 
 /// The sites of one side of the horizon; none where there is nothing.
-pub(super) fn sites(lattice: Lattice, frame: &Frame) -> Vec<Site> {
+pub(super) fn sites(lattice: GridNodes, frame: &Frame) -> Vec<Site> {
     if lattice.is_empty() {
         return Vec::new();
     }
@@ -56,7 +56,7 @@ pub(super) fn sites(lattice: Lattice, frame: &Frame) -> Vec<Site> {
 }
 
 /// A row of those that cover the side.
-fn even(lattice: Lattice, frame: &Frame, i: f64, count: f64) -> Site {
+fn even(lattice: GridNodes, frame: &Frame, i: f64, count: f64) -> Site {
     const GOLDEN: f64 = 0.618_033_988_749_895;
     let [low, high] = [i, i + 1.0].map(|edge| share_at_row(lattice.side, edge / count));
     let horizon = lattice.sky.dip().sin();
@@ -73,7 +73,7 @@ fn even(lattice: Lattice, frame: &Frame, i: f64, count: f64) -> Site {
 }
 
 /// The row that the sun is in, or the horizon.
-fn sun_row(lattice: Lattice) -> f64 {
+fn sun_row(lattice: GridNodes) -> f64 {
     let horizon = -lattice.sky.dip().sin();
     let sun = lattice.sky.conditions().solar_elevation.sin();
     let share = ((sun - horizon) / (1.0 - horizon)).clamp(0.0, 1.0);
@@ -81,7 +81,7 @@ fn sun_row(lattice: Lattice) -> f64 {
 }
 
 fn site(
-    lattice: Lattice,
+    lattice: GridNodes,
     frame: &Frame,
     row: f64,
     columns: [f64; WIDTH],

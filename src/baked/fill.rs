@@ -3,7 +3,7 @@
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::{Frame, opaque_length};
 use super::grid_choice::{BakeError, Errors, Refinable, bake, difference};
-use super::grid_nodes::{Known, Lattice};
+use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{Surface, grid, joined};
 use super::spline::{Start, coefficients, taps};
 use super::spline_size::Size;
@@ -37,7 +37,7 @@ pub(super) fn table<const N: usize>(
 ) -> Result<(Table<N>, BakeError)> {
     let envelope = dispatch(Envelope::<_, N> { sky, channels });
     let half = |side| {
-        let mut half = Half::new(Lattice { sky, side }, channels, frame, &envelope);
+        let mut half = Half::new(GridNodes { sky, side }, channels, frame, &envelope);
         bake(&mut half, side, tolerance)
     };
     let ((up, up_errors), (down, down_errors)) = (half(Side::Up)?, half(Side::Down)?);
@@ -93,7 +93,7 @@ impl<C, const N: usize> Envelope<'_, C, N> {
 
 /// The radiance on one side of the horizon.
 struct Half<'a, C, const N: usize> {
-    lattice: Lattice<'a>,
+    lattice: GridNodes<'a>,
     channels: &'a C,
     envelope: &'a [Lanes<N>],
     sites: Vec<Site>,
@@ -103,7 +103,12 @@ struct Half<'a, C, const N: usize> {
 }
 
 impl<'a, const N: usize, C: Channels<N>> Half<'a, C, N> {
-    fn new(lattice: Lattice<'a>, channels: &'a C, frame: &Frame, envelope: &'a [Lanes<N>]) -> Self {
+    fn new(
+        lattice: GridNodes<'a>,
+        channels: &'a C,
+        frame: &Frame,
+        envelope: &'a [Lanes<N>],
+    ) -> Self {
         let mut half = Self {
             lattice,
             channels,

@@ -17,7 +17,7 @@ pub(super) enum Axes {
 
 /// How Q/I and U/(I sin φ) in the vertical frame make Q/I and U/I in the frame of the caller.
 #[derive(Clone, Copy)]
-pub(super) struct Turn<const W: usize> {
+pub(super) struct FrameRotation<const W: usize> {
     /// Cosine and sine of twice the angle between the frames.
     pub double: [Lanes<W>; 2],
     /// sin φ, φ the azimuth from the sun.
@@ -44,7 +44,7 @@ impl Axes {
 
     /// For [`super::coordinates::prepared`] vectors.
     #[inline(always)]
-    pub fn turn<const W: usize>(&self, view: &View, [x, y, z]: &[Lanes<W>; 3]) -> Turn<W> {
+    pub fn turn<const W: usize>(&self, view: &View, [x, y, z]: &[Lanes<W>; 3]) -> FrameRotation<W> {
         let (x, y, z) = (*x, *y, *z);
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let [cs, ss] = view.azimuth();
@@ -67,7 +67,7 @@ impl Axes {
                 double([e1, sa * *ax - ca * *ay], one)
             }
         };
-        Turn { double, sine }
+        FrameRotation { double, sine }
     }
 }
 

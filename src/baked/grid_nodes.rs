@@ -15,12 +15,12 @@ pub(super) type Nodes<const N: usize> = Vec<Vec<Lanes<N>>>;
 
 /// One side of the horizon of a sky.
 #[derive(Clone, Copy)]
-pub(super) struct Lattice<'a> {
+pub(super) struct GridNodes<'a> {
     pub sky: &'a Sky,
     pub side: Side,
 }
 
-impl Lattice<'_> {
+impl GridNodes<'_> {
     /// Whether there is anything on this side: below an observer on the ground there is not.
     pub fn is_empty(&self) -> bool {
         self.side == Side::Down && self.ray(1.0).length <= 0.0

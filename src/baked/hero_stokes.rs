@@ -4,7 +4,7 @@
 use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
 use super::baked_spectral::LANES;
 use super::batch::{Directions, Each, One, Sink, check_length};
-use super::frame_rotation::{Axes, Turn};
+use super::frame_rotation::{Axes, FrameRotation};
 use super::polarisation_table::{self, turned};
 use super::spline_table::{Spots, Table};
 use crate::error::Result;
@@ -115,7 +115,7 @@ impl Heroes<'_> {
     fn ratios<const W: usize>(
         &self,
         spots: &Spots<W>,
-        turn: &Turn<W>,
+        turn: &FrameRotation<W>,
         i: usize,
         wavelengths: &[f32; 4],
     ) -> [Lanes<4>; 2] {

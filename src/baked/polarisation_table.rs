@@ -5,9 +5,9 @@
 
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::Frame as View;
-use super::frame_rotation::Turn;
+use super::frame_rotation::FrameRotation;
 use super::grid_choice::{BakeError, Errors, Refinable, bake, largest};
-use super::grid_nodes::{Known, Lattice};
+use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{self, Surface, joined};
 use super::spline_size::Size;
 use super::spline_table::{Grid, Spots};
@@ -24,7 +24,7 @@ pub(super) const PAIR: usize = 2 * LANES;
 
 /// The tables.
 #[derive(Clone, Debug)]
-pub(super) struct Degrees {
+pub(super) struct PolarisationTable {
     grid: Grid,
     /// Blocks of `LANES`.
     pub blocks: usize,
@@ -40,7 +40,7 @@ pub(super) fn largest_table(n: usize) -> usize {
 /// Q/I and U/(I sin φ) on one side of the horizon.
 struct Half<'a> {
     sky: &'a PolarisedSky,
-    lattice: Lattice<'a>,
+    lattice: GridNodes<'a>,
     sites: Vec<Site>,
     /// `[site][direction][block]`.
     truth: Vec<Lanes<PAIR>>,
@@ -49,7 +49,7 @@ struct Half<'a> {
 
 impl<'a> Half<'a> {
     fn new(sky: &'a PolarisedSky, side: Side, frame: &View) -> Self {
-        let lattice = Lattice {
+        let lattice = GridNodes {
             sky: sky.sky(),
             side,
         };
@@ -162,7 +162,7 @@ fn blocks(sky: &PolarisedSky) -> usize {
     sky.sky().wavelengths().len().div_ceil(LANES)
 }
 
-impl Degrees {
+impl PolarisationTable {
     /// On the grid of a sky, or on a larger one if they need that, to which the sky must be refined then.
     pub fn new(
         sky: &PolarisedSky,
@@ -202,7 +202,7 @@ impl Degrees {
 #[inline(always)]
 pub(super) fn turned<const W: usize>(
     values: &Lanes<PAIR>,
-    turn: &Turn<W>,
+    turn: &FrameRotation<W>,
     i: usize,
 ) -> [Lanes<LANES>; 2] {
     let ([c, s], sine) = (turn.double.map(|d| d.0[i]), turn.sine.0[i]);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf, is_separator};
 const MOST_LINKS: usize = 40;
 
 /// Where bytes for a path go.
-pub enum Place {
+pub enum PathKind {
     /// A regular file, or nothing yet.
     File {
         /// After all links.
@@ -28,7 +28,7 @@ pub enum Stream {
     Other,
 }
 
-impl Place {
+impl PathKind {
     pub fn of(path: &Path) -> io::Result<Self> {
         check_name(path)?;
         let old = match fs::metadata(path) {

@@ -4,7 +4,7 @@ use zerocopy::little_endian::U16;
 
 use super::contraction::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::neighbours::{Interpolation, Share};
-use super::query_coordinates::{Place, Question};
+use super::query_coordinates::{QueryCoordinates, Question};
 use super::{MOST_CONSTITUENTS, PointQuery, WAVELENGTH_BLOCKS};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -34,7 +34,7 @@ impl Kernel for One<'_, '_> {
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = Place::new(model, &question);
+        let place = QueryCoordinates::new(model, &question);
         Query::around(model, &place)?.answer(instructions, self.out)
     }
 }
@@ -42,7 +42,7 @@ impl Kernel for One<'_, '_> {
 /// Where a query stands, and the chunks around it.
 pub(super) struct Query<'a, 'b> {
     model: &'b PointQuery<'a>,
-    place: &'b Place,
+    place: &'b QueryCoordinates,
     columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
     chunks: [Option<(&'b FactorsView<'a>, Share)>; MOST_AROUND],
 }
@@ -50,7 +50,7 @@ pub(super) struct Query<'a, 'b> {
 impl<'a, 'b> Query<'a, 'b> {
     /// Finds the chunks around a place.
     #[inline(always)]
-    pub fn around(model: &'b PointQuery<'a>, place: &'b Place) -> Result<Self> {
+    pub fn around(model: &'b PointQuery<'a>, place: &'b QueryCoordinates) -> Result<Self> {
         let mut query = Query {
             model,
             place,

@@ -5,7 +5,7 @@
 use super::chunk_table::limit;
 use super::contraction::{MOST_CHANNELS, Spectrum, WIDTH};
 use super::head_view::HeadView;
-use super::query_coordinates::Place;
+use super::query_coordinates::QueryCoordinates;
 use crate::error::{Error, Result};
 use crate::format::FIELD_GROUND;
 use crate::kernel::axis::Stencil;
@@ -106,7 +106,7 @@ impl Light {
     #[inline(always)]
     pub fn mix(
         &self,
-        place: &Place,
+        place: &QueryCoordinates,
         channels: &[f32; MOST_CHANNELS],
         level: &Spectrum,
         columns: &[f32; MOST],
@@ -148,7 +148,7 @@ impl Light {
     #[inline(always)]
     pub fn fields<const N: usize>(
         &self,
-        place: &Place,
+        place: &QueryCoordinates,
         channels: &[f32; MOST_CHANNELS],
         [sums, dipoles, grounds]: [&mut [f32; N]; 3],
     ) {
@@ -180,7 +180,7 @@ impl Light {
     }
 
     #[inline(always)]
-    fn phase_at(&self, place: &Place, f: usize, b: usize) -> Block {
+    fn phase_at(&self, place: &QueryCoordinates, f: usize, b: usize) -> Block {
         let [p, q, r] = self.phase[f * self.blocks + b];
         if self.kind[f].0 {
             let x = q + r * place.angle.versine;

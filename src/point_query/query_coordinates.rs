@@ -16,7 +16,7 @@ use crate::kernel::simd::Instructions;
 use crate::phase_function::SunAngle;
 
 /// Taps on every axis.
-pub(super) struct Place {
+pub(super) struct QueryCoordinates {
     pub altitudes: Nodes,
     pub visibilities: Nodes,
     /// Angle from the horizon, and solar elevation.
@@ -57,7 +57,7 @@ impl Question {
     }
 }
 
-impl Place {
+impl QueryCoordinates {
     #[inline(always)]
     pub fn new(model: &PointQuery, question: &Question) -> Self {
         let (head, [altitudes, visibilities]) = (&model.head, &model.axes);

@@ -2,7 +2,7 @@
 
 use super::contraction::{self, MOST_CHANNELS, MOST_RANK};
 use super::evaluate::Query;
-use super::query_coordinates::{Place, Question};
+use super::query_coordinates::{QueryCoordinates, Question};
 use super::{MOST_WAVELENGTHS, PointQuery};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -86,7 +86,7 @@ impl Kernel for Polarised<'_, '_> {
         let model = self.model;
         let n = model.head.shape.wavelengths;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = Place::new(model, &question);
+        let place = QueryCoordinates::new(model, &question);
         let query = Query::around(model, &place)?;
         let mut channels = [0.0; MOST_CHANNELS];
         let level = query.sum(instructions, &mut channels)?;
@@ -123,7 +123,7 @@ impl Polarised<'_, '_> {
     fn scattered<I: Instructions>(
         &self,
         instructions: I,
-        place: &Place,
+        place: &QueryCoordinates,
         channels: &mut contraction::Channels,
     ) -> Result<()> {
         let factors = self.factors;

@@ -11,7 +11,7 @@ use crate::geometry::Ray;
 use crate::kernel::math::{LANES, finite};
 use crate::model::Model;
 use crate::phase_function::SunAngle;
-use crate::sky::prepare::Place;
+use crate::sky::prepare::NodeWeights;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 
 /// A clear sky whose light is polarised, at one set of conditions.
@@ -39,7 +39,7 @@ impl Model {
     /// As [`Model::sky`]; [`Error::MissingChunk`](crate::Error::MissingChunk) for a file without polarisation.
     pub fn polarised_sky(&self, conditions: &Conditions) -> Result<PolarisedSky> {
         let conditions = conditions.checked(self)?;
-        let place = Place::new(self.head(), &conditions);
+        let place = NodeWeights::new(self.head(), &conditions);
         let basis = (Kind::PolarisationBasis, None, None);
         let chunks = place.keys_of(Kind::Polarisation);
         self.prefetch(place.keys().chain(chunks).chain([basis]))?;

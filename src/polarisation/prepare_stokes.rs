@@ -8,13 +8,13 @@ use crate::kernel::axis::{Ends, spline};
 use crate::kernel::half::widen;
 use crate::kernel::math::LANES;
 use crate::model::Model;
-use crate::sky::prepare::{Own, Place, widen_rows};
+use crate::sky::prepare::{NodeWeights, OwnFactors, widen_rows};
 use crate::sky::tables::Layout;
 
 /// Prepares the polarisation at `place` over a ground of the given albedo. `layout` is that of the radiance.
 pub(super) fn prepare(
     model: &Model,
-    place: &Place,
+    place: &NodeWeights,
     albedo: f64,
     layout: &Layout,
 ) -> Result<Polarisation> {
@@ -30,7 +30,7 @@ pub(super) fn prepare(
                 let detail = format!("at most {} as the basis, got {}", basis.rank, chunk.rank);
                 return Err(Error::invalid("rank of a polarisation chunk", detail));
             }
-            let own = Own {
+            let own = OwnFactors {
                 rank: chunk.rank,
                 stride: chunk.stride,
                 scale: chunk.scale,

@@ -37,7 +37,7 @@ impl Sky {
     pub(crate) fn prepare(model: &Model, conditions: &Conditions) -> Result<Self> {
         let conditions = conditions.checked(model)?;
         let head = model.head();
-        let place = Place::new(head, &conditions);
+        let place = NodeWeights::new(head, &conditions);
         model.prefetch(place.keys())?;
         let groups = Groups::new(head);
         let baker = Baker {
@@ -67,7 +67,7 @@ impl Sky {
 }
 
 /// Weights of the nodes around the conditions.
-pub(crate) struct Place {
+pub(crate) struct NodeWeights {
     pub altitudes: Stencil,
     pub visibilities: Stencil,
     visibilities_linear: Stencil,
@@ -77,7 +77,7 @@ pub(crate) struct Place {
     pub fade: f64,
 }
 
-impl Place {
+impl NodeWeights {
     pub fn new(head: &Head, conditions: &Conditions) -> Self {
         let visibilities = head.visibility_nodes();
         let x = visibility_node(conditions.visibility);
@@ -188,7 +188,7 @@ fn same_phase(a: &Field, b: &Field) -> bool {
 /// All that turns the chunks of a model into tables.
 struct Baker<'a> {
     model: &'a Model,
-    place: &'a Place,
+    place: &'a NodeWeights,
     groups: &'a Groups,
     /// Factor of each channel `[field][wavelength]`.
     fold: Vec<f32>,
@@ -214,7 +214,7 @@ impl Baker<'_> {
                 let chunk = self.model.radiance_chunk(a, v)?;
                 let weight = (altitude_weight * visibility_weight) as f32;
                 self.add_level(&chunk, weight, &mut level);
-                let own = Own {
+                let own = OwnFactors {
                     rank: chunk.rank,
                     stride: chunk.stride,
                     scale: chunk.scale,
@@ -265,7 +265,7 @@ impl Baker<'_> {
 }
 
 /// The factor matrices of a chunk that belong to it alone.
-pub(crate) struct Own<'a> {
+pub(crate) struct OwnFactors<'a> {
     pub rank: usize,
     pub stride: usize,
     pub scale: &'a [F32],
@@ -274,7 +274,7 @@ pub(crate) struct Own<'a> {
     pub alpha: [&'a Payload16; 2],
 }
 
-impl Own<'_> {
+impl OwnFactors<'_> {
     /// Adds the rows over the angle from the horizon, each component times weight, scale and the factor of the solar
     /// elevation, to `sums`, which are as wide as the rank of the basis.
     pub fn add_to(&self, sums: &mut [Vec<f32>; 2], rank: usize, elevation: &Taps, weight: f32) {

@@ -7,7 +7,7 @@ use crate::geometry::{Planet, Side};
 use crate::kernel::axis::{Ends, alpha_coordinate, spline};
 use crate::kernel::math::{LANES, exp};
 use crate::model::Model;
-use crate::sky::prepare::Place;
+use crate::sky::prepare::NodeWeights;
 use crate::transmittance::{Amounts, Extinction, Layers};
 
 /// Elevations at which depths are kept, over the visible part of the disc.
@@ -115,7 +115,7 @@ struct MeanDensities {
 impl MeanDensities {
     fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let head = model.head();
-        let place = Place::new(head, conditions);
+        let place = NodeWeights::new(head, conditions);
         let keys = place
             .altitudes
             .taps()

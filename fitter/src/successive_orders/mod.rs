@@ -2,8 +2,8 @@
 //!
 //! Single scattering is integrated along each ray. Multiple scattering is smooth, so it is kept as angular moments of the light
 //! field on a grid of altitudes and sun zeniths (`moments`), filled order by order ([`fn@solve`]) and gathered along each view ray
-//! ([`gather`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency tensor of the incoming light; aerosols
-//! scatter spherical harmonics of the intensity and depolarise. The Monte Carlo tracer is the reference tracer of all this.
+//! ([`view_rays`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency tensor of the incoming light; aerosols
+//! scatter spherical harmonics of the intensity and depolarise. The Monte Carlo tracer is its reference.
 
 pub mod first_order;
 pub mod moments;

@@ -1,7 +1,7 @@
 //! What can be seen of a segment up to a distance, and how much light is there: roughly, to place panels by.
 
 use super::path_points::BATCH;
-use super::quadrature_limits::MOST_PLACES;
+use super::quadrature_limits::MOST_PATH_POINTS;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::{bound, log2, one_minus_exp_neg};
 use crate::transmittance::{Layers, Piece, Segment, dot};
@@ -16,7 +16,7 @@ const ROOM: usize = MOST_PIECES + BATCH;
 const PART: f64 = 12e3;
 
 /// The sun as far as panels care.
-pub(crate) struct Heaven {
+pub(crate) struct SunEstimate {
     /// Towards the sun.
     pub sun: [f64; 3],
     /// Whether it may be in shadow somewhere.
@@ -24,15 +24,15 @@ pub(crate) struct Heaven {
 }
 
 /// How much light is along a segment, roughly.
-struct Glance {
+struct LightEstimate {
     /// Distance towards the sun from the plane through the planet's centre: at the tangent point, and per metre.
     towards: [f64; 2],
     lowest: f64,
     per_diameter: f64,
 }
 
-impl Glance {
-    fn new(layers: &Layers, segment: &Segment, sky: &Heaven) -> Self {
+impl LightEstimate {
+    fn new(layers: &Layers, segment: &Segment, sky: &SunEstimate) -> Self {
         let per_metre = dot(segment.direction, sky.sun);
         Self {
             towards: [
@@ -87,7 +87,7 @@ const SHARES: [f32; KINDS] = [0.7, 0.1, 0.2];
 const NOTICED: [f32; KINDS] = [1e-4, 0.01, 0.01];
 
 /// What has been seen of a segment up to some distances: its start and the ends of its pieces; after the last, the last once more.
-pub(crate) struct Marks {
+pub(crate) struct CumulativeLight {
     len: usize,
     /// From the tangent point, m.
     distance: [f64; ROOM],
@@ -96,7 +96,7 @@ pub(crate) struct Marks {
     seen: [f32; ROOM],
 }
 
-impl Default for Marks {
+impl Default for CumulativeLight {
     fn default() -> Self {
         Self {
             len: 0,
@@ -107,10 +107,16 @@ impl Default for Marks {
     }
 }
 
-impl Marks {
-    /// Marks a segment.
+impl CumulativeLight {
+    /// CumulativeLight a segment.
     #[inline(always)]
-    pub fn fill(&mut self, layers: &Layers, segment: &Segment, grey: &[[f32; 3]], sky: &Heaven) {
+    pub fn fill(
+        &mut self,
+        layers: &Layers,
+        segment: &Segment,
+        grey: &[[f32; 3]],
+        sky: &SunEstimate,
+    ) {
         let mut walker = layers.enter(segment.line, segment.from);
         let mut depth = 0.0;
         self.len = 1;
@@ -138,7 +144,7 @@ impl Marks {
         self.distance[self.len..][..BATCH].fill(distance);
         self.depth[self.len..][..BATCH].fill(depth);
         match sky.low {
-            true => self.see_low(&Glance::new(layers, segment, sky)),
+            true => self.see_low(&LightEstimate::new(layers, segment, sky)),
             false => self.see(),
         }
     }
@@ -162,7 +168,7 @@ impl Marks {
 
     /// The same where it may not.
     #[inline(always)]
-    fn see_low(&mut self, glance: &Glance) {
+    fn see_low(&mut self, glance: &LightEstimate) {
         let [mut opacity, mut density] = [[0.0; ROOM]; 2];
         for first in (0..self.len + BATCH - 1).step_by(BATCH) {
             let depth = Batch::load(&self.depth, first);
@@ -207,14 +213,14 @@ impl Marks {
 
     /// The distances at which these shares of all have been seen.
     #[inline(always)]
-    pub fn distances(&self, shares: &[f32], out: &mut [f64; MOST_PLACES]) {
+    pub fn distances(&self, shares: &[f32], out: &mut [f64; MOST_PATH_POINTS]) {
         let total = self.seen[self.len - 1];
-        let mut targets = [total; MOST_PLACES];
+        let mut targets = [total; MOST_PATH_POINTS];
         for (target, share) in targets.iter_mut().zip(shares) {
             *target = share * total;
         }
         // As many marks as are passed before; without branches, which nobody could predict.
-        let mut pieces = [1; MOST_PLACES];
+        let mut pieces = [1; MOST_PATH_POINTS];
         for seen in &self.seen[1..self.len.max(2) - 1] {
             for (piece, target) in pieces.iter_mut().zip(&targets) {
                 *piece += u32::from(seen < target);
