@@ -2,14 +2,12 @@
 
 use core::marker::PhantomData;
 
-use super::batch::{Directions, Each, One, Sink, check_length};
+use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::Frame;
-use super::spline_table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::dispatch;
 use crate::sky::Sky;
 use crate::sky::XYZ_TO_SRGB;
 
@@ -118,15 +116,13 @@ impl BakedColourSky {
     #[inline(always)]
     fn one<C: Space>(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
         let mut out = [[0.0; 3]];
-        dispatch(One {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
+        self.baked.one(
             direction,
-            sink: Colours::<C> {
+            Colours::<C> {
                 out: &mut out,
                 space: PhantomData,
             },
-        })?;
+        )?;
         Ok(out[0])
     }
 
@@ -134,15 +130,13 @@ impl BakedColourSky {
     fn batch<C: Space>(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
         directions.check()?;
         check_length("output", out.len(), directions.len())?;
-        dispatch(Each {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
-            directions: *directions,
-            sink: Colours::<C> {
+        self.baked.each(
+            directions,
+            Colours::<C> {
                 out,
                 space: PhantomData,
             },
-        })
+        )
     }
 }
 
@@ -154,14 +148,14 @@ struct Colours<'a, C> {
 
 impl<C: Space> Sink<LANES> for Colours<'_, C> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        _: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            ..
+        } = group;
         let mut logarithms = [Lanes::splat(0.0); W];
         for i in 0..count {
             logarithms[i] = table.logarithm(spots, i, 0);

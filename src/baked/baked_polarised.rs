@@ -4,13 +4,11 @@ use core::ops::Range;
 
 use super::BakeError;
 use super::baked_spectral::{BakedSky, LANES, write};
-use super::batch::{Directions, Each, One, Sink};
+use super::batch::{Directions, Group, Sink};
 use super::frame_rotation::Axes;
 use super::polarisation_table::{self, PolarisationTable, turned};
-use super::spline_table::{Spots, Table};
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::dispatch;
 use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
 
 /// A [`BakedSky`] with its polarisation: as fast a way to all Stokes vectors of a direction.
@@ -81,12 +79,7 @@ impl BakedPolarisedSky {
         out: StokesSpectra,
     ) -> Result<()> {
         let sink = self.sink(frame, out, 1)?;
-        dispatch(One {
-            frame: self.sky.frame(),
-            table: &self.sky.baked.table,
-            direction,
-            sink,
-        })
+        self.sky.baked.one(direction, sink)
     }
 
     /// [`BakedPolarisedSky::stokes`] for many directions.
@@ -102,12 +95,7 @@ impl BakedPolarisedSky {
     ) -> Result<()> {
         directions.check()?;
         let sink = self.sink(frame, out, directions.len())?;
-        dispatch(Each {
-            frame: self.sky.frame(),
-            table: &self.sky.baked.table,
-            directions: *directions,
-            sink,
-        })
+        self.sky.baked.each(directions, sink)
     }
 
     #[inline]
@@ -133,14 +121,14 @@ struct Rows<'a> {
 
 impl Sink<LANES> for Rows<'_> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        vectors: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            vectors,
+        } = group;
         let BakedPolarisedSky { sky, degrees, .. } = self.sky;
         let n = sky.wavelengths().len();
         let turn = self.axes.turn(sky.frame(), vectors);

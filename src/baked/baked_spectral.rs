@@ -1,6 +1,6 @@
 //! A baked sky with all wavelengths.
 
-use super::batch::{Directions, Each, One, Sink, check_length};
+use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::Frame;
 use super::grid_choice::{PEAK, TAIL};
 use super::hero_wavelengths::{Heroes, WavelengthAxis};
@@ -10,7 +10,6 @@ use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::dispatch;
 use crate::sky::Sky;
 
 /// Wavelengths that are computed together.
@@ -132,12 +131,7 @@ impl BakedSky {
     #[inline]
     pub fn radiance(&self, direction: [f32; 3], out: &mut [f32]) -> Result<()> {
         check_length("output", out.len(), self.wavelengths.len())?;
-        dispatch(One {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
-            direction,
-            sink: Rows { sky: self, out },
-        })
+        self.baked.one(direction, Rows { sky: self, out })
     }
 
     /// [`BakedSky::radiance`] for many directions; `out` is `[directions][wavelengths]`.
@@ -149,12 +143,7 @@ impl BakedSky {
         directions.check()?;
         let n = self.wavelengths.len();
         check_length("output", out.len(), directions.len().saturating_mul(n))?;
-        dispatch(Each {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
-            directions: *directions,
-            sink: Rows { sky: self, out },
-        })
+        self.baked.each(directions, Rows { sky: self, out })
     }
 }
 
@@ -168,16 +157,14 @@ impl BakedSky {
     pub fn hero(&self, direction: [f32; 3], wavelengths: [f32; 4]) -> Result<[f32; 4]> {
         self.check_wavelengths(&[wavelengths])?;
         let mut out = [[0.0; 4]];
-        dispatch(One {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
+        self.baked.one(
             direction,
-            sink: Heroes {
+            Heroes {
                 axis: &self.axis,
                 wavelengths: &[wavelengths],
                 out: &mut out,
             },
-        })?;
+        )?;
         Ok(out[0])
     }
 
@@ -195,16 +182,14 @@ impl BakedSky {
         check_length("wavelengths", wavelengths.len(), directions.len())?;
         check_length("output", out.len(), directions.len())?;
         self.check_wavelengths(wavelengths)?;
-        dispatch(Each {
-            frame: &self.baked.frame,
-            table: &self.baked.table,
-            directions: *directions,
-            sink: Heroes {
+        self.baked.each(
+            directions,
+            Heroes {
                 axis: &self.axis,
                 wavelengths,
                 out,
             },
-        })
+        )
     }
 
     pub(super) fn check_wavelengths(&self, wavelengths: &[[f32; 4]]) -> Result<()> {
@@ -257,14 +242,14 @@ struct Rows<'a> {
 
 impl Sink<LANES> for Rows<'_> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        _: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            ..
+        } = group;
         let n = self.sky.wavelengths.len();
         for i in 0..count {
             let row = &mut self.out[(index + i) * n..][..n];

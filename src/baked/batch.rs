@@ -50,15 +50,20 @@ const WIDTH: usize = 8;
 
 /// Where results go.
 pub(super) trait Sink<const N: usize> {
-    /// Takes the first `count` directions of a group, of which the first has this index, as looked up and as vectors of any length. Must be `#[inline(always)]`.
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<N>,
-        spots: &Spots<W>,
-        vectors: &[Lanes<W>; 3],
-    );
+    /// Must be `#[inline(always)]`.
+    fn put<const W: usize>(&mut self, group: &Group<N, W>);
+}
+
+/// Directions that were looked up together.
+pub(super) struct Group<'a, const N: usize, const W: usize> {
+    /// Index of the first.
+    pub first: usize,
+    /// How many of them count.
+    pub count: usize,
+    pub table: &'a Table<N>,
+    pub spots: &'a Spots<W>,
+    /// The directions as vectors of any length.
+    pub vectors: &'a [Lanes<W>; 3],
 }
 
 /// Looks up directions until one is bad.
@@ -100,7 +105,13 @@ impl<const N: usize, S: Sink<N>> Each<'_, N, S> {
             return Err(Error::Direction { got: unsound(d) });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(first, count, self.table, &spots, &prepared);
+        self.sink.put(&Group {
+            first,
+            count,
+            table: self.table,
+            spots: &spots,
+            vectors: &prepared,
+        });
         Ok(())
     }
 }
@@ -127,7 +138,13 @@ impl<const N: usize, S: Sink<N>> Kernel for One<'_, N, S> {
             });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(0, 1, self.table, &spots, &prepared);
+        self.sink.put(&Group {
+            first: 0,
+            count: 1,
+            table: self.table,
+            spots: &spots,
+            vectors: &prepared,
+        });
         Ok(())
     }
 }
@@ -151,15 +168,9 @@ mod tests {
 
     impl Sink<16> for &mut Values {
         #[inline(always)]
-        fn put<const W: usize>(
-            &mut self,
-            _: usize,
-            n: usize,
-            table: &Table<16>,
-            spots: &Spots<W>,
-            _: &[Lanes<W>; 3],
-        ) {
-            self.0.extend((0..n).map(|i| table.value(spots, i, 0).0));
+        fn put<const W: usize>(&mut self, group: &Group<16, W>) {
+            let values = (0..group.count).map(|i| group.table.value(group.spots, i, 0).0);
+            self.0.extend(values);
         }
     }
 

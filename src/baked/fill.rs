@@ -2,11 +2,11 @@
 
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::{Frame, opaque_length};
-use super::grid_choice::{BakeError, Errors, Refinable, bake, difference};
+use super::grid_choice::{BakeError, Errors, bake, difference};
 use super::grid_nodes::{GridNodes, Known};
-use super::hemisphere_spline::{Surface, grid, joined};
+use super::hemisphere_spline::{grid, joined};
+use super::refinement::Half;
 use super::spline::{Start, coefficients, taps};
-use super::spline_size::Size;
 use super::spline_table::{SUN, Spots, Table, envelope};
 use crate::error::Result;
 use crate::geometry::{Ray, Side};
@@ -37,7 +37,7 @@ pub(super) fn table<const N: usize>(
 ) -> Result<(Table<N>, BakeError)> {
     let envelope = dispatch(Envelope::<_, N> { sky, channels });
     let half = |side| {
-        let mut half = Half::new(GridNodes { sky, side }, channels, frame, &envelope);
+        let mut half = Radiance::new(GridNodes { sky, side }, channels, frame, &envelope);
         bake(&mut half, side, tolerance)
     };
     let ((up, up_errors), (down, down_errors)) = (half(Side::Up)?, half(Side::Down)?);
@@ -92,7 +92,7 @@ impl<C, const N: usize> Envelope<'_, C, N> {
 }
 
 /// The radiance on one side of the horizon.
-struct Half<'a, C, const N: usize> {
+struct Radiance<'a, C, const N: usize> {
     lattice: GridNodes<'a>,
     channels: &'a C,
     envelope: &'a [Lanes<N>],
@@ -102,7 +102,7 @@ struct Half<'a, C, const N: usize> {
     known: Known<N>,
 }
 
-impl<'a, const N: usize, C: Channels<N>> Half<'a, C, N> {
+impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
     fn new(
         lattice: GridNodes<'a>,
         channels: &'a C,
@@ -137,7 +137,34 @@ impl<'a, const N: usize, C: Channels<N>> Half<'a, C, N> {
         }
     }
 
-    /// log2 (radiance / opacity) without the envelope in a row of nodes, `[azimuth][block]`.
+    /// As in [`super::coordinates`]; 1 where no air is, as nothing can be divided by 0.
+    fn opacity(&self, ray: &Ray) -> f32 {
+        let opaque = opaque_length(self.lattice.sky.conditions());
+        match ray.side {
+            Side::Down if ray.length > 0.0 => (ray.length / (ray.length + opaque)) as f32,
+            _ => 1.0,
+        }
+    }
+}
+
+impl<const N: usize, C: Channels<N>> Half<N> for Radiance<'_, C, N> {
+    fn channels(&self) -> usize {
+        self.channels.count()
+    }
+
+    fn sites(&self) -> &[Site] {
+        &self.sites
+    }
+
+    fn truth(&self) -> &[Lanes<N>] {
+        &self.truth
+    }
+
+    fn known(&mut self) -> &mut Known<N> {
+        &mut self.known
+    }
+
+    /// log2 (radiance / opacity) without the envelope.
     #[inline(always)]
     fn row(&self, height: f64, azimuths: &[f64]) -> Vec<Lanes<N>> {
         let ray = self.lattice.ray(height);
@@ -156,57 +183,29 @@ impl<'a, const N: usize, C: Channels<N>> Half<'a, C, N> {
         values
     }
 
-    /// As in [`super::coordinates`]; 1 where no air is, as nothing can be divided by 0.
-    fn opacity(&self, ray: &Ray) -> f32 {
-        let opaque = opaque_length(self.lattice.sky.conditions());
-        match ray.side {
-            Side::Down if ray.length > 0.0 => (ray.length / (ray.length + opaque)) as f32,
-            _ => 1.0,
-        }
+    #[inline(always)]
+    fn base<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N> {
+        spots.envelope(self.envelope, i, block)
     }
-}
-
-impl<const N: usize, C: Channels<N>> Refinable<N> for Half<'_, C, N> {
-    fn surface(&mut self, size: Size) -> Surface<N> {
-        let blocks = self.channels.blocks();
-        let mut known = core::mem::replace(&mut self.known, Known::new(blocks));
-        let half = &*self;
-        let surface = dispatch(Nodes {
-            half,
-            size,
-            known: &mut known,
-        });
-        self.known = known;
-        surface
-    }
-
-    fn errors(&self, surface: &Surface<N>) -> Errors {
-        dispatch(Compare {
-            half: self,
-            surface,
-        })
-    }
-}
-
-/// Values at the nodes of a size.
-struct Nodes<'a, 'b, C, const N: usize> {
-    half: &'a Half<'b, C, N>,
-    size: Size,
-    known: &'a mut Known<N>,
-}
-
-impl<const N: usize, C: Channels<N>> Kernel for Nodes<'_, '_, C, N> {
-    type Output = Surface<N>;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Surface<N> {
-        let row = |height: f64, azimuths: &[f64]| self.half.row(height, azimuths);
-        self.known.surface(self.size, row)
+    fn compare(
+        &self,
+        (site, spots, i): (&Site, &Spots<WIDTH>, usize),
+        sum: Lanes<N>,
+        truth: &Lanes<N>,
+        count: usize,
+        errors: &mut Errors,
+    ) {
+        let got = sum.exp2() * spots.opacity.0[i];
+        let pairs = got.0.iter().zip(&truth.0).take(count);
+        let differences = pairs.map(|(&got, &truth)| difference(got, truth));
+        errors.add(differences, site.parts[i]);
     }
 }
 
 /// What surfaces are compared with.
-struct Truth<'a, 'b, C, const N: usize>(&'a Half<'b, C, N>);
+struct Truth<'a, 'b, C, const N: usize>(&'a Radiance<'b, C, N>);
 
 impl<const N: usize, C: Channels<N>> Kernel for Truth<'_, '_, C, N> {
     type Output = Vec<Lanes<N>>;
@@ -219,39 +218,5 @@ impl<const N: usize, C: Channels<N>> Kernel for Truth<'_, '_, C, N> {
             self.0.along(&site.ray, &site.azimuths, emit);
         }
         truth
-    }
-}
-
-struct Compare<'a, 'b, C, const N: usize> {
-    half: &'a Half<'b, C, N>,
-    surface: &'a Surface<N>,
-}
-
-impl<const N: usize, C: Channels<N>> Kernel for Compare<'_, '_, C, N> {
-    type Output = Errors;
-
-    #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Errors {
-        let (half, size) = (self.half, self.surface.size);
-        let (blocks, channels) = (half.channels.blocks(), half.channels.count());
-        let mut errors = Errors::with_capacity(half.sites.len() * WIDTH * channels);
-        for (site, truth) in half.sites.iter().zip(half.truth.chunks(WIDTH * blocks)) {
-            let spots = Spots::on_side(&site.points, size);
-            for (i, truth) in truth.chunks(blocks).enumerate() {
-                for (block, truth) in truth.iter().enumerate() {
-                    let sum = spots.envelope(half.envelope, i, block);
-                    let first = block * size.cells();
-                    let sum = spots.bicubic(sum, first, size.stride(), &self.surface.cells, i);
-                    let got = sum.exp2() * spots.opacity.0[i];
-                    let count = channels.min((block + 1) * N) - block * N;
-                    let pairs = got.0.iter().zip(&truth.0).take(count);
-                    errors.add(
-                        pairs.map(|(&got, &truth)| difference(got, truth)),
-                        site.parts[i],
-                    );
-                }
-            }
-        }
-        errors.sorted()
     }
 }

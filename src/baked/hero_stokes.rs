@@ -3,13 +3,12 @@
 
 use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
 use super::baked_spectral::LANES;
-use super::batch::{Directions, Each, One, Sink, check_length};
+use super::batch::{Directions, Group, Sink, check_length};
 use super::frame_rotation::{Axes, FrameRotation};
 use super::polarisation_table::{self, turned};
-use super::spline_table::{Spots, Table};
+use super::spline_table::Spots;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::dispatch;
 use crate::polarisation::{PolarisationFrame, Stokes};
 
 /// Most blocks of wavelengths.
@@ -35,17 +34,15 @@ impl BakedPolarisedSky {
     ) -> Result<[Stokes; 4]> {
         self.sky().check_wavelengths(&[wavelengths])?;
         let mut out = [[Stokes::default(); 4]];
-        dispatch(One {
-            frame: self.sky().frame(),
-            table: &self.sky().baked.table,
+        self.sky().baked.one(
             direction,
-            sink: Heroes {
+            Heroes {
                 sky: self,
                 axes: Axes::new(frame)?,
                 wavelengths: &[wavelengths],
                 out: &mut out,
             },
-        })?;
+        )?;
         Ok(out[0])
     }
 
@@ -66,17 +63,15 @@ impl BakedPolarisedSky {
         check_length("output", out.len(), directions.len())?;
         self.sky().check_wavelengths(wavelengths)?;
         let axes = Axes::new(frame)?;
-        dispatch(Each {
-            frame: self.sky().frame(),
-            table: &self.sky().baked.table,
-            directions: *directions,
-            sink: Heroes {
+        self.sky().baked.each(
+            directions,
+            Heroes {
                 sky: self,
                 axes,
                 wavelengths,
                 out,
             },
-        })
+        )
     }
 }
 
@@ -90,14 +85,14 @@ struct Heroes<'a> {
 
 impl Sink<LANES> for Heroes<'_> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        vectors: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            vectors,
+        } = group;
         let sky = self.sky.sky();
         let turn = self.axes.turn(sky.frame(), vectors);
         for i in 0..count {

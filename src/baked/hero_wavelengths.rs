@@ -1,7 +1,7 @@
 //! Radiance at a few wavelengths that differ from query to query, as hero wavelength sampling asks (Wilkie et al.
 //! 2014). Format specification, section 7.3, with the weights of each interval as polynomials.
 
-use super::batch::Sink;
+use super::batch::{Group, Sink};
 use super::spline_table::{Spots, Table};
 use crate::kernel::axis::hermite;
 use crate::kernel::lanes::Lanes;
@@ -135,14 +135,14 @@ pub(super) struct Heroes<'a> {
 
 impl Sink<LANES> for Heroes<'_> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        _: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            ..
+        } = group;
         for i in 0..count {
             let wavelengths = &self.wavelengths[index + i];
             self.out[index + i] = self.axis.radiance(table, spots, i, wavelengths).0;

@@ -1,8 +1,9 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
-//! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables, a `surface` for
-//! each side of the horizon, and `quality` chooses their size by comparing at `sites`; `degrees` and `turn` add polarisation; `spectral`, `colour`, `polarised` and the two of `hero`
-//! are the public faces.
+//! `coordinates` turns directions into places in tables, `spline` those into taps, `spline_table` sums. `fill` makes the tables, a
+//! `hemisphere_spline` for each side of the horizon, and `grid_choice` their sizes, by the loops of `refinement`, which compare at
+//! `comparison_sites`; `polarisation_table` and `frame_rotation` add polarisation. `batch` has the one loop over directions, and
+//! `baked_spectral`, `baked_colour`, `baked_polarised` and the two of `hero` are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
 mod baked_colour;
@@ -20,6 +21,7 @@ mod hero_stokes;
 mod hero_wavelengths;
 mod irradiance;
 mod polarisation_table;
+mod refinement;
 mod sampler;
 mod spline;
 mod spline_size;
@@ -35,7 +37,9 @@ pub use sampler::{Part, Sample, SkySampler};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
+use crate::kernel::simd::dispatch;
 use crate::sky::Sky;
+use batch::{Each, One, Sink};
 use coordinates::Frame;
 use fill::Channels;
 use spline_table::Table;
@@ -90,6 +94,28 @@ impl<const N: usize> Baked<N> {
             frame,
             table,
             error,
+        })
+    }
+
+    /// Looks up one direction.
+    #[inline(always)]
+    fn one(&self, direction: [f32; 3], sink: impl Sink<N>) -> Result<()> {
+        dispatch(One {
+            frame: &self.frame,
+            table: &self.table,
+            direction,
+            sink,
+        })
+    }
+
+    /// Looks up many directions, which were checked.
+    #[inline(always)]
+    fn each(&self, directions: &Directions, sink: impl Sink<N>) -> Result<()> {
+        dispatch(Each {
+            frame: &self.frame,
+            table: &self.table,
+            directions: *directions,
+            sink,
         })
     }
 

@@ -6,15 +6,14 @@
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::Frame as View;
 use super::frame_rotation::FrameRotation;
-use super::grid_choice::{BakeError, Errors, Refinable, bake, largest};
+use super::grid_choice::{BakeError, Errors, bake, largest};
 use super::grid_nodes::{GridNodes, Known};
-use super::hemisphere_spline::{self, Surface, joined};
-use super::spline_size::Size;
+use super::hemisphere_spline::{self, joined};
+use super::refinement::Half;
 use super::spline_table::{Grid, Spots};
 use crate::error::Result;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::polarisation::PolarisedSky;
 
 /// Wavelengths that are computed together: those of the usual model.
@@ -38,7 +37,7 @@ pub(super) fn largest_table(n: usize) -> usize {
 }
 
 /// Q/I and U/(I sin φ) on one side of the horizon.
-struct Half<'a> {
+struct Ratios<'a> {
     sky: &'a PolarisedSky,
     lattice: GridNodes<'a>,
     sites: Vec<Site>,
@@ -47,7 +46,7 @@ struct Half<'a> {
     known: Known<PAIR>,
 }
 
-impl<'a> Half<'a> {
+impl<'a> Ratios<'a> {
     fn new(sky: &'a PolarisedSky, side: Side, frame: &View) -> Self {
         let lattice = GridNodes {
             sky: sky.sky(),
@@ -86,75 +85,48 @@ impl<'a> Half<'a> {
     }
 }
 
-impl Refinable<PAIR> for Half<'_> {
-    fn surface(&mut self, size: Size) -> Surface<PAIR> {
-        let mut known = core::mem::replace(&mut self.known, Known::new(blocks(self.sky)));
-        let half = &*self;
-        let surface = dispatch(Nodes {
-            half,
-            size,
-            known: &mut known,
-        });
-        self.known = known;
-        surface
+impl Half<PAIR> for Ratios<'_> {
+    const CHANNELS: usize = LANES;
+
+    fn channels(&self) -> usize {
+        self.lattice.sky.wavelengths().len()
     }
 
-    fn errors(&self, surface: &Surface<PAIR>) -> Errors {
-        dispatch(Compare {
-            half: self,
-            surface,
-        })
+    fn sites(&self) -> &[Site] {
+        &self.sites
     }
-}
 
-/// Values at the nodes of a size.
-struct Nodes<'a, 'b> {
-    half: &'a Half<'b>,
-    size: Size,
-    known: &'a mut Known<PAIR>,
-}
+    fn truth(&self) -> &[Lanes<PAIR>] {
+        &self.truth
+    }
 
-impl Kernel for Nodes<'_, '_> {
-    type Output = Surface<PAIR>;
+    fn known(&mut self) -> &mut Known<PAIR> {
+        &mut self.known
+    }
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Surface<PAIR> {
-        let row = |height: f64, azimuths: &[f64]| {
-            self.half.along(&self.half.lattice.ray(height), azimuths)
-        };
-        self.known.surface(self.size, row)
+    fn row(&self, height: f64, azimuths: &[f64]) -> Vec<Lanes<PAIR>> {
+        self.along(&self.lattice.ray(height), azimuths)
     }
-}
-
-struct Compare<'a, 'b> {
-    half: &'a Half<'b>,
-    surface: &'a Surface<PAIR>,
-}
-
-impl Kernel for Compare<'_, '_> {
-    type Output = Errors;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Errors {
-        let (half, size) = (self.half, self.surface.size);
-        let (blocks, wavelengths) = (blocks(half.sky), half.lattice.sky.wavelengths().len());
-        let mut errors = Errors::with_capacity(half.sites.len() * WIDTH * wavelengths);
-        for (site, truth) in half.sites.iter().zip(half.truth.chunks(WIDTH * blocks)) {
-            let spots = Spots::on_side(&site.points, size);
-            for (i, truth) in truth.chunks(blocks).enumerate() {
-                let sine = site.azimuths[i].sin() as f32;
-                for (block, truth) in truth.iter().enumerate() {
-                    let first = block * size.cells();
-                    let zero = Lanes::splat(0.0);
-                    let got = spots.bicubic(zero, first, size.stride(), &self.surface.cells, i);
-                    let off = got - *truth;
-                    let distance = |k: usize| off.0[k].hypot(off.0[LANES + k] * sine);
-                    let count = wavelengths.min((block + 1) * LANES) - block * LANES;
-                    errors.add((0..count).map(distance), site.parts[i]);
-                }
-            }
-        }
-        errors.sorted()
+    fn base<const W: usize>(&self, _: &Spots<W>, _: usize, _: usize) -> Lanes<PAIR> {
+        Lanes::splat(0.0)
+    }
+
+    #[inline(always)]
+    fn compare(
+        &self,
+        (site, _, i): (&Site, &Spots<WIDTH>, usize),
+        sum: Lanes<PAIR>,
+        truth: &Lanes<PAIR>,
+        count: usize,
+        errors: &mut Errors,
+    ) {
+        let sine = site.azimuths[i].sin() as f32;
+        let off = sum - *truth;
+        let distance = |k: usize| off.0[k].hypot(off.0[LANES + k] * sine);
+        errors.add((0..count).map(distance), site.parts[i]);
     }
 }
 
@@ -170,7 +142,7 @@ impl PolarisationTable {
         frame: &View,
         tolerance: f64,
     ) -> Result<(Self, BakeError)> {
-        let half = |side| bake(&mut Half::new(sky, side, frame), side, tolerance);
+        let half = |side| bake(&mut Ratios::new(sky, side, frame), side, tolerance);
         let ((up, up_errors), (down, down_errors)) = (half(Side::Up)?, half(Side::Down)?);
         let grid = hemisphere_spline::grid(up.size, down.size).or_larger(grid);
         let degrees = Self {
