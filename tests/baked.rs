@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 use common::{radiance as truth, unit};
 use proptest::prelude::*;
-use welkin::{BakedColour, BakedSky, Conditions, Directions, Error, Model, Sky};
+use welkin::{BakedColourSky, BakedSky, Conditions, Directions, Error, Model, Sky};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
 
@@ -400,7 +400,7 @@ fn smaller_tolerances_take_more_memory() {
     let sky = MODEL.sky(&Conditions::default()).unwrap();
     let sizes = [1e-2, 2e-3, 8e-4].map(|tolerance| sky.bake(tolerance).unwrap().bytes());
     assert!(sizes.is_sorted() && sizes[0] < sizes[2], "{sizes:?}");
-    let colour: BakedColour = sky.bake_colour(2e-3).unwrap();
+    let colour: BakedColourSky = sky.bake_colour(2e-3).unwrap();
     assert!(colour.bytes() < 20_000, "{}", colour.bytes());
 }
 

@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use std::hint::black_box;
-use welkin::{BakedSky, Conditions, General, Interpolation, Model, Sky};
+use welkin::{BakedSky, Conditions, Interpolation, Model, PointQuery, Sky};
 use welkin_tools::paper::{Cell, Paper};
 use welkin_tools::random::{self, Sequence, sphere};
 use welkin_tools::texture::Texture;
@@ -102,7 +102,7 @@ fn general(c: &mut Criterion) {
         ("general: 6 chunks", Interpolation::Lean),
         ("general: 16 chunks", Interpolation::Full),
     ] {
-        let general = General::new(welkin::DEFAULT_MODEL)
+        let general = PointQuery::new(welkin::DEFAULT_MODEL)
             .expect("the embedded model is valid")
             .with_interpolation(interpolation);
         each(c, name, |i| {

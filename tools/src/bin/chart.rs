@@ -1,14 +1,14 @@
 //! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release -p welkin-tools --bin chart`
 //! writes `docs/settings.csv` and `docs/settings.svg`.
 //!
-//! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of general queries over
+//! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of point queries over
 //! the whole model; times are the least of many repetitions.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
-use welkin::{BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky};
+use welkin::{BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky};
 use welkin_tools::random::{self, Sequence, p95, sphere};
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
@@ -122,7 +122,7 @@ fn exact(sky: &Sky) -> Point {
 
 /// Queries anywhere in the model without preparation.
 fn general(model: &Model, name: &'static str, interpolation: Interpolation) -> Result<Point> {
-    let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+    let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
     let (mut places, mut views) = (Sequence::<4>::default(), Sequence::<2>::default());
     let queries: Vec<_> = (0..QUERIES)
         .map(|_| {
@@ -220,7 +220,7 @@ fn svg(points: &[Point]) -> String {
         };
         let (x, y, r) = (x(p.p95), y(p.ns), (p.bytes as f64).powf(0.25) / 4.0);
         let kilobytes = format!("{:.0}", p.bytes as f64 / 1e3);
-        // General queries are close together, so their names stand above and below.
+        // Point queries are close together, so their names stand above and below.
         let (label, above) = match p.channels {
             "spectral" => (kilobytes, true),
             "RGB" => (kilobytes, false),

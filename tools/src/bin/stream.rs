@@ -31,7 +31,7 @@ fn main() -> Result<()> {
     }
     let model = Model::stream(file())?;
     let head = model.traffic();
-    model.haze(&Conditions {
+    model.aerial_perspective(&Conditions {
         visibility: 50e3,
         ..Conditions::default()
     })?;

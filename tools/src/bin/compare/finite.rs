@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use welkin::{Conditions, Haze, Result};
+use welkin::{AerialPerspective, Conditions, Result};
 
 use crate::clock;
 use crate::report::Row;
@@ -20,10 +20,10 @@ type Ends = [[f64; 3]; 2];
 
 /// Light and transmittance of a segment, and transmittance alone.
 pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
-    let haze = scene.model.haze(&scene.conditions)?;
+    let aerial = scene.model.aerial_perspective(&scene.conditions)?;
     let paper = Paper::fit(&scene.model, cell())?;
     let segments = segments();
-    let n = haze.wavelengths().len();
+    let n = aerial.wavelengths().len();
     let [mut light, mut through] = [vec![0.0; n], vec![0.0; n]];
     let [mut near, mut far, mut between] = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
     let mut difference = |copies: usize, i: usize| -> Result<()> {
@@ -35,7 +35,9 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
         for (end, out) in [&mut near, &mut far].into_iter().enumerate() {
             paper.radiance((2 * i + end) * copies, &scene.conditions, direction, out);
         }
-        haze.air().transmittance(from, to, &mut between)?;
+        aerial
+            .transmittance()
+            .transmittance(from, to, &mut between)?;
         for (near, (far, between)) in near.iter_mut().zip(far.iter().zip(&between)) {
             *near -= far * between;
         }
@@ -48,7 +50,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             unwrapped(|round| {
                 segments[span(round, ROUND)].iter().try_for_each(|&ends| {
                     let [from, to] = black_box(ends);
-                    haze.in_scatter(from, to, &mut light, &mut through)
+                    aerial.in_scattering(from, to, &mut light, &mut through)
                 })
             }),
             unwrapped(|round| span(round, SLOW).try_for_each(|i| difference(copies, i))),
@@ -61,7 +63,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
         unwrapped(|round| {
             segments[span(round, ROUND)].iter().try_for_each(|&ends| {
                 let [from, to] = black_box(ends);
-                haze.air().transmittance(from, to, &mut through)
+                aerial.transmittance().transmittance(from, to, &mut through)
             })
         }),
         |round| {
@@ -71,7 +73,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             }
         },
     );
-    let low_sun = low_sun(scene, &haze, &segments)?;
+    let low_sun = low_sun(scene, &aerial, &segments)?;
     let row = |name, peer, ns, bytes| Row {
         name,
         peer,
@@ -84,32 +86,42 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             "segment",
             "paper's Eq. 2, fixed conditions",
             fixed,
-            haze.bytes(),
+            aerial.bytes(),
         ),
-        row("segment", "paper's Eq. 2, all random", random, haze.bytes()),
-        row("segment_low_sun", "the same by day", low_sun, haze.bytes()),
+        row(
+            "segment",
+            "paper's Eq. 2, all random",
+            random,
+            aerial.bytes(),
+        ),
+        row(
+            "segment_low_sun",
+            "the same by day",
+            low_sun,
+            aerial.bytes(),
+        ),
         row(
             "transmittance",
             "paper's scheme, one radiance",
             transmittance,
-            haze.air().bytes(),
+            aerial.transmittance().bytes(),
         ),
     ])
 }
 
 /// Times of segments at sunset, where shadows cross them, and by day.
-fn low_sun(scene: &Scene, day: &Haze, segments: &[Ends]) -> Result<[f64; 2]> {
-    let sunset = scene.model.haze(&Conditions {
+fn low_sun(scene: &Scene, day: &AerialPerspective, segments: &[Ends]) -> Result<[f64; 2]> {
+    let sunset = scene.model.aerial_perspective(&Conditions {
         solar_elevation: 0.0,
         ..scene.conditions
     })?;
     let n = day.wavelengths().len();
-    let run = |haze, round| -> Result<()> {
-        let haze: &Haze = haze;
+    let run = |aerial, round| -> Result<()> {
+        let aerial: &AerialPerspective = aerial;
         let [mut light, mut through] = [[0.0; MOST]; 2];
         for &ends in &segments[span(round, ROUND)] {
             let [from, to] = black_box(ends);
-            haze.in_scatter(from, to, &mut light[..n], &mut through[..n])?;
+            aerial.in_scattering(from, to, &mut light[..n], &mut through[..n])?;
             black_box(&light);
         }
         Ok(())

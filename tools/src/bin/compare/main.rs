@@ -15,7 +15,7 @@ use std::ops::Range;
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use report::Row;
 use welkin::{
-    BakedColour, BakedSky, Conditions, Directions, General, Interpolation, Model, Result, Sky,
+    BakedColourSky, BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky,
 };
 use welkin_tools::paper::{Cell, Paper};
 use welkin_tools::random::{self, Sequence, p95, sphere};
@@ -55,7 +55,7 @@ struct Scene {
     conditions: Conditions,
     sky: Sky,
     spectral: BakedSky,
-    colour: BakedColour,
+    colour: BakedColourSky,
     directions: Vec<[f32; 3]>,
     components: [Vec<f32>; 3],
 }
@@ -262,7 +262,7 @@ impl Scene {
             ("general_spectral_linear", Interpolation::Linear),
             ("general_spectral_full", Interpolation::Full),
         ] {
-            let general = General::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
+            let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
             let error = self.error_in(&anywhere, |i, d, out| {
                 general.radiance(&anywhere[i], d, out)
             })?;

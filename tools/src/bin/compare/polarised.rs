@@ -2,14 +2,16 @@
 
 use std::hint::black_box;
 
-use welkin::{BakedPolarisedSky, BakedSky, Frame, PolarisedSky, Result, Stokes, StokesSpectra};
+use welkin::{
+    BakedPolarisedSky, BakedSky, PolarisationFrame, PolarisedSky, Result, Stokes, StokesSpectra,
+};
 
 use crate::clock;
 use crate::report::Row;
 use crate::{ROUND, Scene, span, unwrapped};
 
 /// The frame that costs most.
-const FRAME: Frame = Frame::Axis([0.2, 0.3, 0.9]);
+const FRAME: PolarisationFrame = PolarisationFrame::Axis([0.2, 0.3, 0.9]);
 
 /// Single queries and batches of all wavelengths.
 pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
@@ -86,8 +88,8 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
 /// Light of segments of 30 m to 100 km in all directions that do not meet the ground.
 fn segments(scene: &Scene) -> Result<Row> {
     const ROUND: usize = 256;
-    let haze = scene.model.haze(&scene.conditions)?;
-    let n = haze.wavelengths().len();
+    let aerial = scene.model.aerial_perspective(&scene.conditions)?;
+    let n = aerial.wavelengths().len();
     let camera = [0.0, 0.0, scene.conditions.altitude];
     let point = |(i, d): (usize, &[f32; 3])| -> [f64; 3] {
         let length = 30.0 * 3300f64.powf((i as f64 * 0.618_034).fract());
@@ -107,11 +109,11 @@ fn segments(scene: &Scene) -> Result<Row> {
                 q: &mut q,
                 u: &mut u,
             };
-            haze.aerial_perspective_stokes(camera, points, FRAME, out, &mut through)
+            aerial.in_scattering_stokes_batch(camera, points, FRAME, out, &mut through)
         }),
         unwrapped(|round| {
             let points = black_box(&points[span(round, ROUND)]);
-            haze.aerial_perspective(camera, points, &mut light, &mut peer_through)
+            aerial.in_scattering_batch(camera, points, &mut light, &mut peer_through)
         }),
     );
     Ok(Row {
@@ -119,7 +121,7 @@ fn segments(scene: &Scene) -> Result<Row> {
         peer: "the same without polarisation",
         ns,
         p95_error: [None, None],
-        bytes: [haze.bytes(); 2],
+        bytes: [aerial.bytes(); 2],
     })
 }
 

@@ -1,8 +1,8 @@
 //! What a small step of the sun or the observer does to pixels of baked skies, beyond what it does to the sky.
 
 use welkin::{
-    BakedColour, BakedPolarisedSky, BakedSky, Conditions, Frame, Model, PolarisedSky, Result, Sky,
-    StokesSpectra,
+    BakedColourSky, BakedPolarisedSky, BakedSky, Conditions, Model, PolarisationFrame,
+    PolarisedSky, Result, Sky, StokesSpectra,
 };
 
 const WAVELENGTHS: usize = 12;
@@ -60,7 +60,7 @@ pub const KINDS: [Kind; 4] = [Kind::Spectral, Kind::Hero, Kind::Colour, Kind::Po
 pub enum View {
     Spectral(Sky, BakedSky),
     Hero(Sky, BakedSky),
-    Colour(Sky, BakedColour),
+    Colour(Sky, BakedColourSky),
     Polarised(Box<PolarisedSky>, Box<BakedPolarisedSky>),
 }
 
@@ -136,7 +136,7 @@ impl View {
             Self::Colour(sky, baked) => [log(&sky.xyz(direction)?), log(&baked.xyz(direction)?)],
             Self::Polarised(sky, baked) => {
                 let mut truth = [Default::default(); WAVELENGTHS];
-                sky.stokes(direction, Frame::Vertical, &mut truth)?;
+                sky.stokes(direction, PolarisationFrame::Vertical, &mut truth)?;
                 let truth = truth.iter().flat_map(|s| [s.q / s.i, s.u / s.i]);
                 let [mut i, mut q, mut u] = [[0.0; WAVELENGTHS]; 3];
                 let out = StokesSpectra {
@@ -144,7 +144,7 @@ impl View {
                     q: &mut q,
                     u: &mut u,
                 };
-                baked.stokes(direction, Frame::Vertical, out)?;
+                baked.stokes(direction, PolarisationFrame::Vertical, out)?;
                 let got = (0..WAVELENGTHS).flat_map(|k| [q[k] / i[k], u[k] / i[k]]);
                 [truth.map(f64::from).collect(), got.map(f64::from).collect()]
             }
