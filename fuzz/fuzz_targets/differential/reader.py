@@ -27,20 +27,20 @@ def read_block(stream):
 
 def main():
     reader, stream = load(), sys.stdin.buffer
-    welkin = reader.welkin
-    print("lacks" if welkin.ZSTD else "lacks zstd", flush=True)
+    welkin_sky = reader.welkin_sky
+    print("lacks" if welkin_sky.ZSTD else "lacks zstd", flush=True)
     while (file := read_block(stream)) is not None:
         lines = read_block(stream).decode().splitlines()
         try:
-            model, refusal = welkin.from_bytes(file), None
-        except welkin.WelkinError as error:
+            model, refusal = welkin_sky.from_bytes(file), None
+        except welkin_sky.WelkinError as error:
             model, refusal = None, error
         for line in lines:
             try:
                 if refusal:
                     raise refusal
                 print(*(repr(float(number)) for number in reader.answer(model, line).ravel()))
-            except welkin.WelkinError as error:
+            except welkin_sky.WelkinError as error:
                 print("error", error.error_class)
         sys.stdout.flush()
 

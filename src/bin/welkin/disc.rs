@@ -3,7 +3,7 @@
 //! A pixel that the disc touches is divided until its parts are small beside the disc, so that what pixels have together is what
 //! the disc sends, however large they are.
 
-use welkin::{Conditions, Model, SUN_RADIUS, SunDisc, xyz_to_linear_srgb};
+use welkin::{Conditions, Model, SOLAR_ANGULAR_RADIUS, SolarDisc, xyz_to_linear_srgb};
 
 use crate::failure::Result;
 
@@ -20,11 +20,11 @@ const EDGE: usize = 12;
 pub trait Look: Fn([f64; 2]) -> Option<[f64; 3]> {}
 impl<F: Fn([f64; 2]) -> Option<[f64; 3]>> Look for F {}
 
-pub struct Disc(SunDisc);
+pub struct Disc(SolarDisc);
 
 impl Disc {
     pub fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
-        Ok(Self(model.sun_disc(conditions)?))
+        Ok(Self(model.solar_disc(conditions)?))
     }
 
     /// The mean over a pixel, linear sRGB in cd m⁻²; `is_open` says whether nothing stands before the sun in a direction.
@@ -78,7 +78,8 @@ impl Disc {
             if !part.may_touch(self.sun(), look) {
                 continue;
             }
-            let is_small = part.radius(look) <= FINENESS * SUN_RADIUS || part.depth == MOST_DEPTH;
+            let is_small =
+                part.radius(look) <= FINENESS * SOLAR_ANGULAR_RADIUS || part.depth == MOST_DEPTH;
             if !is_small || part.depth < LEAST_DEPTH {
                 parts.extend(part.quarters());
             } else if let Some(direction) = look(part.middle) {
@@ -137,7 +138,7 @@ impl Part {
             // A part beyond the edge of a fish-eye.
             return self.depth > 0 && self.depth < LEAST_DEPTH;
         };
-        angle(middle, sun) <= SUN_RADIUS + 1.5 * self.radius(look)
+        angle(middle, sun) <= SOLAR_ANGULAR_RADIUS + 1.5 * self.radius(look)
     }
 
     /// Solid angle of a part that is as good as flat, sr.

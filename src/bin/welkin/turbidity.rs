@@ -46,7 +46,7 @@ pub fn visibility(model: &Model, turbidity: f64, clamp: bool) -> Result<f64> {
 
 /// The turbidity at a visibility, m.
 fn of(model: &Model, visibility: f64) -> Result<f64> {
-    let air = model.air(visibility)?;
+    let air = model.transmittance(visibility)?;
     let mut through = vec![0.0; air.wavelengths().len()];
     air.transmittance_to_space([0.0; 3], [0.0, 0.0, 1.0], &mut through)?;
     let through = between_wavelengths(air.wavelengths(), &through, WAVELENGTH)?;

@@ -1,6 +1,6 @@
 """Checks the integral of scattered light against cases with a closed form.
 
-    PYTHONPATH=src python -m unittest discover tests
+    python -m unittest discover tests
 """
 
 import struct
@@ -9,8 +9,8 @@ import zlib
 
 import numpy as np
 
-import welkin
-from welkin import _head
+import welkin_sky
+from welkin_sky import _head
 
 RADIUS, TOP = 6.378e6, 1e5
 EDGES = np.array([0.0, 1e3, 3e3, 8e3, 16e3, 32e3, TOP])
@@ -83,7 +83,7 @@ class Scattered(unittest.TestCase):
     def test_constant_source(self):
         """Where nothing absorbs, a constant source in the dark gives source · (1 − T)."""
         for phase in (1, 2):
-            model = welkin.from_bytes(haze_file(phase, 1e-4, 1e-4))
+            model = welkin_sky.from_bytes(haze_file(phase, 1e-4, 1e-4))
             for altitude in (0.0, 1e3, 2e4):
                 place = {"altitude": altitude, "visibility": 5e4}
                 for distance in (100.0, 1e4, 3e5):
@@ -96,7 +96,7 @@ class Scattered(unittest.TestCase):
 
     def test_from_above(self):
         """An observer above the air sees all of it, and from aside nothing."""
-        model = welkin.from_bytes(haze_file(2, 1e-4, 1e-4))
+        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-4))
         place = {"altitude": 4e7, "visibility": 5e4}
         night = {"solar_elevation": -1.5, "albedo": 0.0, **place}
         light = model.scattered([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]], 4e7, **night)
@@ -106,7 +106,7 @@ class Scattered(unittest.TestCase):
 
     def test_sunlight(self):
         """A short segment scatters its depth · phase function · sunlight / 4π."""
-        model = welkin.from_bytes(haze_file(2, 1e-4, 1e-9))
+        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
         light = model.scattered([1.0, 0, 0], 1.0, solar_elevation=0.5, albedo=0.0, **place)
         sun = [np.cos(0.5), 0.0, np.sin(0.5)]
@@ -116,7 +116,7 @@ class Scattered(unittest.TestCase):
 
     def test_polarisation(self):
         """A short segment of molecules: Q and U of sunlight; the source is the same from everywhere."""
-        model = welkin.from_bytes(haze_file(1, 1e-4, 1e-9))
+        model = welkin_sky.from_bytes(haze_file(1, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "solar_azimuth": 0.3, **place}
         sun = [np.cos(0.5) * np.cos(0.3), np.cos(0.5) * np.sin(0.3), np.sin(0.5)]
@@ -133,14 +133,14 @@ class Scattered(unittest.TestCase):
             np.testing.assert_array_equal(light, model.scattered(view, 1.0, **scene))
 
     def test_conditions(self):
-        model = welkin.from_bytes(haze_file(2, 1e-4, 1e-4))
+        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-4))
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "altitude": 0.0, "visibility": 5e4}
-        with self.assertRaises(welkin.DirectionError):
+        with self.assertRaises(welkin_sky.DirectionError):
             model.scattered([0.0, 0.0, 0.0], 1.0, **scene)
         for distance in (-1.0, 2e9):
-            with self.assertRaises(welkin.PointError):
+            with self.assertRaises(welkin_sky.PointError):
                 model.scattered([0.0, 0.0, 1.0], distance, **scene)
-        with self.assertRaises(welkin.MissingError):
+        with self.assertRaises(welkin_sky.MissingError):
             model.sky(**scene)
 
 
