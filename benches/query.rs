@@ -58,8 +58,10 @@ fn prepare(c: &mut Criterion) {
 fn segment(c: &mut Criterion) {
     let model = Model::default_model().expect("the embedded model is valid");
     let conditions = between_nodes();
-    let haze = model.haze(&conditions).expect("inside the model");
-    let n = haze.wavelengths().len();
+    let aerial = model
+        .aerial_perspective(&conditions)
+        .expect("inside the model");
+    let n = aerial.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
     let mut next = 0;
     let mut segment = || {
@@ -72,13 +74,13 @@ fn segment(c: &mut Criterion) {
     c.bench_function("segment, by the source", |b| {
         b.iter(|| {
             let (from, to) = black_box(segment());
-            haze.in_scatter(from, to, &mut light, &mut through)
+            aerial.in_scattering(from, to, &mut light, &mut through)
         })
     });
     c.bench_function("segment, transmittance alone", |b| {
         b.iter(|| {
             let (from, to) = black_box(segment());
-            haze.air().transmittance(from, to, &mut through)
+            aerial.transmittance().transmittance(from, to, &mut through)
         })
     });
     c.bench_function("segment, by Eq. 2 at new conditions", |b| {
@@ -93,10 +95,12 @@ fn segment(c: &mut Criterion) {
                 let direction = [0, 1, 2].map(|k| (to[k] - from[k]) as f32);
                 let _ = sky.and_then(|sky| sky.relative_radiance(direction, &mut light));
             }
-            haze.air().transmittance(from, to, &mut through)
+            aerial.transmittance().transmittance(from, to, &mut through)
         })
     });
-    c.bench_function("prepare a haze", |b| b.iter(|| model.haze(&conditions)));
+    c.bench_function("prepare a haze", |b| {
+        b.iter(|| model.aerial_perspective(&conditions))
+    });
 }
 
 criterion_group!(benches, query, segment, prepare);

@@ -90,8 +90,8 @@ fn main() {
         ("polarisation", true),
         ("stokes_q", true),
         ("transmittance", true),
-        ("in_scatter", false),
-        ("in_scatter", true),
+        ("in_scattering", false),
+        ("in_scattering", true),
         ("sun_radiance", false),
     ] {
         let rates = commands.iter().map(|command| {

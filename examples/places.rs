@@ -1,4 +1,4 @@
-//! A flight over the planet: at each position of the world, the local conditions, the sky above and the haze of a kilometre ahead.
+//! A flight over the planet: at each position of the world, the local conditions, the sky above and the aerial perspective of a kilometre ahead.
 //!
 //! `cargo run --release --example places`
 
@@ -25,11 +25,11 @@ fn main() -> welkin::Result<()> {
         // Directions of the world: here towards the west, where the sun sets.
         let low = core::array::from_fn(|i| 5f64.to_radians().sin() * up[i] - east[i]);
         let towards_sun = sky.xyz(place.direction(low))?[1];
-        // Points of the world, for a haze that is prepared at this place; it serves for `reach` around it.
-        let haze = model.haze(&conditions)?;
+        // Points of the world, for an aerial perspective that is prepared at this place; it serves for `reach` around it.
+        let aerial = model.aerial_perspective(&conditions)?;
         let [from, to] = [0.0, 1e3].map(|d| core::array::from_fn(|i| camera[i] + d * east[i]));
         let [from, to] = [from, to].map(|point| place.point_to_local(point));
-        haze.in_scatter(from, to, &mut light, &mut through)?;
+        aerial.in_scattering(from, to, &mut light, &mut through)?;
         let elevation = conditions.solar_elevation.to_degrees();
         println!(
             "{longitude:8}°  {elevation:14.2}°  {zenith:7.0}  {towards_sun:26.0}  {:.3e}",

@@ -3,7 +3,7 @@
 
 #![forbid(unsafe_code)]
 
-use welkin::{Air, Conditions, Frame, Haze, Model, PolarisedSky, Stokes, StokesSpectra};
+use welkin::{Transmittance, Conditions, PolarisationFrame, AerialPerspective, Model, PolarisedSky, Stokes, StokesSpectra};
 
 /// `data` with the length of the file and all checksums that can be found set right.
 pub fn forged(data: &[u8]) -> Vec<u8> {
@@ -44,7 +44,7 @@ const SEGMENTS: [[[f64; 3]; 2]; 5] = [
 ];
 
 /// Transmittance of segments is in 0..=1.
-pub fn look_through(air: &Air) {
+pub fn look_through(air: &Transmittance) {
     let mut through = vec![0.0; air.wavelengths().len()];
     for [from, to] in SEGMENTS {
         air.transmittance(from, to, &mut through).expect("valid points");
@@ -53,27 +53,27 @@ pub fn look_through(air: &Air) {
 }
 
 /// Light of segments is finite and not negative.
-pub fn look_into(haze: &Haze) {
+pub fn look_into(aerial: &AerialPerspective) {
     for [from, to] in SEGMENTS {
-        scatter(haze, from, to);
+        scatter(aerial, from, to);
     }
 }
 
 /// Light and transmittance of one segment.
-pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
-    let mut light = vec![0.0; haze.wavelengths().len()];
+pub fn scatter(aerial: &AerialPerspective, from: [f64; 3], to: [f64; 3]) {
+    let mut light = vec![0.0; aerial.wavelengths().len()];
     let mut through = light.clone();
-    if haze.in_scatter(from, to, &mut light, &mut through).is_ok() {
+    if aerial.in_scattering(from, to, &mut light, &mut through).is_ok() {
         assert!(light.iter().all(|l| l.is_finite() && *l >= 0.0), "{light:?}");
         assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
         let (mut i, mut q, mut u) = (light.clone(), light.clone(), light.clone());
         let spectra = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
-        haze.in_scatter_stokes(from, to, Frame::Vertical, spectra, &mut through)
+        aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, spectra, &mut through)
             .expect("the same points");
         let parts = i.iter().zip(&q).zip(&u);
         let stokes: Vec<_> = parts.map(|((&i, &q), &u)| Stokes { i, q, u }).collect();
         check_polarised(&stokes);
-        let (colour, factor) = haze.xyz(from, to).expect("the same points");
+        let (colour, factor) = aerial.xyz(from, to).expect("the same points");
         assert!(colour.iter().chain(&factor).all(|v| v.is_finite()));
     }
 }
@@ -81,7 +81,7 @@ pub fn scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) {
 /// Stokes vectors are finite, and no light is more than polarised.
 pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
     let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
-    if sky.relative_stokes(direction, Frame::Vertical, &mut light).is_ok() {
+    if sky.relative_stokes(direction, PolarisationFrame::Vertical, &mut light).is_ok() {
         check_polarised(&light);
     }
 }
@@ -111,11 +111,11 @@ pub fn interrogate(model: &Model) {
             albedo: t,
             ..Conditions::default()
         };
-        if let Ok(air) = model.air(conditions.visibility) {
+        if let Ok(air) = model.transmittance(conditions.visibility) {
             look_through(&air);
         }
-        if let Ok(haze) = model.haze(&conditions) {
-            look_into(&haze);
+        if let Ok(aerial) = model.aerial_perspective(&conditions) {
+            look_into(&aerial);
         }
         if let Ok(sky) = model.polarised_sky(&conditions) {
             look_polarised(&sky, [0.3, -0.2, 0.5]);

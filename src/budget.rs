@@ -3,9 +3,9 @@
 use crate::baked::{check_tolerance, largest_bytes};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
-use crate::general::{Chunks, Factors, General, HeadView};
 use crate::model::{Key, Model};
-use crate::polarisation::PolarisedGeneral;
+use crate::point_query::{Chunks, Factors, PointQuery, checked_head};
+use crate::polarisation::PolarisedPointQuery;
 
 /// What the skies of a scene are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,13 +122,13 @@ impl Model {
         self.load_chunks(&plan.chunks)
     }
 
-    /// Prepares general queries within a plan of this model, and reads what it asks for. They are not polarised.
+    /// Prepares point queries within a plan of this model, and reads what it asks for. They are not polarised.
     ///
     /// # Errors
-    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`General`].
-    pub fn general(&self, plan: &Plan) -> Result<General<'_>> {
+    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`].
+    pub fn point_query(&self, plan: &Plan) -> Result<PointQuery<'_>> {
         self.load(plan)?;
-        let head = HeadView::new(self.front())?;
+        let head = checked_head(self.front())?;
         let mut chunks = Chunks::new(&head)?;
         for &i in &plan.chunks {
             let entry = &self.directory()[i];
@@ -141,17 +141,17 @@ impl Model {
             let place = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
             chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
         }
-        General::assemble(head, chunks)
+        PointQuery::assemble(head, chunks)
     }
 }
 
 impl Model {
-    /// Prepares general queries with Stokes vectors within a plan of this model for [`Channels::Stokes`], and reads what it asks for.
+    /// Prepares point queries with Stokes vectors within a plan of this model for [`Channels::Stokes`], and reads what it asks for.
     ///
     /// # Errors
-    /// As [`Model::general`]; [`Error::MissingChunk`] for a plan without polarisation.
-    pub fn polarised_general(&self, plan: &Plan) -> Result<PolarisedGeneral<'_>> {
-        let general = self.general(plan)?;
+    /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.
+    pub fn polarised_point_query(&self, plan: &Plan) -> Result<PolarisedPointQuery<'_>> {
+        let general = self.point_query(plan)?;
         let head = self.head();
         let visibilities = head.visibilities.len();
         let mut chunks = vec![None; head.altitudes.len() * visibilities];
@@ -168,7 +168,7 @@ impl Model {
             chunks[a * visibilities + v] = Some(self.polarisation_chunk(a, v)?);
         }
         let factors = Factors::new(self.polarisation_basis()?, chunks, visibilities)?;
-        Ok(PolarisedGeneral::new(general, factors))
+        Ok(PolarisedPointQuery::new(general, factors))
     }
 }
 

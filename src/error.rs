@@ -114,7 +114,7 @@ pub enum Error {
         /// The refused point, m.
         got: [f64; 3],
     },
-    /// The air of a segment goes too far from where a haze was prepared.
+    /// The air of a segment goes too far from where an aerial perspective was prepared.
     Reach {
         /// The end of that air that is too far, m.
         got: [f64; 3],

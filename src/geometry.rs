@@ -3,7 +3,7 @@
 use core::f64::consts::FRAC_PI_2;
 
 #[cfg(not(feature = "std"))]
-use crate::real::Real;
+use crate::kernel::real::Real;
 
 /// A sphere of radius `radius` with an atmosphere up to `top` above it (m).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,94 +31,57 @@
 //!
 //! Features: `mmap` maps files instead of reading them, `default-model` embeds a model (both are on by default), `cli`
 //! builds the command `welkin`, `signals` lets no signal leave temporary files behind (`welkin::output`). Without `std` (and
-//! with `libm`) what is left is [`General`], which needs neither the standard library nor an allocator.
+//! with `libm`) what is left is [`PointQuery`], which needs neither the standard library nor an allocator.
 
 #![deny(unsafe_code)]
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without the standard library parts of the shared modules are not used.
 #![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]
 
-#[cfg(feature = "std")]
-mod air;
-pub mod axis;
-#[cfg(feature = "std")]
-mod baked;
-#[cfg(feature = "std")]
-mod budget;
-#[cfg(feature = "std")]
-mod colour;
+mod azimuth_fade;
 mod conditions;
 mod error;
-mod fade;
 pub mod format;
-mod general;
 pub mod geometry;
-#[cfg(feature = "std")]
-mod haze;
-mod lanes;
-#[cfg(feature = "mmap")]
-#[allow(
-    unsafe_code,
-    reason = "what is mapped is memory that others can change"
-)]
-mod map;
-mod math;
-#[cfg(feature = "std")]
-mod model;
-#[cfg(feature = "std")]
-pub mod output;
-mod phase;
+mod kernel;
+mod phase_function;
 mod place;
-#[cfg(feature = "std")]
-mod polarisation;
-#[cfg(feature = "std")]
-mod prepare;
-#[cfg(not(feature = "std"))]
-mod real;
-#[allow(unsafe_code, reason = "instructions that not every processor has")]
-mod simd;
-#[cfg(feature = "std")]
-mod sky;
-#[cfg(feature = "std")]
-mod source;
-#[cfg(feature = "std")]
-mod spectrum;
-#[cfg(feature = "std")]
-mod store;
-#[cfg(feature = "std")]
-mod sun;
-#[cfg(feature = "std")]
-mod tables;
+mod point_query;
 
-#[cfg(feature = "std")]
-pub use air::Air;
-#[cfg(feature = "std")]
-pub use baked::{
-    BakeError, BakedColour, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
-};
-#[cfg(feature = "std")]
-pub use budget::{Budget, Channels, Plan};
-#[cfg(feature = "std")]
-pub use colour::xyz_to_linear_srgb;
 pub use conditions::Conditions;
 pub use error::{Error, Result};
-pub use general::{General, Interpolation};
-#[cfg(feature = "std")]
-pub use haze::{Foreground, GeneralHaze, Haze, PolarisedForeground};
-#[cfg(feature = "default-model")]
-pub use model::DEFAULT_MODEL;
-#[cfg(feature = "std")]
-pub use model::Model;
+pub use kernel::axis;
 pub use place::Place;
-#[cfg(feature = "std")]
-pub use polarisation::{Frame, PolarisedGeneral, PolarisedSky, Stokes, StokesSpectra};
-#[cfg(feature = "std")]
-pub use sky::Sky;
-#[cfg(feature = "std")]
-pub use source::ReadAt;
-#[cfg(feature = "std")]
-pub use spectrum::between_wavelengths;
-#[cfg(feature = "std")]
-pub use store::Traffic;
-#[cfg(feature = "std")]
-pub use sun::{SUN_RADIUS, SunDisc};
+pub use point_query::{Interpolation, PointQuery};
+
+cfg_if::cfg_if! {
+    if #[cfg(feature = "std")] {
+        mod aerial_perspective;
+        mod baked;
+        mod budget;
+        mod model;
+        pub mod output;
+        mod polarisation;
+        mod sky;
+        mod sun;
+        mod transmittance;
+
+        pub use aerial_perspective::{
+            AerialPerspective, AerialPerspectiveQuery, JoinedAerialPerspective,
+            JoinedPolarisedAerialPerspective,
+        };
+        pub use baked::{
+            BakeError, BakedColourSky, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
+        };
+        pub use budget::{Budget, Channels, Plan};
+        #[cfg(feature = "default-model")]
+        pub use model::DEFAULT_MODEL;
+        pub use model::{Model, ReadAt, Traffic};
+        pub use polarisation::{
+            PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,
+        };
+        pub use sky::{Sky, between_wavelengths, xyz_to_linear_srgb};
+        pub use sun::{SOLAR_ANGULAR_RADIUS, SolarDisc};
+        pub use transmittance::Transmittance;
+    }
+}

@@ -3,13 +3,13 @@
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
-#[cfg(feature = "std")]
-use crate::polarisation::Frame;
 #[cfg(not(feature = "std"))]
-use crate::real::Real;
+use crate::kernel::real::Real;
+#[cfg(feature = "std")]
+use crate::polarisation::PolarisationFrame;
 
 /// A place on or above the planet, with its local frame: the one that [`Conditions`], directions of skies and of
-/// [`General`](crate::General), points of [`Air`](crate::Air) and [`Haze`](crate::Haze), and [`Frame::Axis`] are meant in.
+/// [`PointQuery`](crate::PointQuery), points of [`Transmittance`](crate::Transmittance) and [`AerialPerspective`](crate::AerialPerspective), and [`PolarisationFrame::Axis`] are meant in.
 ///
 /// The world frame is the caller's: any axes, any origin, metres, the planet's centre where the caller says. The local frame has +z
 /// away from the centre and its origin on the ground below the place; +x and +y are those of the world carried along the great circle
@@ -42,7 +42,7 @@ pub struct Place {
 
 impl Place {
     /// The place at `position` on a planet with its centre in `centre`, both in world coordinates, m. The frame of
-    /// [`Haze`](crate::Haze) has its centre in (0, 0, −R). In the centre itself, up is +z of the world.
+    /// [`AerialPerspective`](crate::AerialPerspective) has its centre in (0, 0, −R). In the centre itself, up is +z of the world.
     ///
     /// # Errors
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m.
@@ -92,7 +92,7 @@ impl Place {
         self.to_local(world).map(|v| v as f32)
     }
 
-    /// A point of the world (m) in the local frame, as [`Air`](crate::Air) and a [`Haze`](crate::Haze) that is prepared here take
+    /// A point of the world (m) in the local frame, as [`Transmittance`](crate::Transmittance) and a [`AerialPerspective`](crate::AerialPerspective) that is prepared here take
     /// points: relative to the ground below the place.
     pub fn point_to_local(&self, world: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = self.to_local(core::array::from_fn(|i| world[i] - self.centre[i]));
@@ -130,8 +130,8 @@ impl Place {
 
     /// The polarisation frame with this axis of the world: the up vector of a camera, say.
     #[cfg(feature = "std")]
-    pub fn frame(&self, axis: [f64; 3]) -> Frame {
-        Frame::Axis(self.direction(axis))
+    pub fn frame(&self, axis: [f64; 3]) -> PolarisationFrame {
+        PolarisationFrame::Axis(self.direction(axis))
     }
 }
 

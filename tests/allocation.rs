@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 #[cfg(feature = "default-model")]
 use welkin::{BakedSky, Directions, StokesSpectra};
-use welkin::{Conditions, Frame, Model, Stokes};
+use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 struct Counting;
 
@@ -57,10 +57,14 @@ fn queries_do_not_allocate() {
         let _ = sky.radiance_at(direction, f64::NAN);
         let _ = sky.xyz(direction);
         let _ = sky.linear_srgb(direction);
-        let _ = polarised.stokes(direction, Frame::SunAligned, &mut stokes);
-        let _ = polarised.relative_stokes(direction, Frame::Axis([1.0, 0.0, 0.0]), &mut stokes);
-        let _ = polarised.stokes_at(direction, Frame::Vertical, 500.0);
-        let _ = polarised.xyz(direction, Frame::Vertical);
+        let _ = polarised.stokes(direction, PolarisationFrame::SunAligned, &mut stokes);
+        let _ = polarised.relative_stokes(
+            direction,
+            PolarisationFrame::Axis([1.0, 0.0, 0.0]),
+            &mut stokes,
+        );
+        let _ = polarised.stokes_at(direction, PolarisationFrame::Vertical, 500.0);
+        let _ = polarised.xyz(direction, PolarisationFrame::Vertical);
     }
     let _ = sky.radiance_batch(&directions[..3], &mut batch);
     let _ = sky.xyz_batch(&directions[..3], &mut xyz);
@@ -84,7 +88,7 @@ fn baked_queries_do_not_allocate() {
     let mut rgb = [[0.0; 3]; 19];
     let mut heroes = [[0.0; 4]; 19];
     let mut stokes = [[Stokes::default(); 4]; 19];
-    let sun = model.sun_disc(&Conditions::default()).unwrap();
+    let sun = model.solar_disc(&Conditions::default()).unwrap();
     let sampler = colour.sampler().with_sun(&sun);
     let component: Vec<f32> = (0..19).map(|i| (i as f32).sin()).collect();
     let directions = Directions {
@@ -99,7 +103,7 @@ fn baked_queries_do_not_allocate() {
         q: &mut q,
         u: &mut u,
     };
-    let _ = polarised.stokes_batch(&directions, Frame::SunAligned, spectra);
+    let _ = polarised.stokes_batch(&directions, PolarisationFrame::SunAligned, spectra);
     let _ = colour.linear_srgb_batch(&directions, &mut rgb);
     let _ = colour.xyz_batch(&directions, &mut rgb);
     for direction in [
@@ -119,7 +123,7 @@ fn baked_queries_do_not_allocate() {
     );
     let _ = polarised.hero_batch(
         &directions,
-        Frame::Vertical,
+        PolarisationFrame::Vertical,
         &[[400.0, 500.0, 600.0, 700.0]; 19],
         &mut stokes,
     );
@@ -144,26 +148,26 @@ fn finite_segments_do_not_allocate() {
             solar_elevation: elevation.to_radians(),
             ..Conditions::default()
         };
-        let mut haze = model.haze(&conditions).unwrap();
-        let n = haze.wavelengths().len();
+        let mut aerial = model.aerial_perspective(&conditions).unwrap();
+        let n = aerial.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
         let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; 2 * n]);
         let camera = [0.0, 0.0, 1500.0];
         let points = [[30_000.0, 900.0, 2500.0], [10.0, 0.0, 1490.0]];
         let before = COUNT.get();
-        let _ = haze.set_solar_azimuth(0.3);
-        let _ = haze.aerial_perspective(camera, &points, &mut light, &mut through);
-        let _ = haze.linear_srgb(camera, points[0]);
+        let _ = aerial.set_solar_azimuth(0.3);
+        let _ = aerial.in_scattering_batch(camera, &points, &mut light, &mut through);
+        let _ = aerial.linear_srgb(camera, points[0]);
         let spectra = StokesSpectra {
             i: &mut i,
             q: &mut q,
             u: &mut u,
         };
-        let frame = Frame::Axis([0.0, 0.1, 1.0]);
-        let _ = haze.aerial_perspective_stokes(camera, &points, frame, spectra, &mut through);
-        let _ = haze.linear_srgb_stokes(camera, points[0], Frame::SunAligned);
-        let _ = haze.to_end(camera, [1.0, 0.0, 0.1], &mut light[..n], &mut through[..n]);
-        let air = haze.air();
+        let frame = PolarisationFrame::Axis([0.0, 0.1, 1.0]);
+        let _ = aerial.in_scattering_stokes_batch(camera, &points, frame, spectra, &mut through);
+        let _ = aerial.linear_srgb_stokes(camera, points[0], PolarisationFrame::SunAligned);
+        let _ = aerial.to_end(camera, [1.0, 0.0, 0.1], &mut light[..n], &mut through[..n]);
+        let air = aerial.transmittance();
         let _ = air.transmittance(camera, points[1], &mut through[..n]);
         let _ = air.transmittance_to_space(camera, [0.0, 0.0, 1.0], &mut through[..n]);
         assert_eq!(COUNT.get(), before);

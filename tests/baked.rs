@@ -3,7 +3,7 @@
 
 mod common;
 #[allow(dead_code)]
-#[path = "../examples/compare/random.rs"]
+#[path = "../tools/src/random.rs"]
 mod random;
 
 use std::f64::consts::TAU;
@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 use common::{radiance as truth, unit};
 use proptest::prelude::*;
-use welkin::{BakedColour, BakedSky, Conditions, Directions, Error, Model, Sky};
+use welkin::{BakedColourSky, BakedSky, Conditions, Directions, Error, Model, Sky};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
 
@@ -183,10 +183,10 @@ proptest! {
 /// ground and high up, without the skies in which no table holds the fit (below zero at dusk).
 #[test]
 fn largest_errors_are_honest() {
-    let mut places = random::Sequence::<4>::new();
+    let mut places = random::Sequence::<4>::default();
     let (mut tails, mut peaks) = (Vec::new(), Vec::new());
     for i in 0..200 {
-        let mut conditions = random::conditions(&MODEL, places.next());
+        let mut conditions = random::conditions(&MODEL, places.draw());
         conditions.altitude *= if i % 2 == 0 { 0.2 } else { 1.0 };
         let sky = MODEL.sky(&conditions).unwrap();
         let Ok(baked) = sky.bake(BakedSky::TOLERANCE) else {
@@ -400,7 +400,7 @@ fn smaller_tolerances_take_more_memory() {
     let sky = MODEL.sky(&Conditions::default()).unwrap();
     let sizes = [1e-2, 2e-3, 8e-4].map(|tolerance| sky.bake(tolerance).unwrap().bytes());
     assert!(sizes.is_sorted() && sizes[0] < sizes[2], "{sizes:?}");
-    let colour: BakedColour = sky.bake_colour(2e-3).unwrap();
+    let colour: BakedColourSky = sky.bake_colour(2e-3).unwrap();
     assert!(colour.bytes() < 20_000, "{}", colour.bytes());
 }
 
@@ -408,9 +408,9 @@ fn smaller_tolerances_take_more_memory() {
 #[test]
 fn few_skies_are_refused() {
     const COUNT: usize = 3000;
-    let mut places = random::Sequence::<4>::new();
+    let mut places = random::Sequence::<4>::default();
     let refused = (0..COUNT).filter(|i| {
-        let mut conditions = random::conditions(&MODEL, places.next());
+        let mut conditions = random::conditions(&MODEL, places.draw());
         if i % 2 == 0 {
             let [lowest, _] = MODEL.solar_elevation_range();
             conditions.solar_elevation += 0.9 * (lowest - conditions.solar_elevation);

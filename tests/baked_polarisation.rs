@@ -8,8 +8,8 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use welkin::{
-    BakedPolarisedSky, BakedSky, Conditions, Directions, Error, Frame, Model, PolarisedSky, Stokes,
-    StokesSpectra,
+    BakedPolarisedSky, BakedSky, Conditions, Directions, Error, Model, PolarisationFrame,
+    PolarisedSky, Stokes, StokesSpectra,
 };
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
@@ -29,9 +29,13 @@ fn conditions() -> impl Strategy<Value = Conditions> {
     )
 }
 
-fn frame() -> impl Strategy<Value = Frame> {
-    let axis = prop::array::uniform3(-1.0..1.0f32).prop_map(Frame::Axis);
-    prop_oneof![Just(Frame::Vertical), Just(Frame::SunAligned), axis]
+fn frame() -> impl Strategy<Value = PolarisationFrame> {
+    let axis = prop::array::uniform3(-1.0..1.0f32).prop_map(PolarisationFrame::Axis);
+    prop_oneof![
+        Just(PolarisationFrame::Vertical),
+        Just(PolarisationFrame::SunAligned),
+        axis
+    ]
 }
 
 /// `None` for one of the few skies whose radiance alone no table holds within the tolerance.
@@ -50,7 +54,7 @@ fn bake(sky: &PolarisedSky) -> Option<BakedPolarisedSky> {
 fn stokes(
     sky: &BakedPolarisedSky,
     direction: [f32; 3],
-    frame: Frame,
+    frame: PolarisationFrame,
 ) -> Result<Vec<Stokes>, Error> {
     let [mut i, mut q, mut u] = [(); 3].map(|()| vec![f32::NAN; sky.sky().wavelengths().len()]);
     let out = StokesSpectra {
@@ -63,7 +67,7 @@ fn stokes(
     Ok(parts.map(|(i, (q, u))| Stokes { i, q, u }).collect())
 }
 
-fn truth(sky: &PolarisedSky, direction: [f32; 3], frame: Frame) -> Vec<Stokes> {
+fn truth(sky: &PolarisedSky, direction: [f32; 3], frame: PolarisationFrame) -> Vec<Stokes> {
     let mut out = vec![Stokes::default(); sky.sky().wavelengths().len()];
     sky.stokes(direction, frame, &mut out).unwrap();
     out
@@ -156,7 +160,7 @@ proptest! {
     fn any_floats_give_numbers_or_a_typed_error(conditions in conditions(), direction in prop::array::uniform3(any::<f32>()), axis in prop::array::uniform3(any::<f32>())) {
         let Some(baked) = bake(&MODEL.polarised_sky(&conditions).unwrap()) else { return Ok(()) };
         let sound = |v: [f32; 3]| v.iter().all(|c| c.is_finite()) && v.iter().any(|&c| c != 0.0);
-        for frame in [Frame::Vertical, Frame::SunAligned, Frame::Axis(axis)] {
+        for frame in [PolarisationFrame::Vertical, PolarisationFrame::SunAligned, PolarisationFrame::Axis(axis)] {
             match stokes(&baked, direction, frame) {
                 Ok(light) => {
                     prop_assert!(sound(direction));
@@ -177,7 +181,7 @@ proptest! {
     fn left_and_right_of_the_sun_differ_in_the_sign_of_u(conditions in conditions(), z in -1.0..1.0f64, azimuth in 0.0..TAU / 2.0) {
         let conditions = Conditions { solar_azimuth: 0.0, ..conditions };
         let Some(baked) = bake(&MODEL.polarised_sky(&conditions).unwrap()) else { return Ok(()) };
-        for frame in [Frame::Vertical, Frame::SunAligned] {
+        for frame in [PolarisationFrame::Vertical, PolarisationFrame::SunAligned] {
             let [left, right] = [azimuth, -azimuth].map(|a| stokes(&baked, sphere(z, a), frame).unwrap());
             for (a, b) in left.iter().zip(&right) {
                 prop_assert!((a.q - b.q).abs() <= 1e-5 * a.i && (a.u + b.u).abs() <= 1e-5 * a.i, "{a:?} {b:?}");
@@ -208,7 +212,10 @@ fn poles_and_the_sun_are_as_in_the_prepared_sky() {
                 [-sun[0], -sun[1], sun[2] - 1e-3],
             ];
             for direction in directions {
-                for frame in [Frame::Vertical, Frame::Axis([0.2, 0.9, 0.1])] {
+                for frame in [
+                    PolarisationFrame::Vertical,
+                    PolarisationFrame::Axis([0.2, 0.9, 0.1]),
+                ] {
                     let got = stokes(&baked, direction, frame).unwrap();
                     for (got, expected) in got.iter().zip(&truth(&sky, direction, frame)) {
                         let off = distance(got, expected);
@@ -217,8 +224,9 @@ fn poles_and_the_sun_are_as_in_the_prepared_sky() {
                 }
             }
             // So near that its azimuth is lost; a given axis still stands.
-            let [near, pole] = [[1e-30, 0.0, 1.0], [0.0, 0.0, 1.0]]
-                .map(|direction| stokes(&baked, direction, Frame::Axis([0.2, 0.9, 0.1])).unwrap());
+            let [near, pole] = [[1e-30, 0.0, 1.0], [0.0, 0.0, 1.0]].map(|direction| {
+                stokes(&baked, direction, PolarisationFrame::Axis([0.2, 0.9, 0.1])).unwrap()
+            });
             assert_eq!(near, pole);
         }
     }
@@ -244,9 +252,9 @@ fn skies_that_go_dark_are_baked() {
 fn the_sun_can_be_turned() {
     let conditions = Conditions::default();
     let mut baked = bake(&MODEL.polarised_sky(&conditions).unwrap()).expect("a table");
-    let before = stokes(&baked, [0.8, 0.1, 0.3], Frame::Vertical).unwrap();
+    let before = stokes(&baked, [0.8, 0.1, 0.3], PolarisationFrame::Vertical).unwrap();
     baked.set_solar_azimuth(TAU / 4.0).unwrap();
-    let after = stokes(&baked, [-0.1, 0.8, 0.3], Frame::Vertical).unwrap();
+    let after = stokes(&baked, [-0.1, 0.8, 0.3], PolarisationFrame::Vertical).unwrap();
     for (a, b) in before.iter().zip(&after) {
         assert!((a.q - b.q).abs() < 1e-5 * a.i && (a.u - b.u).abs() < 1e-5 * a.i);
     }
@@ -266,7 +274,7 @@ fn the_whole_light_is_never_less_than_its_polarised_part() {
         let baked = sky.bake(1e9).unwrap();
         for k in 0..300 {
             let direction = sphere(1.0 - f64::from(k) / 150.0, 2.4 * f64::from(k));
-            for light in stokes(&baked, direction, Frame::SunAligned).unwrap() {
+            for light in stokes(&baked, direction, PolarisationFrame::SunAligned).unwrap() {
                 assert!(
                     light.i >= 0.0 && light.q.hypot(light.u) <= light.i,
                     "{light:?}"
@@ -290,7 +298,7 @@ fn lengths_and_tolerances_are_checked() {
         q: &mut q,
         u: &mut u,
     };
-    let error = baked.stokes([0.0, 0.0, 1.0], Frame::Vertical, out);
+    let error = baked.stokes([0.0, 0.0, 1.0], PolarisationFrame::Vertical, out);
     assert!(matches!(error, Err(Error::Length { got: 11, .. })));
     let stricter = sky.bake(1e-3).unwrap();
     assert!(stricter.polarisation_error().p95 <= 1e-3);

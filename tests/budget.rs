@@ -34,7 +34,7 @@ proptest! {
         model.load(&plan).unwrap();
         prop_assert_eq!(model.touched_bytes(), plan.file_bytes);
         let requests = model.traffic().requests;
-        let general = model.general(&plan).unwrap().with_interpolation(Interpolation::Full);
+        let general = model.point_query(&plan).unwrap().with_interpolation(Interpolation::Full);
         for (s, t) in places {
             let ([low, high], [hazy, clear]) = (sorted(a, b), sorted(v, w));
             let conditions = Conditions {
@@ -77,7 +77,7 @@ fn polarised_scenes_read_what_was_planned() {
         }
         assert_eq!(model.touched_bytes(), plan.file_bytes);
         assert_eq!(model.traffic().requests, requests);
-        model.general(&plan).unwrap();
+        model.point_query(&plan).unwrap();
     }
     let plain = Model::from_bytes(common::model_bytes()).unwrap();
     let error = plain.plan(&Budget {

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use welkin::{Conditions, Frame, Model};
+use welkin::{Conditions, Model, PolarisationFrame};
 
 struct Bench {
     folder: tempfile::TempDir,
@@ -408,8 +408,12 @@ fn query_answers_polarisation() {
     let (z, r) = 30f64.to_radians().sin_cos();
     let (y, x) = 30f64.to_radians().sin_cos();
     let direction = [r * x, r * y, z].map(|v| v as f32);
-    let aligned = sky.stokes_at(direction, Frame::SunAligned, 543.0).unwrap();
-    let vertical = sky.stokes_at(direction, Frame::Vertical, 543.0).unwrap();
+    let aligned = sky
+        .stokes_at(direction, PolarisationFrame::SunAligned, 543.0)
+        .unwrap();
+    let vertical = sky
+        .stokes_at(direction, PolarisationFrame::Vertical, 543.0)
+        .unwrap();
     let expected = [aligned.i, aligned.q / aligned.i, vertical.q, vertical.u];
     for (got, expected) in got.into_iter().zip(expected) {
         assert!(
@@ -540,7 +544,12 @@ fn the_light_of_the_air_is_computed_by_any_method() {
     // Mostly ground, tens of kilometres away.
     let scene = "--altitude 250 --field-of-view 3 --pitch -1.2";
     let scene: Vec<&str> = scene.split(' ').collect();
-    let picture = |method| landscape(&bench, &[&scene[..], &["--haze", method]].concat());
+    let picture = |method| {
+        landscape(
+            &bench,
+            &[&scene[..], &["--aerial-perspective", method]].concat(),
+        )
+    };
     let source = picture("source");
     assert_eq!(source, landscape(&bench, &scene));
     let mut pictures = vec![source.clone()];
@@ -564,7 +573,7 @@ fn the_light_of_the_air_is_computed_by_any_method() {
     }
 }
 
-/// Two polarisers across each other share the light of a landscape; one of them lifts the haze.
+/// Two polarisers across each other share the light of a landscape; one of them lifts the aerial perspective.
 #[test]
 fn a_polariser_stands_before_a_landscape() {
     let bench = Bench::new();
@@ -653,8 +662,14 @@ fn landscapes_and_froxel_volumes_are_written() {
         &["render", "--terrain", "nowhere.png"],
         &["render", "--terrain", "hills", "--spectral"],
         &["render", "--terrain", "hills", "--polariser", "NaN"],
-        &["render", "--terrain", "hills", "--haze", "fog"],
-        &["render", "--haze", "eq2"],
+        &[
+            "render",
+            "--terrain",
+            "hills",
+            "--aerial-perspective",
+            "fog",
+        ],
+        &["render", "--aerial-perspective", "eq2"],
         &["render", "--polariser", "65"],
         &["render", "--terrain", "hills", "--field-of-view", "0"],
         &["render", "--terrain", "hills", "--terrain-height", "-3"],
@@ -667,7 +682,7 @@ fn landscapes_and_froxel_volumes_are_written() {
 fn query_answers_the_polarisation_of_segments() {
     let bench = Bench::new();
     let row = |quantity: &str, nm: f64| format!("{quantity},59.4,0.2,300,10,88,40,20000,{nm}");
-    let quantities = ["in_scatter", "polarisation", "stokes_q", "stokes_u"];
+    let quantities = ["in_scattering", "polarisation", "stokes_q", "stokes_u"];
     let mut rows: Vec<_> = quantities.iter().map(|q| row(q, 560.0)).collect();
     rows.extend([
         row("polarisation", 579.0),
@@ -679,8 +694,8 @@ fn query_answers_the_polarisation_of_segments() {
     let answers: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
     let value = |i: usize| answers[i][9].parse::<f32>().unwrap();
     let model = welkin::Model::default_model().unwrap();
-    let haze = model
-        .haze(&welkin::Conditions {
+    let aerial = model
+        .aerial_perspective(&welkin::Conditions {
             solar_elevation: 10f64.to_radians(),
             solar_azimuth: 0.0,
             visibility: 59.4e3,
@@ -696,10 +711,15 @@ fn query_answers_the_polarisation_of_segments() {
         q: &mut q,
         u: &mut u,
     };
-    let frame = welkin::Frame::Vertical;
-    haze.in_scatter_stokes([0.0, 0.0, 300.0], to, frame, out, &mut through)
+    let frame = welkin::PolarisationFrame::Vertical;
+    aerial
+        .in_scattering_stokes([0.0, 0.0, 300.0], to, frame, out, &mut through)
         .unwrap();
-    let at = haze.wavelengths().iter().position(|&w| w == 560.0).unwrap();
+    let at = aerial
+        .wavelengths()
+        .iter()
+        .position(|&w| w == 560.0)
+        .unwrap();
     for (got, expected) in [(value(0), i[at]), (value(2), q[at]), (value(3), u[at])] {
         assert!((got - expected).abs() < 1e-4 * i[at], "{got} {expected}");
     }
@@ -723,15 +743,15 @@ fn query_answers_finite_distances_and_the_sun() {
     let rows = [
         row("transmittance", 92.0, 40.0, "0", 600.0),
         row("transmittance", 92.0, 40.0, "5000", 600.0),
-        row("in_scatter", 92.0, 40.0, "5000", 600.0),
-        row("in_scatter", 60.0, 40.0, "", 400.0),
+        row("in_scattering", 92.0, 40.0, "5000", 600.0),
+        row("in_scattering", 60.0, 40.0, "", 400.0),
         row("transmittance", 60.0, 40.0, "inf", 400.0),
         row("sun_radiance", 80.0, 0.0, "", 560.0),
-        row("in_scatter", 92.0, 40.0, "5000", 571.0),
-        row("in_scatter", 92.0, 40.0, "-1", 600.0),
+        row("in_scattering", 92.0, 40.0, "5000", 571.0),
+        row("in_scattering", 92.0, 40.0, "-1", 600.0),
         row("transmittance", 92.0, 40.0, "NaN", 600.0),
         row("sun_radiance", 80.0, 0.0, "7", 560.0),
-        row("in_scatter", 92.0, 40.0, "1e12", 600.0),
+        row("in_scattering", 92.0, 40.0, "1e12", 600.0),
         row("transmittance", 92.0, 40.0, "10", 800.0),
     ];
     let output = bench.run(&["query"], &format!("{HEADER}\n{}\n", rows.join("\n")));
@@ -747,8 +767,8 @@ fn query_answers_finite_distances_and_the_sun() {
         albedo: 0.2,
         altitude: 300.0,
     };
-    let haze = model.haze(&place).unwrap();
-    let nm = |nm: f64| haze.wavelengths().iter().position(|&w| w == nm).unwrap();
+    let aerial = model.aerial_perspective(&place).unwrap();
+    let nm = |nm: f64| aerial.wavelengths().iter().position(|&w| w == nm).unwrap();
     let along = |zenith: f64, distance: f64| -> [f64; 3] {
         let ((s, c), (y, x)) = (zenith.to_radians().sin_cos(), 40f64.to_radians().sin_cos());
         [distance * s * x, distance * s * y, distance * c]
@@ -757,7 +777,8 @@ fn query_answers_finite_distances_and_the_sun() {
     let to = along(92.0, 5000.0);
     let (mut light, mut through) = ([0.0; 12], [0.0; 12]);
     let end = [to[0], to[1], to[2] + 300.0];
-    haze.in_scatter(from, end, &mut light, &mut through)
+    aerial
+        .in_scattering(from, end, &mut light, &mut through)
         .unwrap();
     let close =
         |got: f32, expected: f32| assert!((got / expected - 1.0).abs() < 1e-5, "{got} {expected}");
@@ -765,11 +786,12 @@ fn query_answers_finite_distances_and_the_sun() {
     close(value(1), through[nm(600.0)]);
     close(value(2), light[nm(600.0)]);
     assert!(value(6) < light[nm(560.0)] && value(6) > light[nm(600.0)]);
-    haze.to_end(from, along(60.0, 1.0), &mut light, &mut through)
+    aerial
+        .to_end(from, along(60.0, 1.0), &mut light, &mut through)
         .unwrap();
     close(value(3), light[nm(400.0)]);
     close(value(4), through[nm(400.0)]);
-    let disc = model.sun_disc(&place).unwrap();
+    let disc = model.solar_disc(&place).unwrap();
     disc.radiance(disc.direction(), &mut light).unwrap();
     close(value(5), light[nm(560.0)]);
     for (i, error) in [

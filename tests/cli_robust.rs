@@ -37,7 +37,7 @@ fn text(bytes: &[u8]) -> String {
 fn forged(change: impl Fn(&mut Head, &mut [Chunk])) -> Vec<u8> {
     let mut head = common::head(&[0.0, 2000.0], &[20e3, 60e3]);
     let mut chunks = common::polarised_chunks(&head, 0.02);
-    chunks.extend(common::haze::chunks(&head, 0.3));
+    chunks.extend(common::aerial::chunks(&head, 0.3));
     change(&mut head, &mut chunks);
     let bytes = encode(&head, &chunks).unwrap();
     assert!(welkin::format::verify(&bytes).is_empty());
@@ -96,7 +96,7 @@ fn answers_about_absurd_files_are_numbers_or_errors() {
         "stokes_q",
         "stokes_u",
         "transmittance",
-        "in_scatter",
+        "in_scattering",
         "sun_radiance",
     ] {
         for (elevation, zenith, nm) in [

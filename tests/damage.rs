@@ -4,7 +4,7 @@ mod common;
 
 use proptest::prelude::*;
 use welkin::format::parse;
-use welkin::{Conditions, Frame, Model, Result, Stokes};
+use welkin::{Conditions, Model, PolarisationFrame, Result, Stokes};
 
 const DIRECTIONS: [[f32; 3]; 3] = [[0.1, 0.2, 0.3], [0.0, 0.0, 1.0], [1.0, 0.1, 0.01]];
 
@@ -30,7 +30,7 @@ fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
         assert!(values.iter().all(|v| v.is_finite()), "{values:?}");
         assert!(out.iter().all(|&l| l >= 0.0));
         bits.extend(values.into_iter().map(f32::to_bits));
-        polarised.stokes(direction, Frame::SunAligned, &mut stokes)?;
+        polarised.stokes(direction, PolarisationFrame::SunAligned, &mut stokes)?;
         for (light, l) in stokes.iter().zip(&out) {
             assert!(
                 light.i == *l && light.q.is_finite() && light.u.is_finite(),
@@ -46,16 +46,16 @@ fn answers(bytes: Vec<u8>) -> Result<Vec<u32>> {
 /// Transmittance and light of segments, as bits.
 fn segments(bytes: Vec<u8>) -> Result<Vec<u32>> {
     let model = Model::from_bytes(bytes)?;
-    let haze = model.haze(&Conditions {
+    let aerial = model.aerial_perspective(&Conditions {
         visibility: 45e3,
         solar_elevation: 0.02,
         ..Conditions::default()
     })?;
-    let n = haze.wavelengths().len();
+    let n = aerial.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
     let mut bits = Vec::new();
     for end in DIRECTIONS.map(|d| d.map(|v| 5e4 * f64::from(v))) {
-        haze.in_scatter([0.0, 0.0, 10.0], end, &mut light, &mut through)?;
+        aerial.in_scattering([0.0, 0.0, 10.0], end, &mut light, &mut through)?;
         assert!(
             light.iter().all(|l| l.is_finite() && *l >= 0.0),
             "{light:?}"
@@ -75,7 +75,7 @@ type Ask = fn(Vec<u8>) -> Result<Vec<u32>>;
 fn files() -> [(Vec<u8>, Ask); 2] {
     [
         (common::tiny_bytes(), answers),
-        (common::haze::tiny_bytes(), segments),
+        (common::aerial::tiny_bytes(), segments),
     ]
 }
 

@@ -132,7 +132,7 @@ fn sunlight_is_that_of_the_disc() {
             albedo: number("albedo"),
             altitude: 0.0,
         };
-        let disc = model.sun_disc(&conditions).unwrap();
+        let disc = model.solar_disc(&conditions).unwrap();
         let mut expected = vec![0.0; model.wavelengths().len()];
         disc.irradiance(disc.direction(), &mut expected).unwrap();
         for (got, expected) in numbers(&light["direct_normal"]["spectral"])
@@ -209,7 +209,7 @@ fn the_ground_far_below_is_seen_through_the_air_under_its_own_sun() {
     ];
     let (planes, [width, height]) = render(&scene);
     let sky = model.sky(&conditions).unwrap();
-    let air = model.air(conditions.visibility).unwrap();
+    let air = model.transmittance(conditions.visibility).unwrap();
     let planet = model.head().planet;
     let n = planes.len();
     let [mut light, mut through, mut direct] = [0; 3].map(|_| vec![0.0; n]);
@@ -238,7 +238,7 @@ fn the_ground_far_below_is_seen_through_the_air_under_its_own_sun() {
         sky.radiance(way.map(|v| v as f32), &mut light).unwrap();
         air.transmittance(from, point, &mut through).unwrap();
         model
-            .sun_disc(there.conditions())
+            .solar_disc(there.conditions())
             .unwrap()
             .irradiance([0.0, 0.0, 1.0], &mut direct)
             .unwrap();

@@ -266,7 +266,7 @@ proptest! {
 #[test]
 fn sources_of_unlike_species_are_not_written() {
     let head = common::head(&[0.0], &[20e3, 50e3]);
-    let mut chunks = common::haze::chunks(&head, 0.2);
+    let mut chunks = common::aerial::chunks(&head, 0.2);
     assert!(encode(&head, &chunks).is_ok());
     let Some(Payload::Source(source)) = chunks.last_mut().map(|chunk| &mut chunk.payload) else {
         panic!("a source");

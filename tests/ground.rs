@@ -7,10 +7,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
-use welkin::{Conditions, DEFAULT_MODEL, Error, General, Haze, Model};
+use welkin::{AerialPerspective, Conditions, DEFAULT_MODEL, Error, Model, PointQuery};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
-static HAZE: LazyLock<Haze> = LazyLock::new(|| MODEL.haze(&Conditions::default()).unwrap());
+static HAZE: LazyLock<AerialPerspective> =
+    LazyLock::new(|| MODEL.aerial_perspective(&Conditions::default()).unwrap());
 
 fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
     let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
@@ -27,7 +28,7 @@ fn to_end(from: [f64; 3], direction: [f64; 3]) -> (Vec<f32>, Vec<f32>) {
 
 fn to_space(from: [f64; 3], direction: [f64; 3]) -> Vec<f32> {
     let mut out = vec![0.5; HAZE.wavelengths().len()];
-    HAZE.air()
+    HAZE.transmittance()
         .transmittance_to_space(from, direction, &mut out)
         .unwrap();
     out
@@ -108,7 +109,7 @@ proptest! {
         let height = if single { 1.0 } else { 1e-8 } + lift.abs();
         let dip = (2.0 * height / radius).sqrt();
         let space = to_space(point, direction);
-        // Farther away the haze of the origin does not reach.
+        // Farther away the aerial perspective of the origin does not reach.
         let asked = away < 0.17;
         let (light, through) = if asked { to_end(point, direction) } else { Default::default() };
         if elevation < -1.01 * dip - 1e-9 {
@@ -138,7 +139,7 @@ fn observers_in_depressions_stand_on_the_ground() {
         altitude,
         ..Conditions::default()
     };
-    let general = General::new(DEFAULT_MODEL).unwrap();
+    let general = PointQuery::new(DEFAULT_MODEL).unwrap();
     let direction = [0.4, -0.3, -0.1];
     let answers = |altitude: f64| {
         let sky = MODEL.polarised_sky(&conditions(altitude)).unwrap();
@@ -148,8 +149,8 @@ fn observers_in_depressions_stand_on_the_ground() {
         general
             .relative_radiance(&asked, direction, &mut at_once)
             .unwrap();
-        let haze = MODEL.haze(&asked).unwrap();
-        assert_eq!(haze.conditions().altitude, 0.0);
+        let aerial = MODEL.aerial_perspective(&asked).unwrap();
+        assert_eq!(aerial.conditions().altitude, 0.0);
         (common::radiance(sky.sky(), [0.4, -0.3, 0.1]), at_once)
     };
     let ground = answers(0.0);
@@ -167,7 +168,9 @@ fn observers_in_depressions_stand_on_the_ground() {
             )
         };
         assert!(refused(MODEL.sky(&conditions(altitude)).unwrap_err()));
-        assert!(refused(MODEL.haze(&conditions(altitude)).unwrap_err()));
+        assert!(refused(
+            MODEL.aerial_perspective(&conditions(altitude)).unwrap_err()
+        ));
         let mut out = vec![0.0; MODEL.wavelengths().len()];
         let asked = conditions(altitude);
         assert!(refused(

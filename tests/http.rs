@@ -1,7 +1,7 @@
-//! The client of the example `stream` before servers that lie, stall and break off: an error each, nothing else.
+//! The client of the tool `stream` before servers that lie, stall and break off: an error each, nothing else.
 
 mod common;
-#[path = "../examples/stream/http_file.rs"]
+#[path = "../tools/src/http_file.rs"]
 mod http_file;
 
 use std::io::{self, ErrorKind, Read, Write};

@@ -3,7 +3,7 @@
 
 mod common;
 #[allow(dead_code)]
-#[path = "../examples/motion/steps.rs"]
+#[path = "../tools/src/bin/motion/steps.rs"]
 mod steps;
 
 use std::sync::LazyLock;

@@ -8,7 +8,8 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use welkin::{
-    Conditions, DEFAULT_MODEL, Error, Frame, General, Haze, Interpolation, Model, Place, Stokes,
+    AerialPerspective, Conditions, DEFAULT_MODEL, Error, Interpolation, Model, Place, PointQuery,
+    PolarisationFrame, Stokes,
 };
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
@@ -45,10 +46,14 @@ fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-fn in_scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) -> welkin::Result<Vec<f32>> {
-    let n = haze.wavelengths().len();
+fn in_scattering(
+    aerial: &AerialPerspective,
+    from: [f64; 3],
+    to: [f64; 3],
+) -> welkin::Result<Vec<f32>> {
+    let n = aerial.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
-    haze.in_scatter(from, to, &mut light, &mut through)?;
+    aerial.in_scattering(from, to, &mut light, &mut through)?;
     light.extend(through);
     Ok(light)
 }
@@ -87,7 +92,7 @@ proptest! {
         prop_assume!((view[2].asin() + dip).abs() > 1e-3);
         let n = MODEL.wavelengths().len();
         let [mut here, mut away] = [(); 2].map(|()| vec![Stokes::default(); n]);
-        let frame = Frame::Axis(axis.map(|v| v as f32));
+        let frame = PolarisationFrame::Axis(axis.map(|v| v as f32));
         let sky = MODEL.polarised_sky(&home).unwrap();
         sky.relative_stokes(view.map(|v| v as f32), frame, &mut here).unwrap();
         let sky = MODEL.polarised_sky(&there).unwrap();
@@ -98,7 +103,7 @@ proptest! {
             prop_assert!((a.i - b.i).abs() < 2e-4 * a.i, "{a:?} {b:?}");
             prop_assert!((a.q - b.q).hypot(a.u - b.u) < 4e-4 * a.i, "{a:?} {b:?}");
         }
-        let general = General::new(DEFAULT_MODEL).unwrap();
+        let general = PointQuery::new(DEFAULT_MODEL).unwrap();
         let general = general.with_interpolation(Interpolation::Full);
         let mut at_once = vec![0.0; n];
         general.relative_radiance(&there, direction, &mut at_once).unwrap();
@@ -109,17 +114,17 @@ proptest! {
         let from = [0.0, 0.0, altitude];
         let to = add(from, view.map(|v| 8e3 * v));
         let beneath = add(centre, world([0.0, 0.0, planet.radius]));
-        let haze = MODEL.haze(&home).unwrap();
-        let here = in_scatter(&haze, from, to).unwrap();
+        let aerial = MODEL.aerial_perspective(&home).unwrap();
+        let here = in_scattering(&aerial, from, to).unwrap();
         let local = |p| place.point_to_local(add(beneath, world(p)));
-        let haze = MODEL.haze(&there).unwrap();
-        let away = in_scatter(&haze, local(from), local(to)).unwrap();
+        let aerial = MODEL.aerial_perspective(&there).unwrap();
+        let away = in_scattering(&aerial, local(from), local(to)).unwrap();
         for (a, b) in here.iter().zip(&away) {
             prop_assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
         }
     }
 
-    /// Within its reach a haze agrees with one that is prepared where the segment is.
+    /// Within its reach an aerial perspective agrees with one that is prepared where the segment is.
     #[test]
     fn hazes_agree_as_far_as_they_reach(
         away in 0.05..0.33f64,
@@ -130,34 +135,34 @@ proptest! {
     ) {
         let planet = MODEL.head().planet;
         let home = Conditions { solar_elevation: sun, ..Conditions::default() };
-        let haze = MODEL.haze(&home).unwrap();
+        let aerial = MODEL.aerial_perspective(&home).unwrap();
         let centre = [0.0, 0.0, -planet.radius];
         let from = add(centre, unit(FRAC_PI_2 - away, around).map(|v| (planet.radius + height) * v));
         let place = Place::new(&planet, centre, from).unwrap();
-        let there = place.conditions(haze.sun_direction(), &home).unwrap();
+        let there = place.conditions(aerial.sun_direction(), &home).unwrap();
         prop_assume!(there.solar_elevation > 0.0);
         let to = add(from, place.to_world(unit(view.0, view.1).map(|v| 900.0 * v)));
-        let far = in_scatter(&haze, from, to).unwrap();
-        let near = MODEL.haze(&there).unwrap();
-        let near = in_scatter(&near, place.point_to_local(from), place.point_to_local(to)).unwrap();
+        let far = in_scattering(&aerial, from, to).unwrap();
+        let near = MODEL.aerial_perspective(&there).unwrap();
+        let near = in_scattering(&near, place.point_to_local(from), place.point_to_local(to)).unwrap();
         for (a, b) in far.iter().zip(&near) {
             prop_assert!((a / b - 1.0).abs() < 0.03, "{a} {b}, sun {}", there.solar_elevation);
         }
     }
 }
 
-/// Spectrum of the zenith from the ground at a place, away from the sun from where the haze was prepared, in this many pieces.
-fn zenith(haze: &Haze, away: f64, pieces: u32) -> Vec<f64> {
-    let radius = haze.air().planet().radius;
+/// Spectrum of the zenith from the ground at a place, away from the sun from where the aerial perspective was prepared, in this many pieces.
+fn zenith(aerial: &AerialPerspective, away: f64, pieces: u32) -> Vec<f64> {
+    let radius = aerial.transmittance().planet().radius;
     let up = unit(FRAC_PI_2 - away, std::f64::consts::PI);
-    let n = haze.wavelengths().len();
+    let n = aerial.wavelengths().len();
     let (mut sum, mut through) = (vec![0.0; n], vec![1.0; n]);
     let at = |i: u32| {
         let height = 1e5 * f64::from(i) / f64::from(pieces);
         add([0.0, 0.0, -radius], up.map(|v| (radius + height) * v))
     };
     for i in 0..pieces {
-        let piece = in_scatter(haze, at(i), at(i + 1)).unwrap();
+        let piece = in_scattering(aerial, at(i), at(i + 1)).unwrap();
         for w in 0..n {
             sum[w] += through[w] * f64::from(piece[w]);
             through[w] *= f64::from(piece[n + w]);
@@ -179,15 +184,15 @@ fn twilight_fades_beyond_the_lowest_sun_of_skies() {
             visibility,
             ..Conditions::default()
         };
-        let haze = MODEL.haze(&dusk).unwrap();
+        let aerial = MODEL.aerial_perspective(&dusk).unwrap();
         let mut before = f64::INFINITY;
         for step in 0..=12 {
             let away = (0.5 * f64::from(step)).to_radians();
-            let light = zenith(&haze, away, 1)[GREEN];
+            let light = zenith(&aerial, away, 1)[GREEN];
             assert!(light < before, "{visibility} {step}: {before} {light}");
             before = light;
             // Where little changes in a piece, it is what the specification says.
-            let exact = zenith(&haze, away, 1000)[GREEN];
+            let exact = zenith(&aerial, away, 1000)[GREEN];
             errors.push((light / exact).ln().abs());
         }
     }
@@ -200,24 +205,25 @@ fn twilight_fades_beyond_the_lowest_sun_of_skies() {
 
 #[test]
 fn all_that_is_seen_from_the_air_above_the_origin_is_within_reach() {
-    let haze = MODEL.haze(&Conditions::default()).unwrap();
-    let n = haze.wavelengths().len();
+    let aerial = MODEL.aerial_perspective(&Conditions::default()).unwrap();
+    let n = aerial.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
     let top = MODEL.head().planet.top;
     for height in [0.0, 100.0, 15e3, 40e3, top] {
         for i in 0..=200 {
             let direction = unit(-0.3 + 0.003 * f64::from(i), 0.7);
-            haze.to_end([0.0, 0.0, height], direction, &mut light, &mut through)
+            aerial
+                .to_end([0.0, 0.0, height], direction, &mut light, &mut through)
                 .unwrap();
         }
     }
-    assert!((0.34..0.36).contains(&haze.reach()), "{}", haze.reach());
+    assert!((0.34..0.36).contains(&aerial.reach()), "{}", aerial.reach());
 }
 
 #[test]
 fn air_beyond_the_reach_is_refused_and_space_is_not() {
-    let haze = MODEL.haze(&Conditions::default()).unwrap();
-    let planet = haze.air().planet();
+    let aerial = MODEL.aerial_perspective(&Conditions::default()).unwrap();
+    let planet = aerial.transmittance().planet();
     let at = |away: f64, height: f64| {
         let up = unit(FRAC_PI_2 - away, 1.0);
         add(
@@ -225,9 +231,9 @@ fn air_beyond_the_reach_is_refused_and_space_is_not() {
             up.map(|v| (planet.radius + height) * v),
         )
     };
-    let reach = haze.reach();
+    let reach = aerial.reach();
     for side in [0.5, 0.999] {
-        in_scatter(&haze, at(side * reach, 10.0), at(side * reach, 2000.0)).unwrap();
+        in_scattering(&aerial, at(side * reach, 10.0), at(side * reach, 2000.0)).unwrap();
     }
     for side in [1.001, 1.5, 5.0] {
         for segment in [
@@ -235,13 +241,13 @@ fn air_beyond_the_reach_is_refused_and_space_is_not() {
             [at(0.9 * reach, 2000.0), at(side * reach, 2000.0)],
             [at(side * reach, 2000.0), at(0.0, 2000.0)],
         ] {
-            let refused = in_scatter(&haze, segment[0], segment[1]).unwrap_err();
+            let refused = in_scattering(&aerial, segment[0], segment[1]).unwrap_err();
             assert!(matches!(refused, Error::Reach { .. }), "{refused}");
             assert_eq!(refused.class(), "point");
         }
         // Above the air nothing scatters, wherever it is.
         let high = [200e3, 300e3].map(|height| at(side * reach, height));
-        let light = in_scatter(&haze, high[0], high[1]).unwrap();
+        let light = in_scattering(&aerial, high[0], high[1]).unwrap();
         assert!(
             light
                 .iter()
@@ -250,6 +256,6 @@ fn air_beyond_the_reach_is_refused_and_space_is_not() {
         );
     }
     // From space down to the origin.
-    let light = in_scatter(&haze, at(0.0, 5e8), at(0.0, 0.0)).unwrap();
+    let light = in_scattering(&aerial, at(0.0, 5e8), at(0.0, 0.0)).unwrap();
     assert!(light.iter().all(|l| *l > 0.0));
 }

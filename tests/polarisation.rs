@@ -5,14 +5,14 @@ mod common;
 use common::oracle::{Oracle, Query, dot, vertical_frame};
 use proptest::prelude::*;
 use welkin::format::{Payload, encode};
-use welkin::{Conditions, Error, Frame, Model, PolarisedSky, Stokes};
+use welkin::{Conditions, Error, Model, PolarisationFrame, PolarisedSky, Stokes};
 
 fn sky(bytes: Vec<u8>, conditions: &Conditions) -> PolarisedSky {
     let model = Model::from_bytes(bytes).unwrap();
     model.polarised_sky(conditions).unwrap()
 }
 
-fn stokes(sky: &PolarisedSky, direction: [f32; 3], frame: Frame) -> Vec<Stokes> {
+fn stokes(sky: &PolarisedSky, direction: [f32; 3], frame: PolarisationFrame) -> Vec<Stokes> {
     let mut out = vec![Stokes::default(); sky.sky().wavelengths().len()];
     sky.relative_stokes(direction, frame, &mut out).unwrap();
     out
@@ -52,8 +52,8 @@ proptest! {
         prop_assume!(along.hypot(across) > 0.01);
         let psi = across.atan2(along);
         let sky = sky(bytes.clone(), &conditions);
-        let vertical = stokes(&sky, direction, Frame::Vertical);
-        let turned = stokes(&sky, direction, Frame::Axis(axis));
+        let vertical = stokes(&sky, direction, PolarisationFrame::Vertical);
+        let turned = stokes(&sky, direction, PolarisationFrame::Axis(axis));
         for ((got, turned), [l, q, u]) in vertical.iter().zip(&turned).zip(expected) {
             let close = |got: f32, expected: f64| (f64::from(got) - expected).abs() <= 2e-4 * l + 1e-12;
             prop_assert!(close(got.i, l) && close(got.q, q) && close(got.u, u), "{got:?} {l} {q} {u}");
@@ -73,12 +73,12 @@ fn singly_scattered_light_is_polarised_across_the_scattering_plane() {
     let sky = sky(common::polarised_bytes(0.0), &conditions);
     let sun = sky.sky().sun_direction();
     for direction in [[0.1, 0.8, 0.6], [-0.6, -0.2, 0.1], [0.5, 0.1, -0.7]] {
-        for light in stokes(&sky, direction, Frame::SunAligned) {
+        for light in stokes(&sky, direction, PolarisationFrame::SunAligned) {
             assert!(light.q > 0.0 && light.u.abs() < 1e-6 * light.i, "{light:?}");
         }
     }
     for direction in [sun, sun.map(|v| -v)] {
-        for light in stokes(&sky, direction, Frame::SunAligned) {
+        for light in stokes(&sky, direction, PolarisationFrame::SunAligned) {
             assert!(light.i > 0.0 && light.degree() < 1e-6);
         }
     }
@@ -93,7 +93,7 @@ fn nothing_jumps_at_the_zenith_or_around_the_sun() {
             ..Conditions::default()
         };
         let sky = sky(common::polarised_bytes(0.02), &conditions);
-        let axis = Frame::Axis([0.3, 0.9, 0.05]);
+        let axis = PolarisationFrame::Axis([0.3, 0.9, 0.05]);
         let [x, y, z] = sky.sky().sun_direction();
         let at_sun = stokes(&sky, [x, y, z], axis);
         for (dx, dy) in [(1e-5, 0.0), (-1e-5, 0.0), (0.0, 1e-5), (0.0, -1e-5)] {
@@ -116,16 +116,16 @@ fn the_whole_light_is_never_less_than_its_polarised_part() {
     for k in 0..500 {
         let z = 1.0 - k as f32 / 250.0;
         let direction = [(2.4 * k as f32).cos(), (2.4 * k as f32).sin(), z];
-        for light in stokes(&sky, direction, Frame::SunAligned) {
+        for light in stokes(&sky, direction, PolarisationFrame::SunAligned) {
             assert!(light.q.hypot(light.u) <= light.i);
             full += usize::from(light.degree() > 0.999);
         }
-        for light in sky.xyz(direction, Frame::Vertical).unwrap() {
+        for light in sky.xyz(direction, PolarisationFrame::Vertical).unwrap() {
             assert!(light.i.is_finite() && light.q.is_finite() && light.u.is_finite());
         }
         for wavelength in [320.0, 333.0, 517.2, 760.0] {
             let light = sky
-                .stokes_at(direction, Frame::Vertical, wavelength)
+                .stokes_at(direction, PolarisationFrame::Vertical, wavelength)
                 .unwrap();
             assert!(light.q.hypot(light.u) <= light.i);
         }
@@ -138,15 +138,16 @@ fn wavelengths_between_nodes_continue_the_nodes() {
     let sky = sky(common::polarised_bytes(0.02), &Conditions::default());
     let direction = [0.2, 0.5, 0.6];
     let mut nodes = vec![Stokes::default(); sky.sky().wavelengths().len()];
-    sky.stokes(direction, Frame::Vertical, &mut nodes).unwrap();
+    sky.stokes(direction, PolarisationFrame::Vertical, &mut nodes)
+        .unwrap();
     for (node, &wavelength) in nodes.iter().zip(sky.sky().wavelengths()) {
         let light = sky
-            .stokes_at(direction, Frame::Vertical, wavelength)
+            .stokes_at(direction, PolarisationFrame::Vertical, wavelength)
             .unwrap();
         let close = |a: f32, b: f32| (a - b).abs() <= 1e-5 * node.i;
         assert!(close(light.i, node.i) && close(light.q, node.q) && close(light.u, node.u));
     }
-    let outside = sky.stokes_at(direction, Frame::Vertical, 800.0);
+    let outside = sky.stokes_at(direction, PolarisationFrame::Vertical, 800.0);
     assert!(matches!(outside, Err(Error::OutOfRange { .. })));
 }
 
@@ -189,13 +190,17 @@ fn bad_directions_axes_and_ranks_are_refused() {
     let sky = sky(common::polarised_bytes(0.02), &Conditions::default());
     let mut out = vec![Stokes::default(); sky.sky().wavelengths().len()];
     let refused = |result: welkin::Result<()>| matches!(result, Err(Error::Direction { .. }));
-    assert!(refused(sky.stokes([0.0; 3], Frame::Vertical, &mut out)));
     assert!(refused(sky.stokes(
-        [0.0, 0.0, 1.0],
-        Frame::Axis([0.0; 3]),
+        [0.0; 3],
+        PolarisationFrame::Vertical,
         &mut out
     )));
-    let short = sky.stokes([0.0, 0.0, 1.0], Frame::Vertical, &mut out[1..]);
+    assert!(refused(sky.stokes(
+        [0.0, 0.0, 1.0],
+        PolarisationFrame::Axis([0.0; 3]),
+        &mut out
+    )));
+    let short = sky.stokes([0.0, 0.0, 1.0], PolarisationFrame::Vertical, &mut out[1..]);
     assert!(matches!(short, Err(Error::Length { .. })));
 
     let head = common::head(&[0.0], &[59.4e3]);
@@ -231,7 +236,7 @@ fn a_cropped_file_has_the_same_polarisation() {
     let whole = sky(common::polarised_bytes(0.02), &conditions);
     let part = sky(encode(&head, &chunks).unwrap(), &conditions);
     let direction = [0.4, -0.3, 0.2];
-    let whole = stokes(&whole, direction, Frame::SunAligned);
-    let part = stokes(&part, direction, Frame::SunAligned);
+    let whole = stokes(&whole, direction, PolarisationFrame::SunAligned);
+    let part = stokes(&part, direction, PolarisationFrame::SunAligned);
     assert_eq!(part, [1, 3, 4].map(|w| whole[w]));
 }

@@ -20,10 +20,10 @@ macro_rules! all_shared {
 }
 
 all_shared! {
-    Air,
+    Transmittance,
     AlphaAxis,
     BakeError,
-    BakedColour,
+    BakedColourSky,
     BakedPolarisedSky,
     BakedSky,
     BasisView<'static>,
@@ -43,11 +43,11 @@ all_shared! {
     Error,
     FactorsView<'static>,
     Field,
-    Foreground<'static>,
-    Frame,
-    General<'static>,
-    GeneralHaze<'static>,
-    Haze,
+    JoinedAerialPerspective<'static>,
+    PolarisationFrame,
+    PointQuery<'static>,
+    AerialPerspectiveQuery<'static>,
+    AerialPerspective,
     Head,
     Interpolation,
     Kind,
@@ -61,8 +61,8 @@ all_shared! {
     Planet,
     PolarisationBasis,
     PolarisationFactors,
-    PolarisedForeground<'static>,
-    PolarisedGeneral<'static>,
+    JoinedPolarisedAerialPerspective<'static>,
+    PolarisedPointQuery<'static>,
     PolarisedSky,
     Problem,
     RadianceBasis,
@@ -84,7 +84,7 @@ all_shared! {
     Stokes,
     Stencil,
     StokesSpectra<'static>,
-    SunDisc,
+    SolarDisc,
     Target,
     Taps,
     Traffic,
@@ -118,10 +118,10 @@ fn is_type(name: &str) -> bool {
 /// What a module shows: types that it declares or names again, and those of its public modules.
 fn shown(path: &Path, names: &mut BTreeSet<String>) {
     let text = std::fs::read_to_string(path).unwrap();
-    let code: String = text
-        .split_inclusive('\n')
-        .filter(|l| !l.trim_start().starts_with("//"))
-        .collect();
+    // What stands in the one block that needs the standard library is indented.
+    let lines = text.lines().map(str::trim_start);
+    let code: Vec<_> = lines.filter(|line| !line.starts_with("//")).collect();
+    let code = format!("\n{}", code.join("\n"));
     let identifiers = |text: &str| -> Vec<String> {
         let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
         words.filter(|w| !w.is_empty()).map(str::to_owned).collect()
@@ -132,6 +132,13 @@ fn shown(path: &Path, names: &mut BTreeSet<String>) {
             "use" => {
                 let list = rest.split(';').next().unwrap();
                 assert!(!list.contains('*'), "{}: pub use {list}", path.display());
+                let parts: Vec<_> = list.split("::").collect();
+                if parts[0] != "crate" && list.chars().all(|c| c.is_lowercase() || c == ':') {
+                    let module = parts.iter().fold(path.to_owned(), |p, part| file(&p, part));
+                    if module.exists() {
+                        shown(&module, names);
+                    }
+                }
                 names.extend(identifiers(list).into_iter().filter(|n| is_type(n)));
             }
             "mod" => shown(&file(path, rest.split(';').next().unwrap()), names),

@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use welkin::{Conditions, Frame, Model, Stokes};
+use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
 const QUANTITIES: [&str; 8] = [
@@ -14,7 +14,7 @@ const QUANTITIES: [&str; 8] = [
     "stokes_q",
     "stokes_u",
     "transmittance",
-    "in_scatter",
+    "in_scattering",
     "sun_radiance",
 ];
 
@@ -82,9 +82,9 @@ impl Row {
             false => random.between(-180.0, 180.0),
         };
         let radiance = quantity.contains("radiance");
-        // A haze takes long to prepare.
+        // An aerial perspective takes long to prepare.
         let endless = match quantity {
-            "transmittance" | "in_scatter" => 0.3,
+            "transmittance" | "in_scattering" => 0.3,
             _ => 0.95,
         };
         let distance = match radiance || random.share() < endless {
@@ -138,7 +138,7 @@ impl Row {
         }
     }
 
-    /// What a sky or a haze that is prepared for this row alone says, and what an error of it is relative to.
+    /// What a sky or an aerial perspective that is prepared for this row alone says, and what an error of it is relative to.
     fn expected(&self, model: &Model) -> (f32, f32) {
         let [_, _, altitude, _, zenith, azimuth, distance, wavelength] = self.numbers;
         let (r, z) = zenith.to_radians().sin_cos();
@@ -164,36 +164,36 @@ impl Row {
                 own(sky.relative_radiance_at(direction, wavelength).unwrap())
             }
             "sun_radiance" => {
-                let disc = model.sun_disc(&conditions).unwrap();
+                let disc = model.solar_disc(&conditions).unwrap();
                 let mut light = vec![0.0; nodes.len()];
                 disc.radiance(direction, &mut light).unwrap();
                 own(irradiance * over_sun(&mut light))
             }
-            "transmittance" | "in_scatter" => {
-                let haze = model.haze(&conditions).unwrap();
+            "transmittance" | "in_scattering" => {
+                let aerial = model.aerial_perspective(&conditions).unwrap();
                 let (mut light, mut through) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
                 let from = [0.0, 0.0, altitude];
                 let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
                 match distance.is_finite() {
-                    true => haze.in_scatter(from, to, &mut light, &mut through),
-                    false => haze.to_end(from, unit, &mut light, &mut through),
+                    true => aerial.in_scattering(from, to, &mut light, &mut through),
+                    false => aerial.to_end(from, unit, &mut light, &mut through),
                 }
                 .unwrap();
                 match self.quantity {
-                    "in_scatter" => own(irradiance * over_sun(&mut light)),
+                    "in_scattering" => own(irradiance * over_sun(&mut light)),
                     _ => own(welkin::between_wavelengths(nodes, &through, wavelength).unwrap()),
                 }
             }
             _ => {
                 let frame = match self.quantity {
-                    "polarisation" => Frame::SunAligned,
-                    _ => Frame::Vertical,
+                    "polarisation" => PolarisationFrame::SunAligned,
+                    _ => PolarisationFrame::Vertical,
                 };
                 let light: Stokes = if distance.is_finite() {
                     let from = [0.0, 0.0, altitude];
                     let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
-                    let haze = model.haze(&conditions).unwrap();
-                    let light = haze.relative_stokes_at(from, to, frame, wavelength);
+                    let aerial = model.aerial_perspective(&conditions).unwrap();
+                    let light = aerial.relative_stokes_at(from, to, frame, wavelength);
                     let light = light.unwrap();
                     let [i, q, u] = [light.i, light.q, light.u].map(|v| irradiance * v);
                     Stokes { i, q, u }
@@ -217,9 +217,9 @@ fn random_rows_are_answered_as_by_what_is_prepared_for_them_alone() {
     let mut random = Random(1);
     let mut rows = Vec::new();
     for quantity in QUANTITIES {
-        // A haze takes twenty times as long to prepare as a sky.
+        // An aerial perspective takes twenty times as long to prepare as a sky.
         let count = match quantity {
-            "transmittance" | "in_scatter" => 120,
+            "transmittance" | "in_scattering" => 120,
             "polarisation" | "stokes_q" | "stokes_u" => 500,
             _ => 1500,
         };
@@ -268,7 +268,7 @@ fn rows_that_differ_in_the_wavelength_only_share_no_answer() {
     for nm in [450.0, 650.0] {
         table += &row("radiance", nm);
         table += &row("relative_radiance", nm);
-        table += &row("in_scatter", nm);
+        table += &row("in_scattering", nm);
         table += &row("transmittance", nm);
     }
     let answers: Vec<f32> = answers(&query(&[], table))

@@ -1,8 +1,8 @@
 //! The examples of README.md, run; and a check that they are those.
 #![cfg(feature = "default-model")]
 
-use welkin::{BakedSky, Budget, Channels, Directions, General};
-use welkin::{Conditions, Frame, Model};
+use welkin::{BakedSky, Budget, Channels, Directions, PointQuery};
+use welkin::{Conditions, Model, PolarisationFrame};
 
 /// Code without comments, spaces, and the commas that a formatter adds.
 fn compact(code: &str) -> String {
@@ -45,7 +45,7 @@ fn use_it() -> welkin::Result<()> {
     assert!(rgb[2] > rgb[0] && radiance.iter().all(|&r| r > 0.0));
 
     let sky = model.polarised_sky(&Conditions::default())?;
-    let light = sky.stokes_at([0.3, 0.1, 0.9], Frame::Axis(camera_up), 550.0)?;
+    let light = sky.stokes_at([0.3, 0.1, 0.9], PolarisationFrame::Axis(camera_up), 550.0)?;
     let (degree, angle) = (light.degree(), light.angle());
     assert!((0.05..1.0).contains(&degree) && angle.is_finite());
     Ok(())
@@ -75,14 +75,14 @@ fn fast() -> welkin::Result<()> {
     baked.radiance_batch(&directions, &mut radiance)?;
     let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
     let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
-    let sampler = colour.sampler().with_sun(&model.sun_disc(&conditions)?);
-    let general = General::new(welkin::DEFAULT_MODEL)?;
+    let sampler = colour.sampler().with_sun(&model.solar_disc(&conditions)?);
+    let general = PointQuery::new(welkin::DEFAULT_MODEL)?;
     let mut other = [0.0; 12];
     general.radiance(&conditions, [0.0, 0.0, 1.0], &mut other)?;
     assert!(other.iter().all(|&r| r > 0.0));
     let plan = model.plan(&budget)?;
-    let general = model.polarised_general(&plan)?;
-    let frame = Frame::Axis([0.0, 1.0, 0.0]);
+    let general = model.polarised_point_query(&plan)?;
+    let frame = PolarisationFrame::Axis([0.0, 1.0, 0.0]);
     let light = general.stokes_at(&conditions, [0.3, 0.1, 0.9], frame, 550.0)?;
     assert!((0.05..1.0).contains(&light.degree()));
 
@@ -100,21 +100,22 @@ fn finite_distances() -> welkin::Result<()> {
     let sky = model.sky(&conditions)?;
     let (camera, point, camera_up) = ([0.0; 3], [9e3, 1e3, 500.0], [0.0, 0.0, 1.0]);
     let points = [point, [0.0, 0.0, 2e3]];
-    let (mut in_scatter, mut transmittance) = ([0.0; 24], [0.0; 24]);
+    let (mut in_scattering, mut transmittance) = ([0.0; 24], [0.0; 24]);
 
-    let haze = model.haze(&conditions)?;
-    haze.aerial_perspective(camera, &points, &mut in_scatter, &mut transmittance)?;
-    let (light, factors) = haze.linear_srgb(camera, point)?;
+    let aerial = model.aerial_perspective(&conditions)?;
+    aerial.in_scattering_batch(camera, &points, &mut in_scattering, &mut transmittance)?;
+    let (light, factors) = aerial.linear_srgb(camera, point)?;
     assert!(light[2] > 0.0 && factors[0] > factors[2]);
-    let (light, factors) = haze.before(&sky)?.linear_srgb(point)?;
+    let (light, factors) = aerial.joined_to(&sky)?.linear_srgb(point)?;
     assert!(light[2] > 0.0 && factors[0] > factors[2]);
-    let (light, factors) = haze.linear_srgb_stokes(camera, point, Frame::Axis(camera_up))?;
+    let (light, factors) =
+        aerial.linear_srgb_stokes(camera, point, PolarisationFrame::Axis(camera_up))?;
     assert!(light[2].through_polariser(0.0) > 0.0 && factors[0] > factors[2]);
-    assert!(in_scatter.iter().chain(&transmittance).all(|&x| x > 0.0));
+    assert!(in_scattering.iter().chain(&transmittance).all(|&x| x > 0.0));
 
     let (mut light, mut transmittance) = ([0.0; 12], [0.0; 12]);
-    let mut haze = model.general_haze()?;
-    haze.in_scatter(&conditions, camera, point, &mut light, &mut transmittance)?;
+    let mut aerial = model.aerial_perspective_query()?;
+    aerial.in_scattering(&conditions, camera, point, &mut light, &mut transmittance)?;
     assert!(light.iter().chain(&transmittance).all(|&x| x > 0.0));
     Ok(())
 }

@@ -4,7 +4,9 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
-use welkin::{BakedSky, Conditions, Error, Model, SUN_RADIUS, Sky, SkySampler, SunDisc};
+use welkin::{
+    BakedSky, Conditions, Error, Model, SOLAR_ANGULAR_RADIUS, Sky, SkySampler, SolarDisc,
+};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
 
@@ -18,8 +20,8 @@ fn sky(elevation: f64, altitude: f64) -> Sky {
     MODEL.sky(&conditions).unwrap()
 }
 
-fn disc(sky: &Sky) -> SunDisc {
-    MODEL.sun_disc(sky.conditions()).unwrap()
+fn disc(sky: &Sky) -> SolarDisc {
+    MODEL.solar_disc(sky.conditions()).unwrap()
 }
 
 fn samplers(sky: &Sky) -> [SkySampler; 2] {
@@ -98,7 +100,7 @@ fn expected(sampler: &SkySampler, sky: &Sky) -> Vec<f64> {
             let (y, x) = (TAU * (column as f64 + 0.5) / columns as f64).sin_cos();
             let direction = [r * x, r * y, z].map(|v| v as f32);
             let chord: f32 = (0..3).map(|i| (direction[i] - sun[i]).powi(2)).sum();
-            if f64::from(chord.sqrt()) < 1.5 * SUN_RADIUS {
+            if f64::from(chord.sqrt()) < 1.5 * SOLAR_ANGULAR_RADIUS {
                 continue;
             }
             let share = f64::from(sampler.pdf(direction).unwrap()) * cell;
@@ -123,7 +125,7 @@ fn in_disc(sun: [f32; 3], random: &mut Random) -> [f32; 3] {
         let along: f32 = (0..3).map(|i| point[i] * sun[i]).sum();
         let across: [f32; 3] = std::array::from_fn(|i| point[i] - along * sun[i]);
         if along.abs() < 0.2 && across.iter().map(|v| v * v).sum::<f32>() <= 1.0 {
-            return std::array::from_fn(|i| sun[i] + across[i] * SUN_RADIUS as f32);
+            return std::array::from_fn(|i| sun[i] + across[i] * SOLAR_ANGULAR_RADIUS as f32);
         }
     }
 }
@@ -251,7 +253,10 @@ fn the_disc_ends_at_its_limb_and_at_the_horizon() {
         (0.1, 1.01, false),
     ] {
         sun.radiance(
-            at(elevation * SUN_RADIUS, 2.3 + azimuth * SUN_RADIUS),
+            at(
+                elevation * SOLAR_ANGULAR_RADIUS,
+                2.3 + azimuth * SOLAR_ANGULAR_RADIUS,
+            ),
             &mut out,
         )
         .unwrap();

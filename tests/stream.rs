@@ -1,7 +1,7 @@
 //! Models that are read in pieces: the same skies from the head and the chunks of the scene, and nothing else.
 
 mod common;
-#[path = "../examples/stream/http_file.rs"]
+#[path = "../tools/src/http_file.rs"]
 mod http_file;
 
 use std::io;
@@ -120,11 +120,11 @@ fn haze_costs_the_air_and_the_sources_of_its_visibilities() {
     let altitudes: Vec<f64> = (0..9).map(|i| 100.0 * f64::from(i)).collect();
     let head = common::head_with(&altitudes, &[20e3, 40e3, 60e3, 80e3, 130e3], 20);
     let mut chunks = common::chunks(&head);
-    chunks.extend(common::haze::chunks(&head, 0.2));
+    chunks.extend(common::aerial::chunks(&head, 0.2));
     let bytes = welkin::format::encode(&head, &chunks).unwrap();
     let model = Model::stream(bytes).unwrap();
     let opening = model.traffic();
-    model.haze(&at(0.0, 60e3)).unwrap();
+    model.aerial_perspective(&at(0.0, 60e3)).unwrap();
     let after = model.traffic();
     // Air and basis are neighbours, the third source stands behind two others.
     assert_eq!(after.requests - opening.requests, 2);

@@ -146,9 +146,9 @@ fn extras_and_what_nobody_sees_can_be_left_out() {
         report(&output)
     };
     let small = || Model::open(folder.path().join("small.welkin")).unwrap();
-    run(&["--without", "haze"]);
+    run(&["--without", "aerial-perspective"]);
     assert!(small().is_polarised());
-    run(&["--without", "haze,polarisation"]);
+    run(&["--without", "aerial-perspective,polarisation"]);
     assert!(!small().is_polarised());
     let ground = run(&["--altitudes", "0", "--without", "polarisation"]);
     assert_eq!(ground["difference_to_source"]["max"], 0.0);

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use welkin::format::{Payload, encode, unpack};
-use welkin::{BakedSky, Conditions, Error, Model, Part, SUN_RADIUS, SunDisc};
+use welkin::{BakedSky, Conditions, Error, Model, Part, SOLAR_ANGULAR_RADIUS, SolarDisc};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
 
@@ -56,9 +56,9 @@ fn outside() -> [f64; N] {
         ..Conditions::default()
     };
     let (mut light, mut through) = ([0.0; N], [0.0; N]);
-    let sun = MODEL.sun_disc(&conditions).unwrap();
+    let sun = MODEL.solar_disc(&conditions).unwrap();
     sun.radiance(sun.direction(), &mut light).unwrap();
-    let air = MODEL.air(conditions.visibility).unwrap();
+    let air = MODEL.transmittance(conditions.visibility).unwrap();
     air.transmittance_to_space([0.0, 0.0, 15_000.0], [0.0, 0.0, 1.0], &mut through)
         .unwrap();
     std::array::from_fn(|w| f64::from(light[w]) / f64::from(through[w]))
@@ -109,15 +109,15 @@ fn sun_transmittance_and_haze_are_one_physics() {
             conditions.solar_elevation = above - dip(conditions.altitude);
         }
         let from = [0.0, 0.0, conditions.altitude];
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         let towards = sun.direction().map(f64::from);
         let [mut light, mut lean, mut through, mut haze_through] = [[0.0; N]; 4];
         sun.radiance(sun.direction(), &mut light).unwrap();
-        LEAN.sun_disc(&conditions)
+        LEAN.solar_disc(&conditions)
             .unwrap()
             .radiance(sun.direction(), &mut lean)
             .unwrap();
-        let air = MODEL.air(conditions.visibility).unwrap();
+        let air = MODEL.transmittance(conditions.visibility).unwrap();
         air.transmittance_to_space(from, towards, &mut through)
             .unwrap();
         let off = |light: f32, w: usize| {
@@ -132,9 +132,10 @@ fn sun_transmittance_and_haze_are_one_physics() {
         air_errors.extend(seen.clone().map(|w| off(light[w], w)));
         lean_errors.extend(seen.clone().map(|w| off(lean[w], w)));
         if i % 10 == 0 {
-            let haze = MODEL.haze(&conditions).unwrap();
+            let aerial = MODEL.aerial_perspective(&conditions).unwrap();
             let mut scattered = [0.0; N];
-            haze.to_end(from, towards, &mut scattered, &mut haze_through)
+            aerial
+                .to_end(from, towards, &mut scattered, &mut haze_through)
                 .unwrap();
             haze_errors.extend(seen.map(|w| {
                 (f64::from(light[w]) / (outside[w] * f64::from(haze_through[w])) - 1.0).abs()
@@ -155,12 +156,12 @@ fn the_disc_dims_downwards_as_the_air_says() {
     for _ in 0..200 {
         let mut conditions = random_conditions(&mut random);
         conditions.solar_elevation = conditions.solar_elevation.min(0.1);
-        let sun = MODEL.sun_disc(&conditions).unwrap();
-        let air = MODEL.air(conditions.visibility).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
+        let air = MODEL.transmittance(conditions.visibility).unwrap();
         // Mirrored about the centre: as far from it, so as bright without air.
         let turn = random.next() * TAU;
         let (y, x) = turn.sin_cos();
-        let radius = 0.98 * SUN_RADIUS * random.next().sqrt();
+        let radius = 0.98 * SOLAR_ANGULAR_RADIUS * random.next().sqrt();
         let at = |sign: f64| {
             let elevation = conditions.solar_elevation + sign * radius * y;
             let across = sign * radius * x / conditions.solar_elevation.cos();
@@ -195,7 +196,7 @@ fn the_sun_one_degree_high() {
         ..Conditions::default()
     };
     let at = |model: &Model| {
-        let sun = model.sun_disc(&conditions).unwrap();
+        let sun = model.solar_disc(&conditions).unwrap();
         let mut light = [0.0; N];
         sun.radiance(sun.direction(), &mut light).unwrap();
         light[sun.wavelengths().iter().position(|&l| l == 560.0).unwrap()]
@@ -210,30 +211,30 @@ fn what_a_file_must_have_for_the_sun() {
     let (head, mut chunks) = unpack(welkin::DEFAULT_MODEL).unwrap();
     chunks.retain(|c| !matches!(c.payload, Payload::Transmittance(_) | Payload::Column(_)));
     let model = Model::from_bytes(encode(&head, &chunks).unwrap()).unwrap();
-    let missing = model.sun_disc(&Conditions::default());
+    let missing = model.solar_disc(&Conditions::default());
     assert!(matches!(missing, Err(Error::MissingChunk { .. })));
     let below = Conditions {
         solar_elevation: -0.05,
         ..Conditions::default()
     };
-    assert!(!model.sun_disc(&below).unwrap().is_visible());
+    assert!(!model.solar_disc(&below).unwrap().is_visible());
     let outside = Conditions {
         altitude: 16_000.0,
         ..below
     };
     assert!(matches!(
-        MODEL.sun_disc(&outside),
+        MODEL.solar_disc(&outside),
         Err(Error::OutOfRange { .. })
     ));
 }
 
 /// Strips of equal elevation, in closed form on the sphere, with dense midpoints.
-fn dense(sun: &SunDisc, conditions: &Conditions, normal: [f64; 3]) -> [f64; N] {
+fn dense(sun: &SolarDisc, conditions: &Conditions, normal: [f64; 3]) -> [f64; N] {
     const STRIPS: usize = 3000;
     const ACROSS: usize = 64;
     let e = conditions.solar_elevation;
-    let low = (e - SUN_RADIUS).max(-dip(conditions.altitude));
-    let high = e + SUN_RADIUS;
+    let low = (e - SOLAR_ANGULAR_RADIUS).max(-dip(conditions.altitude));
+    let high = e + SOLAR_ANGULAR_RADIUS;
     let mut sums = [0.0; N];
     let mut light = [0.0; N];
     for i in 0..STRIPS {
@@ -241,7 +242,8 @@ fn dense(sun: &SunDisc, conditions: &Conditions, normal: [f64; 3]) -> [f64; N] {
         let elevation = 0.5 * (low + high) + 0.5 * (high - low) * turn.sin();
         let height = 0.5 * (high - low) * turn.cos() * PI / STRIPS as f64;
         let square = |angle: f64| (0.5 * angle).sin().powi(2);
-        let share = (square(SUN_RADIUS) - square(elevation - e)) / (elevation.cos() * e.cos());
+        let share =
+            (square(SOLAR_ANGULAR_RADIUS) - square(elevation - e)) / (elevation.cos() * e.cos());
         let half = 2.0 * share.max(0.0).sqrt().asin();
         for j in 0..ACROSS {
             let turn = PI * ((j as f64 + 0.5) / ACROSS as f64 - 0.5);
@@ -259,7 +261,7 @@ fn dense(sun: &SunDisc, conditions: &Conditions, normal: [f64; 3]) -> [f64; N] {
     sums
 }
 
-fn irradiance(sun: &SunDisc, normal: [f64; 3]) -> [f64; N] {
+fn irradiance(sun: &SolarDisc, normal: [f64; 3]) -> [f64; N] {
     let mut out = [0.0; N];
     sun.irradiance(narrow(normal), &mut out).unwrap();
     out.map(f64::from)
@@ -275,13 +277,13 @@ fn irradiance_is_that_of_the_visible_part() {
         for visibility in [20e3, 59.4e3] {
             for rise in RISES {
                 let conditions = Conditions {
-                    solar_elevation: (rise * SUN_RADIUS - dip(altitude)).max(-0.0733),
+                    solar_elevation: (rise * SOLAR_ANGULAR_RADIUS - dip(altitude)).max(-0.0733),
                     solar_azimuth: 2.3,
                     altitude,
                     visibility,
                     ..Conditions::default()
                 };
-                let sun = MODEL.sun_disc(&conditions).unwrap();
+                let sun = MODEL.solar_disc(&conditions).unwrap();
                 for normal in [
                     conditions.sun_direction(),
                     [0.6, 0.0, 0.8],
@@ -305,7 +307,7 @@ fn irradiance_is_that_of_the_visible_part() {
             solar_elevation: degrees.to_radians(),
             ..Conditions::default()
         };
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         let normal = [0.3, 0.4, 0.75f64.sqrt()];
         let expected = dense(&sun, &conditions, normal);
         for (got, expected) in irradiance(&sun, normal).into_iter().zip(expected) {
@@ -327,7 +329,7 @@ fn irradiance_of_planes_that_cut_the_disc() {
             altitude,
             ..Conditions::default()
         };
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         let e = conditions.solar_elevation;
         let up = direction(e + FRAC_PI_2, 0.0);
         for turn in [0.0f64, 0.02, 1.0, 2.5, 3.1] {
@@ -335,7 +337,7 @@ fn irradiance_of_planes_that_cut_the_disc() {
                 let (y, x) = turn.sin_cos();
                 let across = [x * up[0], y, x * up[2]];
                 let centre = conditions.sun_direction();
-                let lift = (rise * SUN_RADIUS).sin();
+                let lift = (rise * SOLAR_ANGULAR_RADIUS).sin();
                 let normal: [f64; 3] = std::array::from_fn(|k| across[k] + lift * centre[k]);
                 let whole = irradiance(&sun, centre);
                 let length = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -357,11 +359,11 @@ fn irradiance_of_planes_that_cut_the_disc() {
         solar_elevation: FRAC_PI_2,
         ..Conditions::default()
     };
-    let sun = MODEL.sun_disc(&conditions).unwrap();
+    let sun = MODEL.solar_disc(&conditions).unwrap();
     let walls = [0.0f64, 1.0, 2.0].map(|a| irradiance(&sun, [a.cos(), a.sin(), 0.0])[6]);
     let flat = irradiance(&sun, [0.0, 0.0, 1.0])[6];
     // Without limb darkening 4/(3π) · ½ of the radius.
-    assert!((0.18..0.213).contains(&(walls[0] / flat / SUN_RADIUS)));
+    assert!((0.18..0.213).contains(&(walls[0] / flat / SOLAR_ANGULAR_RADIUS)));
     assert!(walls.iter().all(|w| (w / walls[0] - 1.0).abs() < 1e-4));
 }
 
@@ -371,11 +373,11 @@ fn irradiance_goes_to_nothing_continuously() {
     for altitude in [0.0, 2000.0] {
         let at = |rise: f64| {
             let conditions = Conditions {
-                solar_elevation: rise * SUN_RADIUS - dip(altitude),
+                solar_elevation: rise * SOLAR_ANGULAR_RADIUS - dip(altitude),
                 altitude,
                 ..Conditions::default()
             };
-            let sun = MODEL.sun_disc(&conditions).unwrap();
+            let sun = MODEL.solar_disc(&conditions).unwrap();
             irradiance(&sun, conditions.sun_direction())[8]
         };
         let half = at(0.0);
@@ -443,7 +445,7 @@ fn draws_survive_a_rotation_in_single_precision() {
         };
         let colour = MODEL.sky(&conditions).unwrap();
         let colour = colour.bake_colour(BakedSky::TOLERANCE).unwrap();
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         let sampler = colour.sampler().with_sun(&sun);
         let mut random = Random(degrees.to_bits());
         let (mut sum, mut worst, mut suns) = (0.0, 0.0f32, 0);
@@ -493,7 +495,7 @@ fn draws_at_the_rim_and_odd_numbers() {
         };
         let colour = MODEL.sky(&conditions).unwrap();
         let colour = colour.bake_colour(BakedSky::TOLERANCE).unwrap();
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         (colour.sampler().with_sun(&sun), sun)
     };
     let (sampler, sun) = at(60.0);
@@ -546,7 +548,7 @@ fn draws_cover_what_is_visible() {
             ..Conditions::default()
         };
         let sky = MODEL.sky(&conditions).unwrap();
-        let sun = MODEL.sun_disc(&conditions).unwrap();
+        let sun = MODEL.solar_disc(&conditions).unwrap();
         let baked = sky.bake_colour(BakedSky::TOLERANCE).unwrap();
         let sampler = baked.sampler().with_sun(&sun);
         // The mean radiance of draws, over the solid angle of a segment of a disc.
@@ -574,7 +576,7 @@ fn draws_cover_what_is_visible() {
             }
         }
         assert!(share > 0.0 && black * 1000 <= count, "{black} of {count}");
-        let rise = (conditions.solar_elevation + dip(altitude)) / SUN_RADIUS;
+        let rise = (conditions.solar_elevation + dip(altitude)) / SOLAR_ANGULAR_RADIUS;
         let theta = (-rise).clamp(-1.0, 1.0).acos();
         let visible = sun.solid_angle() * (theta - theta.sin() * theta.cos()) / PI;
         let expected = irradiance(&sun, conditions.sun_direction());

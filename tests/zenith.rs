@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 use common::oracle::{Oracle, Query};
 use proptest::prelude::*;
 use welkin::{
-    Budget, Channels, Conditions, DEFAULT_MODEL, Frame, General, Haze, Interpolation, Model, Plan,
-    Stokes, StokesSpectra,
+    AerialPerspective, Budget, Channels, Conditions, DEFAULT_MODEL, Interpolation, Model, Plan,
+    PointQuery, PolarisationFrame, Stokes, StokesSpectra,
 };
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
@@ -56,10 +56,12 @@ fn near() -> impl Strategy<Value = f64> {
     (-6.0..-3.0f64).prop_map(|x| 10f64.powf(x))
 }
 
-fn in_scatter(haze: &Haze, from: [f64; 3], to: [f64; 3]) -> Vec<f32> {
-    let n = haze.wavelengths().len();
+fn in_scattering(aerial: &AerialPerspective, from: [f64; 3], to: [f64; 3]) -> Vec<f32> {
+    let n = aerial.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
-    haze.in_scatter(from, to, &mut light, &mut through).unwrap();
+    aerial
+        .in_scattering(from, to, &mut light, &mut through)
+        .unwrap();
     light
 }
 
@@ -79,16 +81,16 @@ proptest! {
         let sky = MODEL.polarised_sky(&conditions(zenith, azimuth, place)).unwrap();
         let n = MODEL.wavelengths().len();
         let direction = |turn: f64| unit(elevation, azimuth + turn).map(|v| v as f32);
-        let general = General::new(DEFAULT_MODEL).unwrap().with_interpolation(Interpolation::Full);
-        let polarised = MODEL.polarised_general(&PLAN).unwrap();
+        let general = PointQuery::new(DEFAULT_MODEL).unwrap().with_interpolation(Interpolation::Full);
+        let polarised = MODEL.polarised_point_query(&PLAN).unwrap();
         let [mut a, mut b] = [(); 2].map(|()| vec![Stokes::default(); n]);
         for turn in [FRAC_PI_2, -FRAC_PI_2, 0.3, 2.0] {
             let bound = match turn.abs() == FRAC_PI_2 {
                 true => LEFT,
                 false => LEFT + SLOPE * zenith,
             };
-            vertical.relative_stokes(direction(turn), Frame::Vertical, &mut a).unwrap();
-            sky.relative_stokes(direction(turn), Frame::Vertical, &mut b).unwrap();
+            vertical.relative_stokes(direction(turn), PolarisationFrame::Vertical, &mut a).unwrap();
+            sky.relative_stokes(direction(turn), PolarisationFrame::Vertical, &mut b).unwrap();
             for (a, b) in a.iter().zip(&b) {
                 prop_assert!(f64::from((b.i / a.i - 1.0).abs()) < bound, "{a:?} {b:?}");
                 let moved = f64::from((b.q - a.q).hypot(b.u - a.u));
@@ -101,8 +103,8 @@ proptest! {
             let lights: Vec<f32> = b.iter().map(|s| s.i).collect();
             prop_assert!(farthest(&at_once, &lights) < 1e-4);
             let asked = conditions(zenith, azimuth, place);
-            let at = polarised.stokes_at(&asked, direction(turn), Frame::Vertical, 520.0).unwrap();
-            let prepared = sky.stokes_at(direction(turn), Frame::Vertical, 520.0).unwrap();
+            let at = polarised.stokes_at(&asked, direction(turn), PolarisationFrame::Vertical, 520.0).unwrap();
+            let prepared = sky.stokes_at(direction(turn), PolarisationFrame::Vertical, 520.0).unwrap();
             for (a, b) in [(at.i, prepared.i), (at.q, prepared.q), (at.u, prepared.u)] {
                 prop_assert!((a - b).abs() < 1e-4 * prepared.i, "{at:?} {prepared:?}");
             }
@@ -124,7 +126,7 @@ proptest! {
         let radius = MODEL.head().planet.radius;
         let from: [f64; 3] = std::array::from_fn(|k| (radius + height) * here[k] - if k == 2 { radius } else { 0.0 });
         // The sun stands exactly above `from`; now the point moves, and the sun goes round its zenith.
-        let haze = MODEL.haze(&sun).unwrap();
+        let aerial = MODEL.aerial_perspective(&sun).unwrap();
         let east = [-0.7f64.sin(), 0.7f64.cos(), 0.0];
         let north = [
             here[1] * east[2] - here[2] * east[1],
@@ -136,7 +138,7 @@ proptest! {
         };
         let direction = local(unit(elevation, 0.2));
         let light = |from: [f64; 3]| {
-            in_scatter(&haze, from, std::array::from_fn(|k| from[k] + length * direction[k]))
+            in_scattering(&aerial, from, std::array::from_fn(|k| from[k] + length * direction[k]))
         };
         let step = local(unit(0.0, azimuth));
         let moved = std::array::from_fn(|k| from[k] + zenith * radius * step[k]);
@@ -155,18 +157,18 @@ proptest! {
         altitude in 0.0..3e3f64,
     ) {
         let head = common::head(&[0.0], &[20e3]);
-        let chunks = common::haze::polarised_chunks(&head);
+        let chunks = common::aerial::polarised_chunks(&head);
         let bytes = welkin::format::encode(&head, &chunks).unwrap();
         let model = Model::from_bytes(bytes.as_slice()).unwrap();
         let conditions = conditions(zenith, solar_azimuth, [0.0, 20e3]);
-        let haze = model.haze(&conditions).unwrap();
+        let aerial = model.aerial_perspective(&conditions).unwrap();
         let direction = unit(elevation, 0.0);
-        let n = haze.wavelengths().len();
+        let n = aerial.wavelengths().len();
         let from = [0.0, 0.0, altitude];
         let to = std::array::from_fn(|k| from[k] + 100.0 * direction[k]);
         let [mut i, mut q, mut u, mut through] = [(); 4].map(|()| vec![0.0; n]);
         let out = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
-        haze.in_scatter_stokes(from, to, Frame::Vertical, out, &mut through).unwrap();
+        aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, out, &mut through).unwrap();
         let query = Query {
             altitude,
             visibility: conditions.visibility,
@@ -175,7 +177,7 @@ proptest! {
             solar_azimuth,
             direction,
         };
-        let expected = Oracle::new(&bytes).in_scatter(&query, 100.0, 100.0);
+        let expected = Oracle::new(&bytes).in_scattering(&query, 100.0, 100.0);
         let head = model.head();
         for (w, [l, eq, eu]) in expected.into_iter().enumerate() {
             let sun = head.solar_irradiance_at(head.wavelengths[w]);

@@ -5,7 +5,7 @@
 use core::panic::PanicInfo;
 use core::slice;
 
-use welkin::{Conditions, General};
+use welkin::{Conditions, PointQuery};
 
 /// Writes spectral radiance (W m⁻² sr⁻¹ nm⁻¹) at the wavelengths of a model to `out` and returns 0, or −1 where
 /// something is wrong. `conditions`: solar elevation, solar azimuth (rad), visibility (m), albedo, altitude (m).
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn welkin_radiance(
         albedo,
         altitude,
     };
-    let answer = General::new(model).and_then(|general| general.radiance(&conditions, direction, out));
+    let answer = PointQuery::new(model).and_then(|general| general.radiance(&conditions, direction, out));
     match answer {
         Ok(()) => 0,
         Err(_) => -1,

@@ -2,13 +2,14 @@
 
 use crate::assess::{self, Error, Quantiles};
 use crate::dataset::{Sample, Store};
-use crate::decompose::{self, Chunk, Fit, Options, chunk_geometry};
+use crate::decompose::{self, Chunk, Fit, chunk_geometry};
 use crate::finite;
-use crate::orders::{FIELDS, NW};
+use crate::fitting::Fitting;
 use crate::pack::{self, Air, PackedBasis};
 use crate::progress::bar;
 use crate::report;
 use crate::round_trip;
+use crate::successive_orders::{FIELDS, NW};
 use crate::units::{Plan, Solved};
 use crate::{polarimetry, polarise};
 use anyhow::{Context, Result};
@@ -18,35 +19,6 @@ use std::time::Instant;
 use welkin::Model;
 use welkin::format::{self, ColumnTable, Head, Payload, encode};
 use welkin::output::{Target, write};
-
-/// How the traced tensors are fitted.
-#[derive(Clone, Copy, Debug)]
-pub struct Fitting {
-    /// Components, sweeps, seed of the decomposition.
-    pub options: Options,
-    /// Passes of the refinement.
-    pub refinements: usize,
-    /// The same for the polarisation; without components there is none.
-    pub polarisation: Options,
-}
-
-impl Default for Fitting {
-    fn default() -> Self {
-        Self {
-            options: Options {
-                rank: 160,
-                sweeps: 150,
-                seed: 1,
-            },
-            refinements: 12,
-            polarisation: Options {
-                rank: 48,
-                sweeps: 400,
-                seed: 1,
-            },
-        }
-    }
-}
 
 /// A chunk of the model before it is packed.
 pub(crate) struct Traced {

@@ -25,7 +25,7 @@ enum Command {
     /// Compare methods for the light of finite segments with exact integrals.
     Finite(command::finite::Args),
     /// Compare traced data with the unbiased tracer.
-    Judge(command::judge::Args),
+    CrossCheck(command::cross_check::Args),
     /// List, do and describe the work units of a model, on one machine or many.
     Units(command::units::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
@@ -62,7 +62,7 @@ fn main() -> ExitCode {
         Command::Assess(args) => command::assess::run(&args),
         Command::Chart(args) => command::chart::run(&args),
         Command::Finite(args) => command::finite::run(&args),
-        Command::Judge(args) => command::judge::run(&args),
+        Command::CrossCheck(args) => command::cross_check::run(&args),
         Command::Units(args) => command::units::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Atmosphere(args) => command::atmosphere::run(&args),

@@ -1,6 +1,6 @@
 //! What is in a folder of work units: where each comes from, what it cost, and how far it is from the unbiased tracer.
 
-use crate::judge::{Difference, Summary};
+use crate::cross_check::{Difference, Summary};
 use crate::units::{Kind, Plan, Unit};
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -37,12 +37,12 @@ pub fn manifest(plan: &Plan, work: &Path) -> Result<Value> {
 
 /// Of all units that are judged: together, and by visibility (m).
 fn differences(plan: &Plan, work: &Path) -> Result<Value> {
-    let store = plan.store_of(work, Kind::Judge)?;
+    let store = plan.store_of(work, Kind::Check)?;
     let (mut all, mut by_visibility) = (vec![], serde_json::Map::new());
     for &visibility in &plan.grid.visibilities {
         let units = plan.units().into_iter();
         let mut here = vec![];
-        for unit in units.filter(|u| u.kind == Kind::Judge && u.visibility == visibility) {
+        for unit in units.filter(|u| u.kind == Kind::Check && u.visibility == visibility) {
             let values = store.load(&plan.name(unit))?.unwrap_or_default();
             here.extend(Difference::from_values(&values));
         }
@@ -69,7 +69,7 @@ fn entry(plan: &Plan, work: &Path, unit: Unit) -> Result<Value> {
     let checksum = store.checksum(&name)?;
     entry["crc32"] = json!(checksum.map(|c| format!("{c:08x}")));
     entry["core_seconds"] = json!(store.cost(&name));
-    if unit.kind == Kind::Judge {
+    if unit.kind == Kind::Check {
         entry["difference_to_tracer"] = json!(Summary::of(&Difference::from_values(&values)));
     }
     Ok(entry)

@@ -3,7 +3,7 @@
 use crate::atmosphere::table::Table;
 use crate::dataset::{Grid, WAVELENGTHS};
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
-use crate::orders::{Gatherer, Medium, NW, Spectrum};
+use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
 use faer::Mat;
 use welkin::axis::hermite;

@@ -2,9 +2,9 @@
 
 use crate::assess::Quantiles;
 use crate::dataset::Sample;
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use anyhow::Result;
-use welkin::{Conditions, Frame, Model, Stokes};
+use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 /// Angles are compared where light is polarised more than this.
 const POLARISED: f64 = 0.05;
@@ -69,7 +69,7 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
             Some((same, sky)) if same == conditions => sky,
             _ => model.polarised_sky(&conditions)?,
         };
-        sky.relative_stokes(sample.direction(), Frame::Vertical, &mut light)?;
+        sky.relative_stokes(sample.direction(), PolarisationFrame::Vertical, &mut light)?;
         let place = place(model, visibility, sample);
         for (got, truth) in light.iter().zip(traced(sample)) {
             if truth[0] > 0.0 {

@@ -1,7 +1,7 @@
 //! What a build tells: the errors of every chunk, and the provenance in the file.
 
 use crate::assess::{self, Error, Quantiles};
-use crate::build::Fitting;
+use crate::fitting::Fitting;
 use crate::polarimetry;
 use crate::units::Plan;
 use welkin::format::Head;

@@ -101,8 +101,8 @@ fn half(value: f32) -> f64 {
 mod tests {
     use super::*;
     use crate::decompose::residual;
-    use crate::orders::{FIELDS, NW};
     use crate::pack::PackedBasis;
+    use crate::successive_orders::{FIELDS, NW};
     use welkin::axis::{ElevationAxis, Ends};
 
     const RANK: usize = 8;

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use std::path::Path;
 use welkin::format::{Chunk, Head, Payload, encode, parse};
-use welkin::{Air, Model};
+use welkin::{Model, Transmittance};
 use welkin_fitter::atmosphere::json::Case;
 use welkin_fitter::atmosphere::{Atmosphere, VISIBILITIES, real};
 use welkin_fitter::column::ColumnIntegrator;
@@ -11,7 +11,7 @@ use welkin_fitter::dataset::WAVELENGTHS;
 use welkin_fitter::finite::density;
 
 /// A file that holds the densities of one atmosphere and nothing else.
-fn air_of(atmosphere: &Atmosphere) -> Air {
+fn air_of(atmosphere: &Atmosphere) -> Transmittance {
     let mut atmosphere = atmosphere.clone();
     if atmosphere.wavelengths.len() == 1 {
         // A model has at least two wavelengths.
@@ -25,7 +25,7 @@ fn air_of(atmosphere: &Atmosphere) -> Air {
     let file = encode(&head(&atmosphere), &[chunk]).unwrap();
     Model::from_bytes(file)
         .unwrap()
-        .air(VISIBILITIES[0])
+        .transmittance(VISIBILITIES[0])
         .unwrap()
 }
 
@@ -196,7 +196,7 @@ fn the_way_to_the_sun_agrees_with_exact_columns() {
     for &visibility in &model.head().visibilities {
         let atmosphere = real(visibility, &WAVELENGTHS).unwrap();
         let exact = ColumnIntegrator::new(&atmosphere);
-        let air = model.air(visibility).unwrap();
+        let air = model.transmittance(visibility).unwrap();
         for i in 0..1500 {
             let altitude = 15_000.0 * share(i, 0.754_877_666).powi(2);
             let degrees = match i {
@@ -211,7 +211,7 @@ fn the_way_to_the_sun_agrees_with_exact_columns() {
                 solar_elevation: elevation.max(model.solar_elevation_range()[0]),
                 ..welkin::Conditions::default()
             };
-            let sun = model.sun_disc(&conditions).unwrap();
+            let sun = model.solar_disc(&conditions).unwrap();
             let direction = sun.direction().map(f64::from);
             let sine = direction[2] / direction.iter().map(|v| v * v).sum::<f64>().sqrt();
             if sine < -planet.dip(altitude).sin() {

@@ -5,14 +5,15 @@ use std::sync::OnceLock;
 use welkin::axis::Ends;
 use welkin::geometry::Side;
 use welkin::output::Target;
-use welkin::{Conditions, Frame, Model, PolarisedSky, Stokes};
+use welkin::{Conditions, Model, PolarisationFrame, PolarisedSky, Stokes};
 use welkin_fitter::assess::Quantiles;
-use welkin_fitter::build::{Fitting, build};
+use welkin_fitter::build::build;
 use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
-use welkin_fitter::orders::source::Sun;
-use welkin_fitter::orders::{NW, Settings};
+use welkin_fitter::fitting::Fitting;
 use welkin_fitter::polarimetry;
+use welkin_fitter::successive_orders::scattered_source::Sun;
+use welkin_fitter::successive_orders::{NW, Settings};
 use welkin_fitter::units::{HeldOut, Plan};
 
 const CLEAR: f64 = 131_800.0;
@@ -134,7 +135,7 @@ impl Plane {
         let mut light = [Stokes::default(); NW];
         let direction = [x as f32, 0.0, z as f32];
         self.sky
-            .relative_stokes(direction, Frame::SunAligned, &mut light)
+            .relative_stokes(direction, PolarisationFrame::SunAligned, &mut light)
             .unwrap();
         f64::from(light[WAVELENGTH].signed_degree())
     }

@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 use welkin_fitter::atmosphere::Phase;
 use welkin_fitter::atmosphere::json::Case;
-use welkin_fitter::reference::case::{Effort, trace};
+use welkin_fitter::reference::traced_lines::{Effort, trace};
 use welkin_fitter::reference::{Verdict, sky, slab, transmittance};
 use welkin_fitter::tracer::{Options, Orders, Radiance, VisibleGround};
 

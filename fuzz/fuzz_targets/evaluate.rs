@@ -3,13 +3,13 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::OnceLock;
-use welkin::{Conditions, Haze, Model, PolarisedSky};
+use welkin::{Conditions, AerialPerspective, Model, PolarisedSky};
 use welkin_fuzz::{look_polarised, scatter};
 
 /// What takes long to prepare, for a few scenes.
 struct Prepared {
     model: Model,
-    scenes: Vec<(Haze, PolarisedSky)>,
+    scenes: Vec<(AerialPerspective, PolarisedSky)>,
 }
 
 impl Prepared {
@@ -24,9 +24,9 @@ impl Prepared {
                 altitude: 1500.0,
                 ..Conditions::default()
             };
-            let haze = model.haze(&conditions).expect("a model with haze");
+            let aerial = model.aerial_perspective(&conditions).expect("a model with haze");
             let sky = model.polarised_sky(&conditions).expect("a polarised model");
-            (haze, sky)
+            (aerial, sky)
         });
         Self {
             model,
@@ -53,8 +53,8 @@ fuzz_target!(|input: Scene| {
     }
     // Metres: far too far for some.
     let [from, to] = points.map(|point| point.map(f64::from));
-    for (haze, sky) in &prepared.scenes {
-        scatter(haze, from, to);
+    for (aerial, sky) in &prepared.scenes {
+        scatter(aerial, from, to);
         look_polarised(sky, direction);
     }
 });

@@ -1,10 +1,10 @@
 //! Many directions at once.
 
-use super::frame::{Frame, prepared};
-use super::table::{Spots, Table};
+use super::coordinates::{Frame, prepared};
+use super::spline_table::{Spots, Table};
 use crate::error::{Error, Result};
-use crate::lanes::Lanes;
-use crate::simd::{Instructions, Kernel};
+use crate::kernel::lanes::Lanes;
+use crate::kernel::simd::{Instructions, Kernel};
 
 /// Directions as a structure of arrays of equal length. They need not be normalised.
 #[derive(Clone, Copy, Debug)]
@@ -50,15 +50,20 @@ const WIDTH: usize = 8;
 
 /// Where results go.
 pub(super) trait Sink<const N: usize> {
-    /// Takes the first `count` directions of a group, of which the first has this index, as looked up and as vectors of any length. Must be `#[inline(always)]`.
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<N>,
-        spots: &Spots<W>,
-        vectors: &[Lanes<W>; 3],
-    );
+    /// Must be `#[inline(always)]`.
+    fn put<const W: usize>(&mut self, group: &Group<N, W>);
+}
+
+/// Directions that were looked up together.
+pub(super) struct Group<'a, const N: usize, const W: usize> {
+    /// Index of the first.
+    pub first: usize,
+    /// How many of them count.
+    pub count: usize,
+    pub table: &'a Table<N>,
+    pub spots: &'a Spots<W>,
+    /// The directions as vectors of any length.
+    pub vectors: &'a [Lanes<W>; 3],
 }
 
 /// Looks up directions until one is bad.
@@ -100,7 +105,13 @@ impl<const N: usize, S: Sink<N>> Each<'_, N, S> {
             return Err(Error::Direction { got: unsound(d) });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(first, count, self.table, &spots, &prepared);
+        self.sink.put(&Group {
+            first,
+            count,
+            table: self.table,
+            spots: &spots,
+            vectors: &prepared,
+        });
         Ok(())
     }
 }
@@ -127,7 +138,13 @@ impl<const N: usize, S: Sink<N>> Kernel for One<'_, N, S> {
             });
         };
         let spots = self.table.spots(self.frame.locate(prepared));
-        self.sink.put(0, 1, self.table, &spots, &prepared);
+        self.sink.put(&Group {
+            first: 0,
+            count: 1,
+            table: self.table,
+            spots: &spots,
+            vectors: &prepared,
+        });
         Ok(())
     }
 }
@@ -144,22 +161,16 @@ fn unsound(d: [Lanes<WIDTH>; 3]) -> [f32; 3] {
 mod tests {
     use super::super::{Baked, BakedSky};
     use super::*;
-    use crate::simd::{Portable, dispatch};
+    use crate::kernel::simd::{Portable, dispatch};
     use crate::{Conditions, Model};
 
     struct Values(Vec<[f32; 16]>);
 
     impl Sink<16> for &mut Values {
         #[inline(always)]
-        fn put<const W: usize>(
-            &mut self,
-            _: usize,
-            n: usize,
-            table: &Table<16>,
-            spots: &Spots<W>,
-            _: &[Lanes<W>; 3],
-        ) {
-            self.0.extend((0..n).map(|i| table.value(spots, i, 0).0));
+        fn put<const W: usize>(&mut self, group: &Group<16, W>) {
+            let values = (0..group.count).map(|i| group.table.value(group.spots, i, 0).0);
+            self.0.extend(values);
         }
     }
 

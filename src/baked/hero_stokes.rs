@@ -1,19 +1,18 @@
 //! Stokes vectors at a few wavelengths that differ from query to query. Format specification, section 7.5: Q/I and U/I are
 //! interpolated as the logarithm of I is.
 
-use super::batch::{Directions, Each, One, Sink, check_length};
-use super::degrees::{self, turned};
-use super::polarised::{ALMOST_WHOLE, BakedPolarisedSky};
-use super::spectral::LANES;
-use super::table::{Spots, Table};
-use super::turn::{Axes, Turn};
+use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
+use super::baked_spectral::LANES;
+use super::batch::{Directions, Group, Sink, check_length};
+use super::frame_rotation::{Axes, FrameRotation};
+use super::polarisation_table::{self, turned};
+use super::spline_table::Spots;
 use crate::error::Result;
-use crate::lanes::Lanes;
-use crate::polarisation::{Frame, Stokes};
-use crate::simd::dispatch;
+use crate::kernel::lanes::Lanes;
+use crate::polarisation::{PolarisationFrame, Stokes};
 
 /// Most blocks of wavelengths.
-const BLOCKS: usize = 256usize.div_ceil(degrees::LANES);
+const BLOCKS: usize = 256usize.div_ceil(polarisation_table::LANES);
 
 impl BakedPolarisedSky {
     /// Stokes vectors at four wavelengths (nm) within the range of the model, as [`PolarisedSky::stokes_at`]. The radiance is that
@@ -30,22 +29,20 @@ impl BakedPolarisedSky {
     pub fn hero(
         &self,
         direction: [f32; 3],
-        frame: Frame,
+        frame: PolarisationFrame,
         wavelengths: [f32; 4],
     ) -> Result<[Stokes; 4]> {
         self.sky().check_wavelengths(&[wavelengths])?;
         let mut out = [[Stokes::default(); 4]];
-        dispatch(One {
-            frame: self.sky().frame(),
-            table: &self.sky().baked.table,
+        self.sky().baked.one(
             direction,
-            sink: Heroes {
+            Heroes {
                 sky: self,
                 axes: Axes::new(frame)?,
                 wavelengths: &[wavelengths],
                 out: &mut out,
             },
-        })?;
+        )?;
         Ok(out[0])
     }
 
@@ -57,7 +54,7 @@ impl BakedPolarisedSky {
     pub fn hero_batch(
         &self,
         directions: &Directions,
-        frame: Frame,
+        frame: PolarisationFrame,
         wavelengths: &[[f32; 4]],
         out: &mut [[Stokes; 4]],
     ) -> Result<()> {
@@ -66,17 +63,15 @@ impl BakedPolarisedSky {
         check_length("output", out.len(), directions.len())?;
         self.sky().check_wavelengths(wavelengths)?;
         let axes = Axes::new(frame)?;
-        dispatch(Each {
-            frame: self.sky().frame(),
-            table: &self.sky().baked.table,
-            directions: *directions,
-            sink: Heroes {
+        self.sky().baked.each(
+            directions,
+            Heroes {
                 sky: self,
                 axes,
                 wavelengths,
                 out,
             },
-        })
+        )
     }
 }
 
@@ -90,14 +85,14 @@ struct Heroes<'a> {
 
 impl Sink<LANES> for Heroes<'_> {
     #[inline(always)]
-    fn put<const W: usize>(
-        &mut self,
-        index: usize,
-        count: usize,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
-        vectors: &[Lanes<W>; 3],
-    ) {
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            vectors,
+        } = group;
         let sky = self.sky.sky();
         let turn = self.axes.turn(sky.frame(), vectors);
         for i in 0..count {
@@ -115,7 +110,7 @@ impl Heroes<'_> {
     fn ratios<const W: usize>(
         &self,
         spots: &Spots<W>,
-        turn: &Turn<W>,
+        turn: &FrameRotation<W>,
         i: usize,
         wavelengths: &[f32; 4],
     ) -> [Lanes<4>; 2] {
@@ -125,7 +120,7 @@ impl Heroes<'_> {
         if degrees.blocks == 1 {
             return at(0).map(|ratios| axis.mix(wavelengths, &ratios.0));
         }
-        let mut ratios = [[[0.0; degrees::LANES]; BLOCKS]; 2];
+        let mut ratios = [[[0.0; polarisation_table::LANES]; BLOCKS]; 2];
         for block in 0..degrees.blocks {
             let [q, u] = at(block);
             (ratios[0][block], ratios[1][block]) = (q.0, u.0);

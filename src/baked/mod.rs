@@ -1,52 +1,59 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
-//! `frame` turns directions into coordinates, `spline` coordinates into taps, `table` sums; `bake` makes the tables, a `surface` for
-//! each side of the horizon, and `quality` chooses their size by comparing at `sites`; `degrees` and `turn` add polarisation; `spectral`, `colour`, `polarised` and the two of `hero`
-//! are the public faces.
+//! `coordinates` turns directions into places in tables, `spline` those into taps, `spline_table` sums. `fill` makes the tables, a
+//! `hemisphere_spline` for each side of the horizon, and `grid_choice` their sizes, by the loops of `refinement`, which compare at
+//! `comparison_sites`; `polarisation_table` and `frame_rotation` add polarisation. `batch` has the one loop over directions, and
+//! `baked_spectral`, `baked_colour`, `baked_polarised` and the two of `hero` are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
-mod bake;
+mod baked_colour;
+mod baked_polarised;
+mod baked_spectral;
 mod batch;
-mod colour;
-mod degrees;
-mod frame;
-mod hero;
+mod comparison_sites;
+mod coordinates;
+mod fill;
+mod frame_rotation;
+mod grid_choice;
+mod grid_nodes;
+mod hemisphere_spline;
 mod hero_stokes;
+mod hero_wavelengths;
 mod irradiance;
-mod lattice;
-mod polarised;
-mod quality;
+mod polarisation_table;
+mod refinement;
 mod sampler;
-mod sites;
-mod spectral;
 mod spline;
-mod surface;
-mod table;
-mod turn;
+mod spline_size;
+mod spline_table;
 
+pub use baked_colour::BakedColourSky;
+pub use baked_polarised::BakedPolarisedSky;
+pub use baked_spectral::BakedSky;
 pub use batch::Directions;
-pub use colour::BakedColour;
-pub use polarised::BakedPolarisedSky;
-pub use quality::BakeError;
+pub use grid_choice::BakeError;
 pub use sampler::{Part, Sample, SkySampler};
-pub use spectral::BakedSky;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
+use crate::kernel::simd::dispatch;
 use crate::sky::Sky;
-use bake::Channels;
-use frame::Frame;
-use table::Table;
+use batch::{Each, One, Sink};
+use coordinates::Frame;
+use fill::Channels;
+use spline_table::Table;
 
 /// Most bytes that a baked sky of a model holds on the heap.
 pub(crate) fn largest_bytes(channels: crate::Channels, head: &Head) -> usize {
     let n = head.wavelengths.len();
     match channels {
-        crate::Channels::Spectral => quality::largest_table(n, 16) + spectral::axis_bytes(head),
-        crate::Channels::Colour => quality::largest_table(3, 4),
+        crate::Channels::Spectral => {
+            grid_choice::largest_table(n, 16) + baked_spectral::axis_bytes(head)
+        }
+        crate::Channels::Colour => grid_choice::largest_table(3, 4),
         crate::Channels::Stokes => {
-            largest_bytes(crate::Channels::Spectral, head) + degrees::largest_table(n)
+            largest_bytes(crate::Channels::Spectral, head) + polarisation_table::largest_table(n)
         }
     }
 }
@@ -81,12 +88,34 @@ impl<const N: usize> Baked<N> {
     fn new(sky: &Sky, channels: &impl Channels<N>, tolerance: f64) -> Result<Self> {
         check_tolerance(tolerance)?;
         let frame = Frame::new(sky);
-        let (table, error) = bake::table(sky, channels, &frame, tolerance)?;
+        let (table, error) = fill::table(sky, channels, &frame, tolerance)?;
         Ok(Self {
             conditions: *sky.conditions(),
             frame,
             table,
             error,
+        })
+    }
+
+    /// Looks up one direction.
+    #[inline(always)]
+    fn one(&self, direction: [f32; 3], sink: impl Sink<N>) -> Result<()> {
+        dispatch(One {
+            frame: &self.frame,
+            table: &self.table,
+            direction,
+            sink,
+        })
+    }
+
+    /// Looks up many directions, which were checked.
+    #[inline(always)]
+    fn each(&self, directions: &Directions, sink: impl Sink<N>) -> Result<()> {
+        dispatch(Each {
+            frame: &self.frame,
+            table: &self.table,
+            directions: *directions,
+            sink,
         })
     }
 

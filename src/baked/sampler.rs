@@ -2,12 +2,12 @@
 
 use core::f64::consts::TAU;
 
-use super::BakedColour;
-use super::frame::{Frame, prepared};
+use super::BakedColourSky;
+use super::coordinates::{Frame, prepared};
 use crate::error::{Error, Result};
-use crate::lanes::Lanes;
-use crate::math::finite;
-use crate::sun::SunDisc;
+use crate::kernel::lanes::Lanes;
+use crate::kernel::math::finite;
+use crate::sun::SolarDisc;
 
 /// Rows of cells above and below the horizon, and columns from the sun's azimuth to the opposite one.
 const UP: usize = 48;
@@ -47,7 +47,7 @@ pub struct Sample {
 /// draws black, which costs 2e-5 of the light of a whole disc.
 #[derive(Clone, Debug)]
 pub struct SkySampler {
-    sky: BakedColour,
+    sky: BakedColourSky,
     frame: Frame,
     /// z at the edges of each row, from the horizon to the pole: above, then below.
     heights: Vec<[f32; 2]>,
@@ -61,10 +61,10 @@ pub struct SkySampler {
     density: Vec<f32>,
     /// Luminous flux through a sphere, cd sr m⁻².
     flux: f64,
-    sun: Option<(SunDisc, f32)>,
+    sun: Option<(SolarDisc, f32)>,
 }
 
-impl BakedColour {
+impl BakedColourSky {
     /// Prepares drawing of directions in proportion to the luminance of the sky, without the sun's disc.
     pub fn sampler(&self) -> SkySampler {
         let frame = self.frame();
@@ -94,7 +94,7 @@ impl BakedColour {
 impl SkySampler {
     /// Draws the sun's disc too, as often as its share of the luminous flux is.
     #[must_use]
-    pub fn with_sun(mut self, sun: &SunDisc) -> Self {
+    pub fn with_sun(mut self, sun: &SolarDisc) -> Self {
         let flux = sun.flux();
         let share = flux / (flux + self.flux);
         self.sun = (share > 0.0).then(|| (sun.clone(), share as f32));
@@ -182,7 +182,7 @@ impl SkySampler {
     }
 
     /// Mean luminance and solid angle of a cell, on both sides of the sun.
-    fn cell(&self, sky: &BakedColour, row: usize, column: usize) -> [f64; 2] {
+    fn cell(&self, sky: &BakedColourSky, row: usize, column: usize) -> [f64; 2] {
         let [low, high] = self.heights[row];
         let [cosine, sine] = self.frame.azimuth();
         let mut luminance = 0.0;

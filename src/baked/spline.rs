@@ -1,6 +1,6 @@
 //! Interpolating cubic B-splines: coefficients from values at the nodes, taps from a coordinate.
 
-use crate::lanes::Lanes;
+use crate::kernel::lanes::Lanes;
 
 /// What a function is like at the low end of an axis; the high end is always free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

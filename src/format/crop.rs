@@ -2,16 +2,18 @@
 
 use zerocopy::little_endian::U16;
 
-use super::chunk::{BasisView, ColumnView, FactorsView, widen};
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::head::{Head, Kind};
 use super::layout::POLARISATION_PARTS;
+use super::matrix::{columns, narrow, pick, rows};
 use super::parse::parse;
-use super::polarisation::{PolarisationBasis, PolarisationFactors};
-use super::source::{SourceBasis, SourceBasisView, SourceCore, SourceView};
+use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
+use super::source_function::{SourceBasis, SourceBasisView, SourceCore, SourceView};
+use super::views::{BasisView, ColumnView, FactorsView};
 use super::write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors};
 use crate::error::{Error, Result};
+use crate::kernel::half::widen;
 
 /// Indices of the nodes that [`crop`] keeps, each strictly increasing.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -176,22 +178,6 @@ fn check(what: &'static str, indices: &[usize], count: usize) -> Result<()> {
     Err(Error::invalid(what, detail))
 }
 
-fn pick<T: Copy>(values: &[T], indices: &[usize]) -> Vec<T> {
-    indices.iter().map(|&i| values[i]).collect()
-}
-
-/// Rows of a matrix of the given width.
-pub(super) fn rows<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
-    let row = |&i: &usize| &matrix[i * width..(i + 1) * width];
-    indices.iter().flat_map(row).copied().collect()
-}
-
-/// Columns of a matrix of the given width.
-pub(super) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
-    let rows = matrix.chunks_exact(width);
-    rows.flat_map(|row| pick(row, indices)).collect()
-}
-
 fn radiance(view: &FactorsView) -> RadianceFactors {
     let rank = view.rank;
     let rows = |table: &[U16]| unpadded(table, view.stride, rank);
@@ -246,8 +232,4 @@ fn unpadded(table: &[U16], stride: usize, width: usize) -> Vec<f32> {
     let rows = table.chunks_exact(stride);
     rows.flat_map(|row| row[..width].iter().map(|&h| widen(h)))
         .collect()
-}
-
-pub(super) fn narrow(values: &[zerocopy::little_endian::F32]) -> Vec<f32> {
-    values.iter().map(|v| v.get()).collect()
 }

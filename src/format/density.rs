@@ -6,9 +6,9 @@ use core::ops::Range;
 use zerocopy::little_endian::{F32, F64, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use super::chunk::{check_length, take};
-use super::crop::narrow;
-use super::write::check;
+use super::matrix::narrow;
+use super::payload_bytes::check;
+use super::views::{check_length, take};
 use crate::error::{Error, Number, Result};
 
 /// Most layers that a chunk can have.

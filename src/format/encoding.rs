@@ -2,13 +2,13 @@
 
 use std::borrow::Cow;
 
-use super::chunk::{BasisView, ColumnView, FactorsView};
 use super::density::DensityView;
 use super::head::{Entry, Head, Kind};
 use super::layout::ENCODING_RAW;
 #[cfg(feature = "zstd")]
 use super::layout::ENCODING_ZSTD;
-use super::source::{SourceBasisView, SourceView};
+use super::source_function::{SourceBasisView, SourceView};
+use super::views::{BasisView, ColumnView, FactorsView};
 use crate::error::{Error, Result};
 
 /// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are: their checksums, too, may

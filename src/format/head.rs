@@ -4,9 +4,9 @@ use super::layout::{
     KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
     KIND_SOURCE, KIND_SOURCE_BASIS, KIND_TRANSMITTANCE, Shape,
 };
-use crate::axis::{ElevationAxis, Ends, coefficients};
 use crate::geometry::Planet;
-use crate::spectrum::sample;
+use crate::kernel::axis::sample;
+use crate::kernel::axis::{ElevationAxis, Ends, coefficients};
 
 /// Spline axis over the angle from the geometric horizon, on one side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,9 +7,9 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
 use super::layout::*;
-use crate::axis::ElevationAxis;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
+use crate::kernel::axis::ElevationAxis;
 
 /// Kind, altitude and visibility of a chunk.
 pub(crate) type Key = (Kind, Option<usize>, Option<usize>);

@@ -1,12 +1,12 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
-use super::chunk::{BasisView, FactorsView, Payload16};
 use super::density::RESERVED as DENSITY_RESERVED;
 use super::encoding::{check_chunk, decode};
 use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
-use super::source::{RESERVED as SOURCE_RESERVED, SourceBasisView, SourceView};
+use super::source_function::{RESERVED as SOURCE_RESERVED, SourceBasisView, SourceView};
+use super::views::{BasisView, FactorsView, Payload16};
 use crate::error::Error;
 
 /// A rule of the format specification that a file breaks.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use half::f16;
 use zerocopy::IntoBytes;
 use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 
@@ -10,9 +9,10 @@ use super::assemble::assemble;
 use super::density::DensityTable;
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
-use super::polarisation::{PolarisationBasis, PolarisationFactors};
-use super::source::{SourceBasis, SourceCore, check_together};
-use crate::error::{Error, Number, Result};
+use super::payload_bytes::{check, check_rank, push_f32, push_half, push_halves, push_scale};
+use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
+use super::source_function::{SOURCE_FIELDS, SourceBasis, SourceCore};
+use crate::error::{Error, Result};
 use crate::output::replace_file;
 
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
@@ -129,6 +129,28 @@ pub(super) fn encode_chunk(head: &Head, chunk: &Chunk) -> Result<(RawEntry, Vec<
     Ok((entry(chunk, &payload)?, payload))
 }
 
+/// What the specification says about all source chunks of a file: they fit their basis, and their species agree.
+fn check_together(chunks: &[Chunk], wavelengths: usize) -> Result<()> {
+    let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
+        Payload::SourceBasis(basis) => Some((basis.ranks, basis.sun.len())),
+        _ => None,
+    });
+    let mut cores = chunks.iter().filter_map(|chunk| match &chunk.payload {
+        Payload::Source(core) => Some(core),
+        _ => None,
+    });
+    let Some(first) = cores.clone().next() else {
+        return Ok(());
+    };
+    let shape = |core: &SourceCore| (core.ranks, core.level.len() / (SOURCE_FIELDS * wavelengths));
+    let expected = basis.unwrap_or_else(|| shape(first));
+    if cores.all(|core| shape(core) == expected && core.phase == first.phase) {
+        return Ok(());
+    }
+    let detail = "all need the ranks and suns of the source basis, and the same species";
+    Err(Error::invalid("source chunks", detail))
+}
+
 fn push_arrays(file: &mut Vec<u8>, head: &Head) {
     for values in [
         &head.wavelengths,
@@ -161,12 +183,6 @@ fn push_arrays(file: &mut Vec<u8>, head: &Head) {
 fn push_f64(file: &mut Vec<u8>, values: &[f64]) {
     for &v in values {
         file.extend_from_slice(F64::new(v).as_bytes());
-    }
-}
-
-fn push_f32(file: &mut Vec<u8>, values: &[f32]) {
-    for &v in values {
-        file.extend_from_slice(F32::new(v).as_bytes());
     }
 }
 
@@ -285,68 +301,4 @@ fn encode_column(shape: &Shape, table: &ColumnTable) -> Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(shape.column_bytes());
     push_f32(&mut bytes, &table.values);
     Ok(bytes)
-}
-
-pub(super) fn check_rank(rank: usize) -> Result<()> {
-    if (1..=MAX_RANK).contains(&rank) {
-        return Ok(());
-    }
-    let detail = format!("expected 1..={MAX_RANK}, got {rank}");
-    Err(Error::invalid("rank", detail))
-}
-
-/// Appends the weights of `rank` components, padded to a multiple of 16.
-pub(super) fn push_scale(bytes: &mut Vec<u8>, scale: &[f32], rank: usize) -> Result<()> {
-    check("scale", scale, rank)?;
-    push_f32(bytes, scale);
-    bytes.resize(bytes.len() + 4 * (ceil16(rank) - rank), 0);
-    Ok(())
-}
-
-/// Appends a matrix with rows padded to a multiple of 16.
-pub(super) fn push_half(
-    bytes: &mut Vec<u8>,
-    what: &'static str,
-    values: &[f32],
-    rows: usize,
-    columns: usize,
-) -> Result<()> {
-    check(what, values, rows * columns)?;
-    for row in values.chunks_exact(columns) {
-        push_halves(bytes, what, row)?;
-        bytes.resize(bytes.len() + 2 * (ceil16(columns) - columns), 0);
-    }
-    Ok(())
-}
-
-fn push_halves(bytes: &mut Vec<u8>, what: &'static str, values: &[f32]) -> Result<()> {
-    for &value in values {
-        let half = f16::from_f32(value);
-        if !half.is_finite() {
-            let detail = format!(
-                "{} overflows half precision: move the size into scale",
-                Number(value.into())
-            );
-            return Err(Error::invalid(what, detail));
-        }
-        bytes.extend_from_slice(U16::new(half.to_bits()).as_bytes());
-    }
-    Ok(())
-}
-
-pub(super) fn check(what: &'static str, values: &[f32], expected: usize) -> Result<()> {
-    if values.len() != expected {
-        return Err(Error::Length {
-            what,
-            expected: expected as u64,
-            got: values.len() as u64,
-        });
-    }
-    match values.iter().find(|v| !v.is_finite()) {
-        None => Ok(()),
-        Some(v) => Err(Error::invalid(
-            what,
-            format!("expected finite values, got {v}"),
-        )),
-    }
 }

@@ -12,7 +12,7 @@
 //! lives. One that a killed process has left behind is removed by the next write of the same target, or by [`sweep`]. With the feature
 //! `signals`, `abandon_on_signals` leaves none behind where a process is asked to end.
 
-mod place;
+mod path_kind;
 #[cfg(all(unix, feature = "signals"))]
 mod signals;
 mod target;
@@ -22,7 +22,7 @@ use std::io;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use place::Place;
+use path_kind::PathKind;
 use temporary::Temporary;
 
 #[cfg(all(unix, feature = "signals"))]
@@ -49,10 +49,10 @@ pub fn replace_files(files: &[(&Path, &[u8])]) -> Result<()> {
     let mut streams = Vec::new();
     let mut temporaries = Vec::new();
     for &(path, bytes) in files {
-        let place = Place::of(path).map_err(|e| in_file(path, e))?;
+        let place = PathKind::of(path).map_err(|e| in_file(path, e))?;
         match place {
-            Place::Stream(stream) => streams.push((path, stream, bytes)),
-            Place::File { path: target, old } => {
+            PathKind::Stream(stream) => streams.push((path, stream, bytes)),
+            PathKind::File { path: target, old } => {
                 let written = Temporary::beside(&target, old.as_ref())
                     .and_then(|temporary| temporary.fill(bytes, old.as_ref()));
                 temporaries.push((path, written.map_err(|e| in_file(path, e))?, target));
@@ -71,11 +71,11 @@ pub fn replace_files(files: &[(&Path, &[u8])]) -> Result<()> {
 /// As [`replace_file`].
 pub fn check(path: impl AsRef<Path>) -> Result<()> {
     let path = path.as_ref();
-    let place = Place::of(path).map_err(|e| in_file(path, e))?;
+    let place = PathKind::of(path).map_err(|e| in_file(path, e))?;
     match place {
         // Opening a FIFO waits for a reader, and a device may act on it.
-        Place::Stream(_) => Ok(()),
-        Place::File { path: target, old } => {
+        PathKind::Stream(_) => Ok(()),
+        PathKind::File { path: target, old } => {
             let temporary = Temporary::beside(&target, old.as_ref());
             temporary.map(drop).map_err(|e| in_file(path, e))
         }

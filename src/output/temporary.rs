@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::in_file;
-use super::place::folder;
+use super::path_kind::folder;
 use crate::error::Result;
 
 /// Where files cannot be locked, what is older than this has no writer any more.

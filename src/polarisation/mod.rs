@@ -1,16 +1,16 @@
 //! Polarised skies. Format specification, sections 6.6, 6.7 and 7.5.
 
-mod aspect;
-mod general;
-mod prepare;
-mod sky;
+mod frame;
+mod polarised_point_query;
+mod polarised_sky;
+mod prepare_stokes;
 mod stokes;
-mod table;
+mod stokes_tables;
 
-pub use aspect::Frame;
-pub(crate) use aspect::{PARALLEL, Plane, cross};
-pub use general::PolarisedGeneral;
-pub use sky::PolarisedSky;
+pub use frame::PolarisationFrame;
+pub(crate) use frame::{PARALLEL, Plane, cross};
+pub use polarised_point_query::PolarisedPointQuery;
+pub use polarised_sky::PolarisedSky;
 pub(crate) use stokes::between;
 pub use stokes::{Stokes, StokesSpectra};
-pub(crate) use table::limit;
+pub(crate) use stokes_tables::limit;

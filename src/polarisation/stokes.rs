@@ -1,8 +1,8 @@
 //! Stokes vectors of linearly polarised light.
 
-use crate::axis::hermite;
 use crate::error::Result;
-use crate::math::finite;
+use crate::kernel::axis::hermite;
+use crate::kernel::math::finite;
 use crate::sky::check_length;
 
 /// Intensity and linear polarisation of light, against an axis `e1` across the view direction `w` and `e2 = w × e1`.
@@ -54,7 +54,7 @@ impl Stokes {
         }
     }
 
-    /// Q over I, −1..=1; 0 without light. In [`Frame::SunAligned`](crate::Frame::SunAligned) it is positive where the light
+    /// Q over I, −1..=1; 0 without light. In [`PolarisationFrame::SunAligned`](crate::PolarisationFrame::SunAligned) it is positive where the light
     /// is polarised across the plane of view and sun, as singly scattered light is, and changes its sign at the neutral
     /// points.
     pub fn signed_degree(&self) -> f32 {

@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-use super::SUN_RADIUS;
+use super::SOLAR_ANGULAR_RADIUS;
 use crate::conditions::Conditions;
 
 /// Share of the radius by which draws keep off the limb, and by which their density reaches beyond the disc: 7e-7 rad.
@@ -41,7 +41,7 @@ impl Cap {
     pub fn new(conditions: &Conditions, dip: f64) -> Self {
         let elevation = conditions.solar_elevation;
         let ((sz, cz), (sa, ca)) = (elevation.sin_cos(), conditions.solar_azimuth.sin_cos());
-        let half = 0.5 * SUN_RADIUS;
+        let half = 0.5 * SOLAR_ANGULAR_RADIUS;
         let horizon = ((0.5 * (-dip - elevation)).sin() / half.sin()).clamp(-1.0, 1.0);
         // Near the zenith the air is the same all over the disc.
         let bend = match elevation.abs() < FRAC_PI_3 {
@@ -79,8 +79,13 @@ impl Cap {
 
     /// Lowest and highest elevation of what is visible, rad.
     pub fn band(&self) -> [f64; 2] {
-        let top = (self.elevation + SUN_RADIUS).min(FRAC_PI_2);
-        [(self.elevation - SUN_RADIUS).max(self.lowest).min(top), top]
+        let top = (self.elevation + SOLAR_ANGULAR_RADIUS).min(FRAC_PI_2);
+        [
+            (self.elevation - SOLAR_ANGULAR_RADIUS)
+                .max(self.lowest)
+                .min(top),
+            top,
+        ]
     }
 
     /// Solid angle of the whole disc, sr.
@@ -262,7 +267,7 @@ mod tests {
                 for x in [-1.0, -0.4, 0.7] {
                     let direction = line.direction(x * line.half);
                     let off = direction[2].asin() - line.elevation();
-                    assert!(off.abs() < 2e-5 * SUN_RADIUS, "{elevation} {off}");
+                    assert!(off.abs() < 2e-5 * SOLAR_ANGULAR_RADIUS, "{elevation} {off}");
                     assert!(cap.square(direction) < 1.0 + 2e-5);
                 }
                 let end = cap.square(line.direction(line.half));
@@ -281,7 +286,10 @@ mod tests {
                 let inside = cap.square(direction).sqrt();
                 assert!(inside <= 1.0 - MARGIN + 1e-9 && cap.covers(direction));
                 let low = direction[2].asin() + dip;
-                assert!(low > -2.0 * MARGIN * SUN_RADIUS, "{elevation} {u:?} {low}");
+                assert!(
+                    low > -2.0 * MARGIN * SOLAR_ANGULAR_RADIUS,
+                    "{elevation} {u:?} {low}"
+                );
             }
         }
         assert!(!cap(-0.1, 0.09).is_visible());

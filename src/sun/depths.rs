@@ -1,14 +1,14 @@
 //! Optical depths of the air before the disc.
 
-use crate::air::{Amounts, Extinction, Layers};
-use crate::axis::{Ends, alpha_coordinate, spline};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{AlphaAxis, Kind};
 use crate::geometry::{Planet, Side};
-use crate::math::{LANES, exp};
+use crate::kernel::axis::{Ends, alpha_coordinate, spline};
+use crate::kernel::math::{LANES, exp};
 use crate::model::Model;
-use crate::prepare::Place;
+use crate::sky::prepare::NodeWeights;
+use crate::transmittance::{Amounts, Extinction, Layers};
 
 /// Elevations at which depths are kept, over the visible part of the disc.
 const NODES: usize = 129;
@@ -78,8 +78,8 @@ fn cubic(u: f32) -> [f32; 4] {
 
 /// Columns from an observer to space.
 enum Columns {
-    /// Those of [`Model::air`].
-    Air { layers: Layers, altitude: f64 },
+    /// Those of [`Model::transmittance`].
+    Transmittance { layers: Layers, altitude: f64 },
     /// Where a file has none: what the sky uses, far less exact near the horizon.
     Mean(MeanDensities),
 }
@@ -89,14 +89,14 @@ impl Columns {
         let (head, altitude) = (model.head(), conditions.altitude);
         if model.find(Kind::Transmittance, None, None).is_ok() {
             let layers = Layers::new(&model.density_chunk()?, head.planet, head.constituents);
-            return Ok(Self::Air { layers, altitude });
+            return Ok(Self::Transmittance { layers, altitude });
         }
         MeanDensities::new(model, conditions).map(Self::Mean)
     }
 
     fn to_space(&self, elevation: f64) -> Amounts {
         match self {
-            Self::Air { layers, altitude } => layers.to_space(*altitude, elevation.sin()),
+            Self::Transmittance { layers, altitude } => layers.to_space(*altitude, elevation.sin()),
             Self::Mean(densities) => densities.to_space(elevation),
         }
     }
@@ -115,7 +115,7 @@ struct MeanDensities {
 impl MeanDensities {
     fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let head = model.head();
-        let place = Place::new(head, conditions);
+        let place = NodeWeights::new(head, conditions);
         let keys = place
             .altitudes
             .taps()

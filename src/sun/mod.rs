@@ -5,12 +5,12 @@
 
 mod cap;
 mod depths;
-mod limb;
+mod limb_darkening;
 mod quadrature;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::math::finite;
+use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use cap::Cap;
@@ -18,19 +18,19 @@ use depths::Depths;
 use quadrature::each_line;
 
 /// Angular radius of the sun, rad: 0.2667°, as in the published model.
-pub const SUN_RADIUS: f64 = 0.004_654_793;
+pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 
 /// The disc of the sun as an observer sees it through the air, at the wavelengths of the model.
 ///
 /// Its radiance is that outside the air, which follows from the solar irradiance of the model, with limb darkening from
-/// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Air`](crate::Air) and
-/// [`Haze`](crate::Haze). Light is not refracted. The part of the disc below the geometric horizon is black. Queries do
+/// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Transmittance`](crate::Transmittance) and
+/// [`AerialPerspective`](crate::AerialPerspective). Light is not refracted. The part of the disc below the geometric horizon is black. Queries do
 /// not allocate. `Send + Sync`.
 ///
 /// In a file without transmittance the air before the disc is what the sky takes it for, which is much less exact where
 /// the sun is low: see `tests/sun.rs`.
 #[derive(Clone, Debug)]
-pub struct SunDisc {
+pub struct SolarDisc {
     cap: Cap,
     wavelengths: Vec<f64>,
     /// Outside the air, W m⁻² nm⁻¹.
@@ -50,12 +50,12 @@ impl Model {
     /// [`Error::OutOfRange`] for conditions outside the model; [`Error::MissingChunk`] if the file has neither
     /// transmittance nor the columns of these altitudes; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or
     /// [`Error::Invalid`] if what is needed is damaged; [`Error::Read`].
-    pub fn sun_disc(&self, conditions: &Conditions) -> Result<SunDisc> {
-        SunDisc::new(self, &conditions.checked(self)?)
+    pub fn solar_disc(&self, conditions: &Conditions) -> Result<SolarDisc> {
+        SolarDisc::new(self, &conditions.checked(self)?)
     }
 }
 
-impl SunDisc {
+impl SolarDisc {
     fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let head = model.head();
         let cap = Cap::new(conditions, head.planet.dip(conditions.altitude));
@@ -69,7 +69,7 @@ impl SunDisc {
                 .clone()
                 .map(|&l| head.solar_irradiance_at(l) as f32)
                 .collect(),
-            profile: wavelengths.map(|&l| limb::profile(l)).collect(),
+            profile: wavelengths.map(|&l| limb_darkening::profile(l)).collect(),
             xyz: head.xyz.iter().map(|xyz| xyz.map(|v| v as f32)).collect(),
             wavelengths: head.wavelengths.clone(),
             cap,
@@ -148,14 +148,14 @@ impl SunDisc {
         spot.depths.transmittance(spot.elevation, out);
         let mean = (1.0 / self.cap.solid_angle()) as f32;
         for (out, profile) in out.iter_mut().zip(&self.profile) {
-            *out *= mean * limb::evaluate(profile, spot.mu);
+            *out *= mean * limb_darkening::evaluate(profile, spot.mu);
         }
     }
 
     /// Spectral irradiance in W m⁻² nm⁻¹ that the visible part of the disc gives one side of a plane with this normal.
     ///
     /// # Errors
-    /// As [`SunDisc::radiance`].
+    /// As [`SolarDisc::radiance`].
     pub fn irradiance(&self, normal: [f32; 3], out: &mut [f32]) -> Result<()> {
         check_length(out.len(), self.wavelengths.len())?;
         let normal = unit(normal).ok_or(Error::Direction { got: normal })?;
@@ -203,7 +203,7 @@ impl SunDisc {
         self.cap.draw(place).map(|v| v as f32)
     }
 
-    /// The density of [`SunDisc::draw`], sr⁻¹. Reaches a little beyond the disc, so that rounding a direction never gives
+    /// The density of [`SolarDisc::draw`], sr⁻¹. Reaches a little beyond the disc, so that rounding a direction never gives
     /// one that is bright and has the density of the sky.
     pub(crate) fn density(&self, direction: [f32; 3]) -> f32 {
         let covered = unit(direction).is_some_and(|unit| self.cap.covers(unit));

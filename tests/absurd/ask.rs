@@ -1,9 +1,9 @@
 //! Asks a model everything that gives numbers.
 
 use welkin::{
-    BakedColour, BakedPolarisedSky, BakedSky, Budget, Channels, Conditions, Directions, Error,
-    Frame, General, GeneralHaze, Haze, Interpolation, Model, PolarisedGeneral, PolarisedSky,
-    Result, Sky, Stokes, StokesSpectra, SunDisc,
+    AerialPerspective, AerialPerspectiveQuery, BakedColourSky, BakedPolarisedSky, BakedSky, Budget,
+    Channels, Conditions, Directions, Error, Interpolation, Model, PointQuery, PolarisationFrame,
+    PolarisedPointQuery, PolarisedSky, Result, Sky, SolarDisc, Stokes, StokesSpectra,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -22,10 +22,10 @@ const SEGMENTS: [[[f64; 3]; 2]; 6] = [
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
     [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
 ];
-const FRAMES: [Frame; 3] = [
-    Frame::Vertical,
-    Frame::SunAligned,
-    Frame::Axis([0.1, 0.2, 1.0]),
+const FRAMES: [PolarisationFrame; 3] = [
+    PolarisationFrame::Vertical,
+    PolarisationFrame::SunAligned,
+    PolarisationFrame::Axis([0.1, 0.2, 1.0]),
 ];
 
 /// What the last call was about, and how many answers were numbers.
@@ -86,7 +86,7 @@ impl Asker {
 
     pub fn everything(&mut self, bytes: &'static [u8]) {
         let model = Model::from_static(bytes).expect("a file that was verified");
-        let general = General::new(bytes).expect("a small model");
+        let general = PointQuery::new(bytes).expect("a small model");
         for t in [0.0, 0.4, 1.0] {
             let within = |[low, high]: [f64; 2]| (low + t * (high - low)).clamp(low, high);
             let conditions = Conditions {
@@ -100,7 +100,7 @@ impl Asker {
             self.general(&general, &conditions);
             let sky = self.allowed("sky", model.sky(&conditions));
             if let Some(sky) = &sky {
-                let disc = self.allowed("sun", model.sun_disc(&conditions));
+                let disc = self.allowed("sun", model.solar_disc(&conditions));
                 if let Some(disc) = &disc {
                     self.disc(disc);
                 }
@@ -110,23 +110,26 @@ impl Asker {
             if let Some(sky) = &polarised {
                 self.polarised(sky, wavelength);
             }
-            if let Some(air) = self.allowed("air", model.air(conditions.visibility)) {
+            if let Some(air) = self.allowed("air", model.transmittance(conditions.visibility)) {
                 self.air(&air);
             }
-            if let Some(haze) = self.allowed("haze", model.haze(&conditions)) {
-                self.haze(&haze, wavelength);
+            if let Some(aerial) =
+                self.allowed("aerial perspective", model.aerial_perspective(&conditions))
+            {
+                self.aerial_perspective(&aerial, wavelength);
                 if let (Some(sky), Some(polarised)) = (&sky, &polarised) {
-                    self.foreground(&haze, sky, polarised);
+                    self.foreground(&aerial, sky, polarised);
                 }
             }
             self.plan(&model, &conditions, wavelength);
-            if let Some(mut haze) = self.allowed("general haze", model.general_haze()) {
-                self.general_haze(&mut haze, &conditions, wavelength);
+            if let Some(mut aerial) = self.allowed("general haze", model.aerial_perspective_query())
+            {
+                self.aerial_perspective_query(&mut aerial, &conditions, wavelength);
             }
         }
     }
 
-    fn general(&mut self, general: &General, conditions: &Conditions) {
+    fn general(&mut self, general: &PointQuery, conditions: &Conditions) {
         let mut out = vec![0.0; general.wavelengths().len()];
         for direction in DIRECTIONS {
             let answer = general.radiance(conditions, direction, &mut out);
@@ -141,7 +144,7 @@ impl Asker {
         let _ = Interpolation::Full;
     }
 
-    fn sky(&mut self, sky: &Sky, disc: Option<&SunDisc>, wavelength: f64) {
+    fn sky(&mut self, sky: &Sky, disc: Option<&SolarDisc>, wavelength: f64) {
         let mut out = vec![0.0; sky.wavelengths().len()];
         for direction in DIRECTIONS {
             sky.radiance(direction, &mut out).unwrap();
@@ -167,7 +170,7 @@ impl Asker {
         }
     }
 
-    fn disc(&mut self, disc: &SunDisc) {
+    fn disc(&mut self, disc: &SolarDisc) {
         let mut out = vec![0.0; disc.wavelengths().len()];
         let sun = disc.direction();
         let beside = [sun[0], sun[1], sun[2] + 0.004];
@@ -206,7 +209,7 @@ impl Asker {
         assert!(errors.iter().all(|e| e.is_finite()), "{error:?}");
     }
 
-    fn colour(&mut self, baked: &BakedColour, disc: Option<&SunDisc>) {
+    fn colour(&mut self, baked: &BakedColourSky, disc: Option<&SolarDisc>) {
         for direction in DIRECTIONS {
             self.finite("baked XYZ", baked.xyz(direction).unwrap());
             self.finite("baked RGB", baked.linear_srgb(direction).unwrap());
@@ -254,17 +257,19 @@ impl Asker {
                 q: &mut q,
                 u: &mut u,
             };
-            baked.stokes(direction, Frame::Vertical, out).unwrap();
+            baked
+                .stokes(direction, PolarisationFrame::Vertical, out)
+                .unwrap();
             self.light("baked Stokes", &i);
             self.finite("baked Stokes", q.iter().chain(&u).copied());
-            let hero = baked.hero(direction, Frame::Vertical, [wavelength; 4]);
+            let hero = baked.hero(direction, PolarisationFrame::Vertical, [wavelength; 4]);
             self.stokes("baked Stokes, hero", &hero.unwrap());
         }
         let error = baked.polarisation_error();
         self.finite("error of polarisation", [error.p95 as f32]);
     }
 
-    fn air(&mut self, air: &welkin::Air) {
+    fn air(&mut self, air: &welkin::Transmittance) {
         let mut out = vec![0.0; air.wavelengths().len()];
         for [from, to] in SEGMENTS {
             air.transmittance(from, to, &mut out).unwrap();
@@ -277,23 +282,23 @@ impl Asker {
         }
     }
 
-    fn haze(&mut self, haze: &Haze, wavelength: f64) {
-        let n = haze.wavelengths().len();
+    fn aerial_perspective(&mut self, aerial: &AerialPerspective, wavelength: f64) {
+        let n = aerial.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
         let [mut q, mut u] = [(); 2].map(|()| vec![0.0; n]);
         for [from, to] in SEGMENTS {
-            if !within_reach(haze.in_scatter(from, to, &mut light, &mut through)) {
+            if !within_reach(aerial.in_scattering(from, to, &mut light, &mut through)) {
                 continue;
             }
             self.light("in-scatter", &light);
             self.share("transmittance", &through);
-            if within_reach(haze.to_end(from, [0.1, 0.2, 0.05], &mut light, &mut through)) {
+            if within_reach(aerial.to_end(from, [0.1, 0.2, 0.05], &mut light, &mut through)) {
                 self.light("in-scatter to the end", &light);
             }
-            let (colour, factors) = haze.xyz(from, to).unwrap();
+            let (colour, factors) = aerial.xyz(from, to).unwrap();
             self.finite("in-scatter, XYZ", colour);
             self.share("factors of XYZ", &factors);
-            let (colour, factors) = haze.linear_srgb(from, to).unwrap();
+            let (colour, factors) = aerial.linear_srgb(from, to).unwrap();
             self.finite("in-scatter, RGB", colour);
             self.share("factors of RGB", &factors);
             for frame in FRAMES {
@@ -302,49 +307,61 @@ impl Asker {
                     q: &mut q,
                     u: &mut u,
                 };
-                haze.in_scatter_stokes(from, to, frame, out, &mut through)
+                aerial
+                    .in_scattering_stokes(from, to, frame, out, &mut through)
                     .unwrap();
                 self.finite("in-scatter, Stokes", light.iter().copied());
                 self.finite("in-scatter, Stokes", q.iter().chain(&u).copied());
-                let at = haze.relative_stokes_at(from, to, frame, wavelength);
+                let at = aerial.relative_stokes_at(from, to, frame, wavelength);
                 self.stokes("in-scatter, Stokes at a wavelength", &[at.unwrap()]);
-                let (colour, factors) = haze.xyz_stokes(from, to, frame).unwrap();
+                let (colour, factors) = aerial.xyz_stokes(from, to, frame).unwrap();
                 self.stokes("in-scatter, Stokes, XYZ", &colour);
                 self.share("factors of XYZ", &factors);
-                let (colour, factors) = haze.linear_srgb_stokes(from, to, frame).unwrap();
+                let (colour, factors) = aerial.linear_srgb_stokes(from, to, frame).unwrap();
                 self.stokes("in-scatter, Stokes, RGB", &colour);
                 self.share("factors of RGB", &factors);
             }
         }
     }
 
-    fn general_haze(&mut self, haze: &mut GeneralHaze, conditions: &Conditions, wavelength: f64) {
-        let n = haze.wavelengths().len();
+    fn aerial_perspective_query(
+        &mut self,
+        aerial: &mut AerialPerspectiveQuery,
+        conditions: &Conditions,
+        wavelength: f64,
+    ) {
+        let n = aerial.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
         for [from, to] in SEGMENTS {
-            let answer = haze.in_scatter(conditions, from, to, &mut light, &mut through);
+            let answer = aerial.in_scattering(conditions, from, to, &mut light, &mut through);
             if self.allowed("general in-scatter", answer).is_some() {
                 self.light("general in-scatter", &light);
                 self.share("general transmittance", &through);
             }
             let along = [0.1, 0.2, 0.05];
-            let answer = haze.to_end(conditions, from, along, &mut light, &mut through);
+            let answer = aerial.to_end(conditions, from, along, &mut light, &mut through);
             if self.allowed("general in-scatter", answer).is_some() {
                 self.light("general in-scatter to the end", &light);
             }
-            let at = haze.relative_stokes_at(conditions, from, to, Frame::Vertical, wavelength);
+            let at = aerial.relative_stokes_at(
+                conditions,
+                from,
+                to,
+                PolarisationFrame::Vertical,
+                wavelength,
+            );
             if let Some(stokes) = self.allowed("general Stokes", at) {
                 self.stokes("general Stokes at a wavelength", &[stokes]);
             }
         }
     }
 
-    fn foreground(&mut self, haze: &Haze, sky: &Sky, polarised: &PolarisedSky) {
-        let n = haze.wavelengths().len();
+    fn foreground(&mut self, aerial: &AerialPerspective, sky: &Sky, polarised: &PolarisedSky) {
+        let n = aerial.wavelengths().len();
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
-        let before = haze.before(sky).unwrap();
+        let before = aerial.joined_to(sky).unwrap();
         for [_, to] in SEGMENTS {
-            if !within_reach(before.in_scatter(to, &mut light, &mut through)) {
+            if !within_reach(before.in_scattering(to, &mut light, &mut through)) {
                 continue;
             }
             self.light("foreground", &light);
@@ -354,8 +371,10 @@ impl Asker {
             self.share("foreground, factors", &factors);
             let (colour, _) = before.linear_srgb(to).unwrap();
             self.finite("foreground, RGB", colour);
-            let before = haze.before_polarised(polarised).unwrap();
-            let (colour, factors) = before.linear_srgb_stokes(to, Frame::Vertical).unwrap();
+            let before = aerial.joined_to_polarised(polarised).unwrap();
+            let (colour, factors) = before
+                .linear_srgb_stokes(to, PolarisationFrame::Vertical)
+                .unwrap();
             self.stokes("foreground, Stokes", &colour);
             self.share("foreground, factors", &factors);
         }
@@ -373,17 +392,17 @@ impl Asker {
             let plan = plan.expect("conditions of the model");
             self.finite("plan", [plan.error_median, plan.error_p99]);
             if channels == Channels::Stokes {
-                let general = self.allowed("polarised general", model.polarised_general(&plan));
+                let general = self.allowed("polarised general", model.polarised_point_query(&plan));
                 if let Some(general) = general {
-                    self.polarised_general(&general, conditions, wavelength);
+                    self.polarised_point_query(&general, conditions, wavelength);
                 }
             }
         }
     }
 
-    fn polarised_general(
+    fn polarised_point_query(
         &mut self,
-        general: &PolarisedGeneral,
+        general: &PolarisedPointQuery,
         conditions: &Conditions,
         wavelength: f64,
     ) {

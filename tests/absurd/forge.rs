@@ -59,7 +59,7 @@ pub fn whole() -> (Head, Vec<Chunk>) {
     let mut head = common::head_with(&[0.0, 2000.0], &[20e3, 60e3], 6);
     head.elevation.intervals = 4;
     let mut chunks = common::polarised_chunks(&head, 0.02);
-    chunks.extend(common::haze::chunks(&head, 0.3));
+    chunks.extend(common::aerial::chunks(&head, 0.3));
     (head, chunks)
 }
 

@@ -1,6 +1,8 @@
 //! One line of the conformance suite's queries, answered by the library.
 
-use welkin::{Conditions, Error, Frame, Haze, Model, Stokes, StokesSpectra};
+use welkin::{
+    AerialPerspective, Conditions, Error, Model, PolarisationFrame, Stokes, StokesSpectra,
+};
 
 /// The values, or the class of the error.
 pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
@@ -36,9 +38,11 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     let segment = ends(altitude, [x, y, z], distance);
     match quantity {
         "transmittance" => return transmittance(model, visibility, segment).map_err(|e| e.class()),
-        "in_scatter" => return in_scatter(model, &conditions, segment).map_err(|e| e.class()),
-        "in_scatter_stokes" => {
-            return in_scatter_stokes(model, &conditions, segment).map_err(|e| e.class());
+        "in_scattering" => {
+            return in_scattering(model, &conditions, segment).map_err(|e| e.class());
+        }
+        "in_scattering_stokes" => {
+            return in_scattering_stokes(model, &conditions, segment).map_err(|e| e.class());
         }
         _ => {}
     }
@@ -65,7 +69,7 @@ fn values(
         "stokes" => {
             let mut light = vec![Stokes::default(); row.len()];
             let sky = model.polarised_sky(conditions)?;
-            sky.relative_stokes(direction, Frame::Vertical, &mut light)?;
+            sky.relative_stokes(direction, PolarisationFrame::Vertical, &mut light)?;
             let parts: [fn(&Stokes) -> f32; 3] = [|s| s.i, |s| s.q, |s| s.u];
             return Ok(parts
                 .iter()
@@ -74,7 +78,7 @@ fn values(
         }
         "stokes_at" => {
             let sky = model.polarised_sky(conditions)?;
-            let light = sky.stokes_at(direction, Frame::Vertical, wavelength)?;
+            let light = sky.stokes_at(direction, PolarisationFrame::Vertical, wavelength)?;
             let sun = model.head().solar_irradiance_at(wavelength) as f32;
             return Ok([light.i, light.q, light.u].map(|v| v / sun).to_vec());
         }
@@ -97,46 +101,47 @@ fn transmittance(
     visibility: f64,
     [from, to]: [[f64; 3]; 2],
 ) -> Result<Vec<f32>, Error> {
-    let air = model.air(visibility)?;
+    let air = model.transmittance(visibility)?;
     let mut row = vec![0.0; air.wavelengths().len()];
     air.transmittance(from, to, &mut row)?;
     Ok(row)
 }
 
 /// Per unit of solar irradiance.
-fn in_scatter(
+fn in_scattering(
     model: &Model,
     conditions: &Conditions,
     [from, to]: [[f64; 3]; 2],
 ) -> Result<Vec<f32>, Error> {
-    let haze = haze(model, conditions)?;
-    let mut light = vec![0.0; haze.wavelengths().len()];
+    let aerial = aerial(model, conditions)?;
+    let mut light = vec![0.0; aerial.wavelengths().len()];
     let mut through = light.clone();
-    haze.in_scatter(from, to, &mut light, &mut through)?;
+    aerial.in_scattering(from, to, &mut light, &mut through)?;
     Ok(per_sun(model, &light))
 }
 
 /// L, then Q, then U.
-fn in_scatter_stokes(
+fn in_scattering_stokes(
     model: &Model,
     conditions: &Conditions,
     [from, to]: [[f64; 3]; 2],
 ) -> Result<Vec<f32>, Error> {
-    let haze = haze(model, conditions)?;
-    let [mut i, mut q, mut u, mut through] = [(); 4].map(|()| vec![0.0; haze.wavelengths().len()]);
+    let aerial = aerial(model, conditions)?;
+    let [mut i, mut q, mut u, mut through] =
+        [(); 4].map(|()| vec![0.0; aerial.wavelengths().len()]);
     let light = StokesSpectra {
         i: &mut i,
         q: &mut q,
         u: &mut u,
     };
-    haze.in_scatter_stokes(from, to, Frame::Vertical, light, &mut through)?;
+    aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, light, &mut through)?;
     Ok([i, q, u].map(|part| per_sun(model, &part)).concat())
 }
 
-fn haze(model: &Model, conditions: &Conditions) -> Result<Haze, Error> {
-    // A haze does not ask where the observer is.
+fn aerial(model: &Model, conditions: &Conditions) -> Result<AerialPerspective, Error> {
+    // An aerial perspective does not ask where the observer is.
     let [altitude, _] = model.altitude_range();
-    model.haze(&Conditions {
+    model.aerial_perspective(&Conditions {
         altitude,
         ..*conditions
     })

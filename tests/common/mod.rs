@@ -1,8 +1,8 @@
 //! A small model with smooth analytic factors, for tests that need a file but not real air.
 #![allow(dead_code)]
 
+pub mod aerial;
 pub mod answer;
-pub mod haze;
 pub mod oracle;
 pub mod server;
 

@@ -1,7 +1,7 @@
 //! The format specification, section 7, once more: slow, in f64, straight from the bytes of the file, and without a
 //! line of the library.
 
-mod haze;
+mod aerial;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -325,9 +325,9 @@ fn air() -> Vec<u8> {
 /// The air and what it scatters: without radiance.
 fn hazy() -> [(&'static str, &'static str, Vec<u8>); 4] {
     let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
-    let polarised = common::haze::polarised_chunks(&head);
+    let polarised = common::aerial::polarised_chunks(&head);
     let file = |swing: f32, visibilities: &[usize]| {
-        let mut chunks = common::haze::chunks(&head, swing);
+        let mut chunks = common::aerial::chunks(&head, swing);
         chunks.retain(|c| c.visibility.is_none_or(|v| visibilities.contains(&v)));
         encode(&head, &chunks).expect("a valid model")
     };

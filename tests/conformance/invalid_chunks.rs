@@ -188,7 +188,7 @@ fn polarisation() -> Vec<Case> {
 /// Payloads that tell their length themselves.
 fn lengths() -> Vec<Case> {
     let head = small(&[0.0], &[40e3, 60e3]);
-    let good = encode(&head, &common::haze::chunks(&head, 0.2)).expect("a valid model");
+    let good = encode(&head, &common::aerial::chunks(&head, 0.2)).expect("a valid model");
     let stored = |kind, change: &dyn Fn(&[u8]) -> Vec<u8>| {
         let index = last(&good, kind).0;
         let entry = &parse(&good).expect("a valid file").directory[index];
@@ -335,7 +335,7 @@ fn tables() -> Vec<Case> {
     head.solar_step = 46.0;
     head.solar_irradiance = vec![1.0; 11];
     head.fields.truncate(1);
-    let mut chunks = common::haze::chunks(&head, 0.2);
+    let mut chunks = common::aerial::chunks(&head, 0.2);
     for chunk in &mut chunks {
         match &mut chunk.payload {
             Payload::SourceBasis(basis) => {

@@ -8,7 +8,7 @@ use crate::invalid::{Case, forged};
 
 pub fn all() -> Vec<Case> {
     let head = small(&[0.0], &[40e3, 60e3]);
-    let good = encode(&head, &common::haze::chunks(&head, 0.2)).expect("a valid model");
+    let good = encode(&head, &common::aerial::chunks(&head, 0.2)).expect("a valid model");
     let directory = parse(&good).expect("a valid file").directory;
     let case = |name, shows, need, bytes| Case {
         name,
@@ -38,7 +38,7 @@ pub fn all() -> Vec<Case> {
     let source =
         |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::Source, at, change);
     let fewer_suns = {
-        let mut chunks = common::haze::chunks(&head, 0.2);
+        let mut chunks = common::aerial::chunks(&head, 0.2);
         chunks.retain(|chunk| !matches!(chunk.payload, Payload::Source(_)));
         for chunk in &mut chunks {
             if let Payload::SourceBasis(basis) = &mut chunk.payload {

@@ -189,7 +189,7 @@ fn files_with_chunks_that_nobody_knows_can_be_taken_apart_and_put_together() {
         assert!(welkin::format::verify(&bytes).is_empty());
         let model = welkin::Model::from_bytes(case.bytes.clone()).unwrap();
         model.verify().unwrap();
-        let general = welkin::General::new(&case.bytes).unwrap();
+        let general = welkin::PointQuery::new(&case.bytes).unwrap();
         general.verify(&case.bytes).unwrap();
     }
 }
@@ -198,7 +198,7 @@ fn files_with_chunks_that_nobody_knows_can_be_taken_apart_and_put_together() {
 fn the_general_evaluator_agrees_with_the_suite() {
     let tolerated = tolerated::all().into_iter().map(|(case, _)| case);
     for case in files::valid().into_iter().chain(tolerated) {
-        let Ok(general) = welkin::General::new(&case.bytes) else {
+        let Ok(general) = welkin::PointQuery::new(&case.bytes) else {
             continue;
         };
         let general = general.with_interpolation(welkin::Interpolation::Full);
@@ -221,7 +221,7 @@ fn the_general_evaluator_opens_what_a_model_opens() {
     let (files, _) = suite();
     for (name, bytes) in files {
         let model = welkin::Model::from_bytes(bytes.clone()).map(drop);
-        let general = welkin::General::new(&bytes).map(drop);
+        let general = welkin::PointQuery::new(&bytes).map(drop);
         match (model, general) {
             (Ok(()), Err(error)) => {
                 assert!(

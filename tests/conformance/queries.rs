@@ -279,21 +279,21 @@ fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
             .powf(farthest * (0.618_034 * i as f64).fract())
             .round(),
     };
-    let asked = ["in_scatter", "in_scatter_stokes"].map(|name| over(name, query, distance));
+    let asked = ["in_scattering", "in_scattering_stokes"].map(|name| over(name, query, distance));
     let query = Query {
         altitude: query.altitude,
         ..clamped(query, &ranges(&case.bytes))
     };
     let model = Model::from_bytes(case.bytes.as_slice()).expect("a valid model");
     // Only the oracle makes numbers; the library says whether the chunks are there.
-    if let Err(error) = model.haze(&Conditions {
+    if let Err(error) = model.aerial_perspective(&Conditions {
         visibility: query.visibility,
         altitude: ranges(&case.bytes).altitude[0],
         ..Conditions::default()
     }) {
         return asked.map(|asked| with_error(asked, error.class())).into();
     }
-    let light = Oracle::new(&case.raw).in_scatter(&query, distance, LONGEST_PIECE);
+    let light = Oracle::new(&case.raw).in_scattering(&query, distance, LONGEST_PIECE);
     let part = |i: usize| -> Vec<f64> { light.iter().map(|light| light[i]).collect() };
     let tolerance = if distance <= 100.0 { OF_SHORT } else { OF_LONG };
     let [l, q, u] = [0, 1, 2].map(part);
@@ -325,12 +325,12 @@ fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
         return vec![ask("transmittance", &far)];
     }
     vec![
-        ask("in_scatter", &far),
-        ask("in_scatter", &|q| q.albedo = 1.1),
-        ask("in_scatter", &|q| {
+        ask("in_scattering", &far),
+        ask("in_scattering", &|q| q.albedo = 1.1),
+        ask("in_scattering", &|q| {
             q.solar_elevation = ranges.elevation[0] - 0.01
         }),
-        ask("in_scatter_stokes", &far),
+        ask("in_scattering_stokes", &far),
     ]
 }
 

@@ -9,7 +9,7 @@ use crate::files::{Case, small};
 pub fn all() -> Vec<(Case, &'static str)> {
     let mut cases = Vec::new();
     let radiance = polarised();
-    let haze = hazy();
+    let aerial = hazy();
     let segments = |file: &[u8], kind: Kind, at: usize, change: &[u8]| {
         changed(file, last(file, kind) + at, change)
     };
@@ -127,8 +127,8 @@ pub fn all() -> Vec<(Case, &'static str)> {
             "haze",
         ),
     ] {
-        let bytes = segments(&haze, kind, at, &7u32.to_le_bytes());
-        add(name, shows, "value", &[needs], bytes, &haze);
+        let bytes = segments(&aerial, kind, at, &7u32.to_le_bytes());
+        add(name, shows, "value", &[needs], bytes, &aerial);
     }
     for (name, shows, text) in [
         ("metadata-none", "no metadata", ""),
@@ -189,7 +189,7 @@ fn pad(matrix: &mut [u8], width: usize, first: impl Fn(usize) -> usize) {
 
 fn hazy() -> Vec<u8> {
     let head = small(&[0.0], &[40e3, 60e3]);
-    encode(&head, &common::haze::chunks(&head, 0.2)).expect("a valid model")
+    encode(&head, &common::aerial::chunks(&head, 0.2)).expect("a valid model")
 }
 
 fn with_metadata(text: &str) -> Vec<u8> {

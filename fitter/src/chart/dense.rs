@@ -1,9 +1,9 @@
 //! The traced tensor itself, as a spline in every mode: the floor that no factorisation gets below.
 
-use super::frame::{Frame, Look, cosine};
+use super::chunk_axes::{Frame, Look, cosine};
 use crate::dataset::Axis;
 use crate::decompose::{Chunk, Collocation};
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 use faer::Mat;
 use welkin::axis::Taps;
 

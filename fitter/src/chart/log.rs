@@ -1,10 +1,10 @@
 //! The log domain: ln of the normalised radiance over a black and over a white ground as sums of components. Any albedo follows
 //! from the two; positive everywhere, and small values are fitted as well as large ones. Phase functions cannot be taken out.
 
-use super::frame::{Frame, Place};
+use super::chunk_axes::{Frame, Place};
 use crate::dataset::Axis;
 use crate::decompose::{Chunk, Dense, Options, Tucker, decompose, row_major, splines};
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use welkin::axis::Taps;
 
 const CHANNELS: usize = 2 * NW;

@@ -1,30 +1,31 @@
 //! Bytes and evaluation time against held-out error for several ways to represent the same traced chunks.
 
+mod chunk_axes;
 mod cost;
 mod dense;
 mod draw;
-mod frame;
 mod log;
 mod paper;
-mod single;
+mod unrounded_fit;
 
 pub use draw::{csv, svg};
 
 use crate::assess::{self, Quantiles};
-use crate::build::{Fitting, Place, fit_all, radiance_file, solve_all, split, trace_all};
+use crate::build::{Place, fit_all, radiance_file, solve_all, split, trace_all};
 use crate::dataset::{Sample, Store};
 use crate::decompose::{Chunk, Fit, Options, decompose_nested};
-use crate::orders::{FIELDS, NW};
+use crate::fitting::Fitting;
 use crate::progress::bar;
+use crate::successive_orders::{FIELDS, NW};
 use crate::units::{Plan, Solved};
 use anyhow::{Context, Result, ensure};
+use chunk_axes::{Frame, Look};
 use cost::{Components, nanoseconds};
 use dense::Uncompressed;
-use frame::{Frame, Look};
 use log::Logarithmic;
 use paper::Paper;
-use single::Single;
 use std::path::Path;
+use unrounded_fit::Single;
 use welkin::Model;
 use welkin::format::encode;
 
@@ -344,7 +345,7 @@ impl Bench {
             channel: table(FIELDS * NW),
         };
         let share = [[0.2; NW]; FIELDS];
-        let places: Vec<frame::Place> = self.places[0].truth[..TIMED]
+        let places: Vec<chunk_axes::Place> = self.places[0].truth[..TIMED]
             .iter()
             .map(|s| self.frames[0].place(&look(s)))
             .collect();
@@ -433,7 +434,7 @@ fn logarithmic_errors(
         let ground = std::array::from_fn(|w| chunk.interreflection(w, sample.albedo as f32));
         (frame.place(&look(sample)), ground)
     };
-    let queries: Vec<(frame::Place, [f32; NW])> = truth.iter().map(query).collect();
+    let queries: Vec<(chunk_axes::Place, [f32; NW])> = truth.iter().map(query).collect();
     let values = truth.iter().zip(&queries).map(|(sample, (place, ground))| {
         let scale = frame.scale(&look(sample), place);
         let radiance = fit.radiance(place, ground);

@@ -4,11 +4,11 @@
 //! The angles are those from the sun and from the zenith, or, after sunset, from the edge of the Earth's shadow. Where no direction
 //! has both angles, the matrix holds the nearest that has the second.
 
+use super::chunk_axes::{Frame, Look};
 use super::dense::Uncompressed;
-use super::frame::{Frame, Look};
 use crate::dataset::Sample;
 use crate::decompose::Chunk;
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use faer::Mat;
 use rayon::prelude::*;
 use welkin::axis::{Stencil, linear};

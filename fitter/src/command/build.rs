@@ -5,7 +5,8 @@ use anyhow::Result;
 use std::io::Write;
 use std::path::PathBuf;
 use welkin::output::Target;
-use welkin_fitter::build::{Fitting, build};
+use welkin_fitter::build::build;
+use welkin_fitter::fitting::Fitting;
 
 /// Traces and fits a model file. Without arguments it rebuilds the embedded default model.
 #[derive(clap::Args)]

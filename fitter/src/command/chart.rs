@@ -4,8 +4,8 @@ use anyhow::{Context, Result};
 use std::path::PathBuf;
 use welkin::Model;
 use welkin::output::{check, replace_files};
-use welkin_fitter::build::Fitting;
 use welkin_fitter::chart::{Ranks, chart, csv, svg};
+use welkin_fitter::fitting::Fitting;
 use welkin_fitter::units::Plan;
 
 /// Charts bytes and evaluation time against held-out error for ways to represent a sky.

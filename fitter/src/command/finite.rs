@@ -120,12 +120,12 @@ fn speed(methods: &study::Methods, cases: &[study::Case]) -> Result<String> {
     let some: Vec<_> = cases.iter().step_by(cases.len().div_ceil(200)).collect();
     let mut total = [0.0f64; 2];
     for case in some.iter().copied() {
-        let haze = methods.haze(case)?;
+        let aerial = methods.aerial(case)?;
         let [from, to] = case.ends();
         let (mut light, mut through) = ([0.0; 12], [0.0; 12]);
         let started = Instant::now();
         for _ in 0..20 {
-            haze.in_scatter(from, to, &mut light, &mut through)?;
+            aerial.in_scattering(from, to, &mut light, &mut through)?;
             std::hint::black_box(&light);
         }
         total[0] += started.elapsed().as_secs_f64() / 20.0;

@@ -29,7 +29,7 @@ enum Action {
     Run {
         #[command(flatten)]
         plan: UnitsArgs,
-        /// A name, a place in the list (from 0), or a kind (light, tensor, truth, judge) for all units of it.
+        /// A name, a place in the list (from 0), or a kind (light, tensor, truth, check) for all units of it.
         #[arg(required = true)]
         which: Vec<String>,
     },
@@ -47,7 +47,7 @@ struct UnitsArgs {
     /// Held-out samples that are judged per visibility and altitude.
     #[arg(long)]
     judged: Option<usize>,
-    /// Relative standard error of the judge.
+    /// Relative standard error of the reference tracer.
     #[arg(long)]
     target_error: Option<f64>,
 }

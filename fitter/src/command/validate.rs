@@ -1,12 +1,12 @@
-//! `welkin-fit validate`: the tracer, or the data maker, against outside references.
+//! `welkin-fit validate`: the tracer, or the successive-orders solver, against outside references.
 
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args as ClapArgs;
 use std::path::{Path, PathBuf};
 use welkin_fitter::atmosphere::json::Case;
-use welkin_fitter::orders::Settings;
-use welkin_fitter::reference::case::{Effort, trace};
-use welkin_fitter::reference::{Verdict, data_maker, sky, slab, transmittance};
+use welkin_fitter::reference::traced_lines::{Effort, trace};
+use welkin_fitter::reference::{Verdict, sky, slab, successive_orders, transmittance};
+use welkin_fitter::successive_orders::Settings;
 use welkin_fitter::tracer::{Aerosol, Options, Orders, VisibleGround};
 
 /// Arguments of `validate`.
@@ -24,9 +24,9 @@ pub struct Args {
     /// Print every comparison, too.
     #[arg(long)]
     rows: bool,
-    /// Judge the noise-free data maker at production resolution (skies only) instead of the tracer.
+    /// Judge the noise-free successive-orders solver at production resolution (skies only) instead of the tracer.
     #[arg(long)]
-    data_maker: bool,
+    successive_orders: bool,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -62,7 +62,7 @@ fn files(args: &Args) -> Result<Vec<PathBuf>> {
     let mut files = entries
         .map(|entry| Ok(entry?.path()))
         .collect::<Result<Vec<_>>>()?;
-    let kinds: &[&str] = match args.data_maker {
+    let kinds: &[&str] = match args.successive_orders {
         true => &["sky_"],
         false => &["sky_", "transmittance", "pp_rayleigh", "pp_hg"],
     };
@@ -93,7 +93,7 @@ fn judge(path: &Path, args: &Args) -> Result<Vec<Verdict>> {
         seed: args.seed,
     };
     match name(path) {
-        _ if args.data_maker => data_maker(path),
+        _ if args.successive_orders => successive_orders(path),
         n if n.starts_with("sky_") => skies(path, effort),
         n if n.starts_with("transmittance") => Ok(vec![transmittance::judge(path)?]),
         n if n.starts_with("pp_rayleigh") => slab::rayleigh(path, 1, effort),
@@ -102,9 +102,9 @@ fn judge(path: &Path, args: &Args) -> Result<Vec<Verdict>> {
 }
 
 /// What the air alone scatters.
-fn data_maker(path: &Path) -> Result<Vec<Verdict>> {
+fn successive_orders(path: &Path) -> Result<Vec<Verdict>> {
     let case = Case::read(path)?;
-    let results = data_maker::gather(&case, Settings::default())?;
+    let results = successive_orders::gather(&case, Settings::default())?;
     sky::judge(&case, &results, sky::Columns::Path)
 }
 

@@ -1,6 +1,6 @@
 //! Where the sky is sampled: the axes of the model and the points on them.
 
-use crate::orders::NW;
+use crate::successive_orders::NW;
 use anyhow::{Result, ensure};
 use std::f64::consts::{FRAC_PI_2, PI};
 use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};

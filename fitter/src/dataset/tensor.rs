@@ -1,8 +1,8 @@
 //! The traced tensor of one (altitude, visibility): fields over view angle, azimuth, solar elevation and channel.
 
 use super::grid::Grid;
-use crate::orders::source::Sun;
-use crate::orders::{FIELDS, Gatherer, NW, POLARISED};
+use crate::successive_orders::scattered_source::Sun;
+use crate::successive_orders::{FIELDS, Gatherer, NW, POLARISED};
 use rayon::prelude::*;
 
 /// Channels of a traced tensor: field · NW + wavelength; intensities first.

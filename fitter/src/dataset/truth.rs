@@ -1,7 +1,9 @@
 //! Traced radiance at random, held-out conditions, to judge a fit by.
 
-use crate::orders::source::Sun;
-use crate::orders::{Fields, Gatherer, LightField, NW, gather, rayleigh_phase, single};
+use crate::successive_orders::scattered_source::Sun;
+use crate::successive_orders::{
+    Fields, Gatherer, LightField, NW, first_order, rayleigh_phase, view_rays,
+};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -100,7 +102,7 @@ fn view(gatherer: &Gatherer, light: &LightField, skies: &[Sample], seed: u64) ->
     let path = gatherer.path(altitude, mu.asin(), side);
     let fields = gatherer.fields(&path, mu, &suns);
     for ((sample, fields), sun) in samples.iter_mut().zip(&fields).zip(&suns) {
-        let cosine = gather::scattering_cosine(mu, sun);
+        let cosine = view_rays::scattering_cosine(mu, sun);
         sample.radiance = total(gatherer, light, fields, cosine, sample.albedo);
         sample.polarisation = polarisation(gatherer, light, fields, (mu, sun), sample.albedo);
     }
@@ -146,7 +148,7 @@ fn polarisation(
     (mu, sun): (f64, &Sun),
     albedo: f64,
 ) -> [[f64; NW]; 2] {
-    let single = single::polarisation(gatherer.polarising(), &fields.rayleigh, mu, sun);
+    let single = first_order::polarisation(gatherer.polarising(), &fields.rayleigh, mu, sun);
     std::array::from_fn(|s| {
         std::array::from_fn(|w| {
             let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));

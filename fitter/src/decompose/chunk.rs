@@ -2,8 +2,8 @@
 
 use super::normalise::{Level, chunk_geometry, normalise};
 use crate::dataset::{Grid, Tensor};
-use crate::orders::source::Sun;
-use crate::orders::{FIELDS, Gatherer, NW, Spectrum, gather, rayleigh_phase};
+use crate::successive_orders::scattered_source::Sun;
+use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase, view_rays};
 use std::f64::consts::FRAC_PI_2;
 use welkin::geometry::Side;
 
@@ -172,7 +172,7 @@ fn cosines(gatherer: &Gatherer, grid: &Grid, a: usize) -> Vec<f32> {
                     elevation: (e.cos(), e.sin()),
                     azimuth: (p.cos(), p.sin()),
                 };
-                out.push(gather::scattering_cosine(view.sin(), &sun));
+                out.push(view_rays::scattering_cosine(view.sin(), &sun));
             }
         }
     }

@@ -4,6 +4,7 @@ use super::chunk::Chunk;
 use super::collocation::Collocation;
 use super::coupled::{Factors, Options, decompose};
 use super::refine::{self, Basis, Own};
+use super::row_major::row_major;
 use super::tucker::{Dense, Tucker, compress_together};
 use super::weights::channel_weights;
 use crate::dataset::{Axis, Grid};
@@ -219,11 +220,4 @@ impl Fit {
 pub fn splines(axis: Axis, sites: &[f32], rank: usize) -> Mat<f64> {
     let values = Mat::from_fn(axis.len(), rank, |i, r| f64::from(sites[i * rank + r]));
     Collocation::new(axis).solve(&values)
-}
-
-/// The rows of a matrix one after the other.
-pub fn row_major(matrix: &Mat<f64>) -> Vec<f32> {
-    (0..matrix.nrows())
-        .flat_map(|i| (0..matrix.ncols()).map(move |j| matrix[(i, j)] as f32))
-        .collect()
 }

@@ -9,14 +9,16 @@ mod ill_conditioned;
 mod normalise;
 mod polarised;
 mod refine;
+mod row_major;
 mod tucker;
 mod weights;
 
 pub use chunk::Chunk;
 pub use collocation::Collocation;
 pub use coupled::{Options, decompose};
-pub use fit::{Fit, decompose_all, decompose_nested, refine_all, row_major, splines};
+pub use fit::{Fit, decompose_all, decompose_nested, refine_all, splines};
 pub use normalise::{ChunkGeometry, chunk_geometry};
 pub use polarised::{POLARISED_CHANNELS, PolarisedChunk, polarise};
 pub use refine::{Basis, Own, relative_radiance, residual};
+pub use row_major::row_major;
 pub use tucker::{Dense, Tucker, compress_together};

@@ -1,10 +1,10 @@
 //! What the evaluator multiplies back: transmittance of the view ray and the scale of a solar elevation.
 
 use super::collocation::Collocation;
-use super::fit::row_major;
+use super::row_major::row_major;
 use crate::column::ColumnIntegrator;
 use crate::dataset::{Axis, Grid, Tensor};
-use crate::orders::{FIELDS, Medium, NW};
+use crate::successive_orders::{FIELDS, Medium, NW};
 use faer::Mat;
 use std::ops::Range;
 use welkin::geometry::{Planet, Side};

@@ -6,7 +6,7 @@ use super::fit::{Fit, SHARED, assemble};
 use super::normalise::{Level, chunk_geometry, normalise};
 use super::tucker::{Dense, Tucker, compress_together};
 use crate::dataset::{Grid, Tensor};
-use crate::orders::{FIELDS, Gatherer, NW, POLARISED};
+use crate::successive_orders::{FIELDS, Gatherer, NW, POLARISED};
 use std::f64::consts::PI;
 
 /// Channels of the polarisation: Q and U/sin φ over black ground, Q and U/sin φ of the light from the ground.

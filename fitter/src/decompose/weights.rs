@@ -1,7 +1,7 @@
 //! How much an error of each channel matters: its typical share of the radiance.
 
 use super::chunk::Chunk;
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 use rayon::prelude::*;
 
 /// Ground albedo at which the shares are taken.

@@ -2,7 +2,7 @@
 
 pub mod density;
 mod modes;
-pub mod source;
+pub mod source_tensor;
 pub mod study;
 
 use crate::units::Solved;
@@ -16,7 +16,7 @@ pub const RANKS: Ranks = [12, 20, 16, 12];
 pub fn chunks(solved: &[Solved]) -> Result<Vec<Chunk>> {
     let airs: Vec<_> = solved.iter().map(|s| s.medium.atmosphere.clone()).collect();
     let densities = density::fit(&airs, density::TOLERANCE)?;
-    let (basis, cores) = source::fit(solved, RANKS);
+    let (basis, cores) = source_tensor::fit(solved, RANKS);
     let chunk = |visibility, payload| Chunk::new(None, visibility, payload);
     let shared = [
         Payload::Transmittance(densities),

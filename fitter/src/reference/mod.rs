@@ -1,9 +1,9 @@
-//! Outside references: their files, and how the tracer and the data maker are judged against them.
+//! Outside references: their files, and how the tracer and the successive-orders solver are judged against them.
 
-pub mod case;
-pub mod data_maker;
 pub mod sky;
 pub mod slab;
+pub mod successive_orders;
+pub mod traced_lines;
 pub mod transmittance;
 mod verdict;
 

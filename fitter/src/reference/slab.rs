@@ -1,6 +1,6 @@
 //! Plane-parallel slabs (`pp_*.json`), as thin shells of a very large planet.
 
-use super::case::{Effort, trace_all};
+use super::traced_lines::{Effort, trace_all};
 use super::verdict::{Comparison, Limits, Verdict};
 use crate::atmosphere::{Atmosphere, Constituent, Phase, Scatterer};
 use crate::tracer::{Options, Query, Radiance, Tracer, VisibleGround};

@@ -1,7 +1,7 @@
 //! Column densities along straight lines, exact for piecewise linear profiles up to the stated quadrature error.
 
-use super::line::Line;
 use super::medium::{Columns, MAX_CONSTITUENTS, Medium};
+use super::shell_crossings::Line;
 
 /// Chords up to this long are integrated with the end-corrected trapezium rule. Its error in the mean altitude is
 /// 3 Δs⁴ / (720 R³), 2e-7 m here, and so at most 2e-10 in an optical depth.

@@ -2,15 +2,15 @@
 
 use super::disc::Disc;
 use super::estimate::Estimate;
-use super::gather::Tally;
-use super::look::{Pixel, View};
+use super::line_of_sight::Sight;
 use super::medium::Medium;
 use super::random::{Lattice, Stream};
 use super::segment::{Scene, Segment};
-use super::sight::Sight;
-use super::single;
+use super::single_scattering;
 use super::stokes::{Frame, Mueller};
 use super::sun::SunGuide;
+use super::tally::Tally;
+use super::view::{Pixel, View};
 use super::walk::{Light, Numbers, Path, Walker};
 use super::{BATCHES, Options, Orders, Query, VisibleGround};
 use crate::atmosphere::Atmosphere;
@@ -78,10 +78,11 @@ impl<const N: usize> Lanes<N> {
         let directions = disc.directions();
         let weight = 1.0 / directions.len() as f64;
         for &sun in &directions {
-            let once = single::scattered_once(&self.medium, sight, sun, self.options.aerosol);
+            let once =
+                single_scattering::scattered_once(&self.medium, sight, sun, self.options.aerosol);
             accumulate(&mut exact[0], &once, weight);
             if self.ground_seen(sight) && exact.len() > 1 {
-                let ground = single::sunlit_ground(&self.medium, sight, sun);
+                let ground = single_scattering::sunlit_ground(&self.medium, sight, sun);
                 accumulate(&mut exact[1], &[ground, [0.0; N], [0.0; N]], weight);
             }
         }

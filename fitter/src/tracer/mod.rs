@@ -13,29 +13,32 @@ mod columns;
 mod disc;
 mod engine;
 mod estimate;
-mod gather;
-mod glow;
-mod line;
-mod look;
+mod guided_directions;
+mod line_of_sight;
+mod linear_density;
 mod medium;
 mod phase;
+mod pixel_walks;
 mod random;
 mod segment;
-mod sight;
-mod single;
+mod shell_crossings;
+mod single_scattering;
 pub mod solids;
 pub mod stokes;
 mod sun;
+mod sunlight_walks;
 mod tabulated;
+mod tally;
 #[cfg(test)]
 mod test_atmosphere;
 #[cfg(test)]
 mod tests;
+mod view;
 mod walk;
 
 pub use estimate::{Estimate, Radiance};
-pub use look::{Pixel, View};
 pub use phase::Aerosol;
+pub use view::{Pixel, View};
 pub use walk::Gather;
 
 use crate::atmosphere::Atmosphere;

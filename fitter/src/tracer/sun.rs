@@ -1,7 +1,7 @@
 //! Sunlight in the atmosphere: exact, and as a coarse table that only steers sampling.
 
-use super::line::Line;
 use super::medium::Medium;
+use super::shell_crossings::Line;
 use glam::DVec3;
 
 const HEIGHTS: usize = 64;

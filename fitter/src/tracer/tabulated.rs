@@ -1,6 +1,6 @@
 //! Scattering by tabulated matrices, prepared for N wavelengths.
 
-use super::segment::linear;
+use super::linear_density::linear;
 use super::stokes::Scattering;
 use crate::atmosphere::matrix::{Matrix, NODES, angle, interval};
 

@@ -5,15 +5,15 @@
 //! `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see [`Segment`]); that point's
 //! density does not depend on the hero.
 
-use super::gather::Tally;
-use super::glow::Glow;
-use super::line::Line;
+use super::guided_directions::Glow;
 use super::medium::{Columns, Medium};
 use super::phase::Aerosol;
 use super::random::{LATTICE_DIMENSIONS, Stream};
 use super::segment::{Scene, Segment};
+use super::shell_crossings::Line;
 use super::solids::{Hit, Reflectance, Solids};
 use super::stokes::{Frame, Mueller, Scattering};
+use super::tally::Tally;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 

@@ -6,7 +6,9 @@ pub use unit::{Kind, Unit};
 
 use crate::atmosphere::{Atmosphere, real};
 use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
-use crate::orders::{Gatherer, LightField, Medium, SUN_RADIUS, Settings, solve};
+use crate::successive_orders::{
+    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+};
 use anyhow::{Context, Result};
 use std::path::Path;
 
@@ -28,7 +30,7 @@ pub struct Plan {
 pub struct Judging {
     /// Held-out samples per chunk.
     pub samples: usize,
-    /// Relative standard error of the judge.
+    /// Relative standard error of the reference tracer.
     pub target_error: f64,
 }
 
@@ -133,7 +135,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SUN_RADIUS)?;
+        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SOLAR_ANGULAR_RADIUS)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;
@@ -170,7 +172,7 @@ impl Plan {
         Ok(Sample::from_values(&values))
     }
 
-    /// The atmosphere of a visibility (m) and traced samples for the judge: every direction has two suns of its own.
+    /// The atmosphere of a visibility (m) and traced samples for the reference tracer: every direction has two suns of its own.
     pub fn judged_samples(
         &self,
         work: &Path,

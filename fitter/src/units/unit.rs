@@ -1,8 +1,8 @@
 //! Units by name, so that any process can do any of them.
 
 use super::Plan;
+use crate::cross_check::{Difference, cross_check};
 use crate::dataset::Store;
-use crate::judge::{Difference, judge};
 use anyhow::{Context, Result};
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub enum Kind {
     /// Held-out samples of a visibility and an altitude.
     Truth,
     /// Differences of some held-out samples to the unbiased tracer. A model can be built without.
-    Judge,
+    Check,
 }
 
 /// A pure function of a plan to one file.
@@ -32,7 +32,7 @@ pub struct Unit {
 
 impl Kind {
     /// All kinds, in the order of the list of units.
-    pub const ALL: [Self; 4] = [Self::Light, Self::Tensor, Self::Truth, Self::Judge];
+    pub const ALL: [Self; 4] = [Self::Light, Self::Tensor, Self::Truth, Self::Check];
 
     /// First word of the names of its units.
     pub fn name(self) -> &'static str {
@@ -40,7 +40,7 @@ impl Kind {
             Self::Light => "light",
             Self::Tensor => "tensor",
             Self::Truth => "truth",
-            Self::Judge => "judge",
+            Self::Check => "check",
         }
     }
 
@@ -61,7 +61,7 @@ impl Plan {
         let lists: [(&[Kind], usize); 3] = [
             (&[Kind::Light], 1),
             (&[Kind::Tensor, Kind::Truth], self.grid.altitudes.len()),
-            (&[Kind::Judge], self.grid.altitudes.len()),
+            (&[Kind::Check], self.grid.altitudes.len()),
         ];
         for (kinds, altitudes) in lists {
             for &visibility in &self.grid.visibilities {
@@ -88,7 +88,7 @@ impl Plan {
         let key = match kind {
             Kind::Light => self.light_key(),
             Kind::Tensor | Kind::Truth => self.key(),
-            Kind::Judge => format!("{} {:?}", self.key(), self.judging),
+            Kind::Check => format!("{} {:?}", self.key(), self.judging),
         };
         Store::open(work, key)
     }
@@ -108,7 +108,7 @@ impl Plan {
             return Ok(());
         }
         let truth = self.held_out(&store, &solved, self.grid.altitudes[a])?;
-        if unit.kind == Kind::Judge {
+        if unit.kind == Kind::Check {
             let lit: Vec<_> = truth
                 .iter()
                 .filter(|s| s.radiance.iter().any(|&l| l > 0.0))
@@ -118,9 +118,9 @@ impl Plan {
             let chosen = lit.iter().cycle().step_by(step);
             let chosen: Vec<_> = chosen.take(self.judging.samples).map(|s| **s).collect();
             let air = &solved.medium.atmosphere;
-            self.store_of(work, Kind::Judge)?
+            self.store_of(work, Kind::Check)?
                 .unit(&self.name(unit), || {
-                    let differences = judge(air, &chosen, self.judging.target_error, &|| ())?;
+                    let differences = cross_check(air, &chosen, self.judging.target_error, &|| ())?;
                     Ok(differences.iter().flat_map(Difference::to_values).collect())
                 })?;
         }

@@ -97,22 +97,22 @@ static welkin_error answer_transmittance(const welkin_file *file, const query *q
     return error;
 }
 
-static welkin_error answer_in_scatter(const welkin_file *file, const query *q, float *scratch, size_t floats)
+static welkin_error answer_in_scattering(const welkin_file *file, const query *q, float *scratch, size_t floats)
 {
     float light[WELKIN_MAX_WAVELENGTHS];
     welkin_haze haze;
     welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
-    if (!error) error = welkin_in_scatter(&haze, q->conditions.altitude, q->direction, q->distance, light);
+    if (!error) error = welkin_in_scattering(&haze, q->conditions.altitude, q->direction, q->distance, light);
     if (!error) print_floats(light, file->wavelengths);
     return error;
 }
 
-static welkin_error answer_in_scatter_stokes(const welkin_file *file, const query *q, float *scratch, size_t floats)
+static welkin_error answer_in_scattering_stokes(const welkin_file *file, const query *q, float *scratch, size_t floats)
 {
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
     welkin_haze haze;
     welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
-    if (!error) error = welkin_in_scatter_stokes(&haze, q->conditions.altitude, q->direction, q->distance, l, s, u);
+    if (!error) error = welkin_in_scattering_stokes(&haze, q->conditions.altitude, q->direction, q->distance, l, s, u);
     if (error) return error;
     print_floats(l, file->wavelengths);
     print_floats(s, file->wavelengths);
@@ -169,8 +169,8 @@ static welkin_error answer(const welkin_file *file, const query *q, unsigned mod
     welkin_sky sky;
     welkin_error error;
     if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);
-    if (strcmp(q->quantity, "in_scatter") == 0) return answer_in_scatter(file, q, scratch, floats);
-    if (strcmp(q->quantity, "in_scatter_stokes") == 0) return answer_in_scatter_stokes(file, q, scratch, floats);
+    if (strcmp(q->quantity, "in_scattering") == 0) return answer_in_scattering(file, q, scratch, floats);
+    if (strcmp(q->quantity, "in_scattering_stokes") == 0) return answer_in_scattering_stokes(file, q, scratch, floats);
     error = welkin_prepare(&sky, file, &q->conditions, mode | (stokes ? WELKIN_POLARISED : 0), scratch, floats);
     if (error) return error;
     return stokes ? answer_stokes(&sky, q) : answer_radiance(&sky, q);

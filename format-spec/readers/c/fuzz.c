@@ -60,8 +60,8 @@ static void ask_segments(const welkin_file *file, const welkin_conditions *condi
     hazy = !welkin_haze_prepare(&haze, file, conditions, scratch, floats);
     for (i = 0; i < 4; i++) {
         if (!welkin_transmittance(&air, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, 1);
-        if (hazy && !welkin_in_scatter(&haze, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
-        if (hazy && !welkin_in_scatter_stokes(&haze, 100, segments[i], segments[i][3], values, q, u)) {
+        if (hazy && !welkin_in_scattering(&haze, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
+        if (hazy && !welkin_in_scattering_stokes(&haze, 100, segments[i], segments[i][3], values, q, u)) {
             check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
             check(u, file->wavelengths, -FLT_MAX, FLT_MAX);
         }

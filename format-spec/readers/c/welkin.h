@@ -180,10 +180,10 @@ WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file
 
 /* Light that the air of a segment scatters towards its start, per unit of solar irradiance, sr^-1, at every wavelength of the file. An
  * integral over some hundred points: for checks and for tables, not for each pixel. */
-WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light);
+WELKIN_API welkin_error welkin_in_scattering(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light);
 
 /* The same light with its Stokes components Q and U in the vertical frame at the start. */
-WELKIN_API welkin_error welkin_in_scatter_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
+WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
                                                  float *light, float *q, float *u);
 
 #ifdef __cplusplus
@@ -2499,7 +2499,7 @@ static welkin_error welkin__scattered(const welkin_haze *haze, double altitude, 
     return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
-WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light)
+WELKIN_API welkin_error welkin_in_scattering(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light)
 {
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
@@ -2508,7 +2508,7 @@ WELKIN_API welkin_error welkin_in_scatter(const welkin_haze *haze, double altitu
     return error;
 }
 
-WELKIN_API welkin_error welkin_in_scatter_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
+WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
                                                  float *light, float *q, float *u)
 {
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};

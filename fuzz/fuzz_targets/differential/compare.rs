@@ -75,7 +75,7 @@ fn answer(case: &Case, i: usize, a: &[Answer], b: &[Answer]) -> Option<String> {
         (Ok(values), Err(class)) | (Err(class), Ok(values)) => {
             let overflow = class == "value" && (case.changes.wild || !are_sane(values));
             // Air beyond its reach is what a reader may refuse.
-            let reach = class == "point" && question.name().starts_with("in_scatter");
+            let reach = class == "point" && question.name().starts_with("in_scattering");
             (!overflow && !reach).then(|| format!("values, and an error: {class}"))
         }
     }
@@ -135,8 +135,8 @@ fn is_rough(case: &Case, question: &Question) -> bool {
     let twilight = question.cells[3] < 0.0 && distance > 100.0;
     let jagged = case.base == "haze-negative" || distance > 1e5 || twilight;
     let [x, y, z] = [5, 6, 7].map(|i| question.cells[i]);
-    let vertical = question.name() == "in_scatter_stokes" && x.hypot(y) <= 1e-6 * z.abs();
-    question.name().starts_with("in_scatter") && (jagged || vertical)
+    let vertical = question.name() == "in_scattering_stokes" && x.hypot(y) <= 1e-6 * z.abs();
+    question.name().starts_with("in_scattering") && (jagged || vertical)
 }
 
 /// Tolerances of the values of the first reader; none where the logarithm of almost nothing decides.
@@ -164,14 +164,14 @@ fn tolerances(question: &Question, a: &[f64], floors: &[f64]) -> Option<Vec<f64>
                 })
                 .collect()
         }
-        "in_scatter" | "in_scatter_stokes" => {
+        "in_scattering" | "in_scattering_stokes" => {
             // The specification asks for 2 %, and wishes for 5 %.
             let share = if question.cells[9] <= 100.0 {
                 0.04
             } else {
                 0.1
             };
-            let n = if question.name() == "in_scatter" {
+            let n = if question.name() == "in_scattering" {
                 a.len()
             } else {
                 third

@@ -12,8 +12,8 @@ pub const QUANTITIES: [&str; 9] = [
     "stokes",
     "stokes_at",
     "transmittance",
-    "in_scatter",
-    "in_scatter_stokes",
+    "in_scattering",
+    "in_scattering_stokes",
 ];
 pub const FIRST_SEGMENT: u32 = 6;
 

@@ -68,11 +68,11 @@ static welkin_error ask_segment(const welkin_file *file, const question *q, cons
     error = welkin_haze_prepare(&haze, file, c, scratch, floats);
     if (error) return error;
     if (q->quantity == IN_SCATTER) {
-        error = welkin_in_scatter(&haze, c->altitude, direction, q->cells[9], light[0]);
+        error = welkin_in_scattering(&haze, c->altitude, direction, q->cells[9], light[0]);
         if (!error) put(a, light[0], file->wavelengths);
         return error;
     }
-    error = welkin_in_scatter_stokes(&haze, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
+    error = welkin_in_scattering_stokes(&haze, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
     if (!error) put_three(a, light[0], light[1], light[2], file->wavelengths);
     return error;
 }

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use welkin::{Conditions, General, Interpolation, Model};
+use welkin::{Conditions, PointQuery, Interpolation, Model};
 
 use crate::answer;
 use crate::question::{Answer, Question};
@@ -28,7 +28,7 @@ pub fn library(model: &Result<Model, welkin::Error>, questions: &[Question]) -> 
 
 /// Answers for radiances only. Numbers of chunks are not checked by this reader.
 pub fn general(file: &[u8], questions: &[Question]) -> Report {
-    let general = General::new(file).map_err(|error| match error.class() {
+    let general = PointQuery::new(file).map_err(|error| match error.class() {
         "limit" | "encoding" => ABSTAINS.to_owned(),
         class => class.to_owned(),
     })?;

@@ -1,8 +1,9 @@
 //! Other ways to the light of a finite segment, for comparison: Eq. 2 of Wilkie et al. 2021, the sky from its start less the
-//! attenuated sky from its end, plain, blurred as their renderer does near the horizon, or blended with what `Haze` does.
+//! attenuated sky from its end, plain, blurred as their renderer does near the horizon, or blended with what `AerialPerspective` does.
 
 use welkin::{
-    Budget, Channels, Conditions, General, Haze, Interpolation, Model, xyz_to_linear_srgb,
+    AerialPerspective, Budget, Channels, Conditions, Interpolation, Model, PointQuery,
+    xyz_to_linear_srgb,
 };
 
 use crate::failure::Result;
@@ -35,7 +36,7 @@ type Point = [f64; 3];
 
 /// Skies wherever segments end.
 pub struct Difference<'a> {
-    general: General<'a>,
+    general: PointQuery<'a>,
     method: Method,
     conditions: Conditions,
     altitudes: [f64; 2],
@@ -48,11 +49,15 @@ pub struct Difference<'a> {
 
 impl<'a> Difference<'a> {
     /// None where the method does without.
-    pub fn new(model: &'a Model, haze: &Haze, method: Method) -> Result<Option<Self>> {
+    pub fn new(
+        model: &'a Model,
+        aerial: &AerialPerspective,
+        method: Method,
+    ) -> Result<Option<Self>> {
         if method == Method::Source {
             return Ok(None);
         }
-        let conditions = *haze.conditions();
+        let conditions = *aerial.conditions();
         let plan = model.plan(&Budget {
             altitude: model.altitude_range(),
             visibility: [conditions.visibility; 2],
@@ -64,14 +69,14 @@ impl<'a> Difference<'a> {
         let irradiance = head.wavelengths.iter();
         Ok(Some(Self {
             general: model
-                .general(&plan)?
+                .point_query(&plan)?
                 .with_interpolation(Interpolation::Full),
             method,
             conditions,
             altitudes: model.altitude_range(),
             suns: model.solar_elevation_range(),
-            radius: haze.air().planet().radius,
-            sun: haze.sun_direction(),
+            radius: aerial.transmittance().planet().radius,
+            sun: aerial.sun_direction(),
             irradiance: irradiance
                 .map(|&l| head.solar_irradiance_at(l) as f32)
                 .collect(),
@@ -80,11 +85,11 @@ impl<'a> Difference<'a> {
     }
 
     /// Light that reaches `from`, linear sRGB, cd m⁻².
-    pub fn light(&self, haze: &Haze, from: Point, to: Point) -> Result<[f32; 3]> {
+    pub fn light(&self, aerial: &AerialPerspective, from: Point, to: Point) -> Result<[f32; 3]> {
         let spectrum = match self.method {
-            Method::Blurred => self.blurred(haze, from, to)?,
-            Method::Blend => self.blend(haze, from, to)?,
-            _ => self.plain(haze, from, to)?,
+            Method::Blurred => self.blurred(aerial, from, to)?,
+            Method::Blend => self.blend(aerial, from, to)?,
+            _ => self.plain(aerial, from, to)?,
         };
         let mut sum = [0.0; 3];
         for (weight, value) in self.xyz.iter().zip(spectrum) {
@@ -93,18 +98,18 @@ impl<'a> Difference<'a> {
         Ok(xyz_to_linear_srgb(sum.map(|v| v as f32)))
     }
 
-    fn plain(&self, haze: &Haze, from: Point, to: Point) -> Result<Vec<f32>> {
-        let [near, far] = self.terms(haze, from, to)?;
+    fn plain(&self, aerial: &AerialPerspective, from: Point, to: Point) -> Result<Vec<f32>> {
+        let [near, far] = self.terms(aerial, from, to)?;
         Ok(near.iter().zip(far).map(|(near, far)| near - far).collect())
     }
 
-    fn blurred(&self, haze: &Haze, from: Point, to: Point) -> Result<Vec<f32>> {
+    fn blurred(&self, aerial: &AerialPerspective, from: Point, to: Point) -> Result<Vec<f32>> {
         let way: Point = std::array::from_fn(|k| to[k] - from[k]);
         let level = way[0].hypot(way[1]);
         let (elevation, length) = (way[2].atan2(level), level.hypot(way[2]));
         let low = altitude(self.radius, from) <= BLUR_ALTITUDE;
         if !low || elevation.abs() > BLUR_ANGLE || level == 0.0 {
-            return self.plain(haze, from, to);
+            return self.plain(aerial, from, to);
         }
         const TILTS: i32 = 3;
         let mut sum = vec![0.0; self.xyz.len()];
@@ -116,17 +121,17 @@ impl<'a> Difference<'a> {
                 from[1] + length * r * way[1] / level,
                 from[2] + length * z,
             ];
-            for (sum, value) in sum.iter_mut().zip(self.plain(haze, from, to)?) {
+            for (sum, value) in sum.iter_mut().zip(self.plain(aerial, from, to)?) {
                 *sum += value.max(0.0) / (2 * TILTS + 1) as f32;
             }
         }
         Ok(sum)
     }
 
-    fn blend(&self, haze: &Haze, from: Point, to: Point) -> Result<Vec<f32>> {
-        let [near, far] = self.terms(haze, from, to)?;
+    fn blend(&self, aerial: &AerialPerspective, from: Point, to: Point) -> Result<Vec<f32>> {
+        let [near, far] = self.terms(aerial, from, to)?;
         let (mut source, mut through) = (vec![0.0; near.len()], vec![0.0; near.len()]);
-        haze.in_scatter(from, to, &mut source, &mut through)?;
+        aerial.in_scattering(from, to, &mut source, &mut through)?;
         let mix = |w: usize| {
             let (source, near, far) = (source[w] / self.irradiance[w], near[w], far[w]);
             let of_difference = EXPECTED[0].powi(2) * (near * near + far * far);
@@ -138,12 +143,14 @@ impl<'a> Difference<'a> {
     }
 
     /// Both terms of Eq. 2, per unit of solar irradiance.
-    fn terms(&self, haze: &Haze, from: Point, to: Point) -> Result<[Vec<f32>; 2]> {
+    fn terms(&self, aerial: &AerialPerspective, from: Point, to: Point) -> Result<[Vec<f32>; 2]> {
         let way: Point = std::array::from_fn(|k| to[k] - from[k]);
         let near = self.sky(from, way)?;
         let mut far = self.sky(to, way)?;
         let mut through = vec![0.0; near.len()];
-        haze.air().transmittance(from, to, &mut through)?;
+        aerial
+            .transmittance()
+            .transmittance(from, to, &mut through)?;
         for (far, through) in far.iter_mut().zip(through) {
             *far *= through;
         }

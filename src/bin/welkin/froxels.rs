@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use welkin::Haze;
+use welkin::AerialPerspective;
 use welkin::output;
 
 use crate::Source;
@@ -89,15 +89,15 @@ pub fn run(options: &Options) -> Result<()> {
     };
     target.check()?;
     let model = options.source.open()?;
-    let haze = model.haze(&options.scene.conditions(options.altitude))?;
+    let aerial = model.aerial_perspective(&options.scene.conditions(options.altitude))?;
     let [width, height, _] = options.size;
     let azimuth = options.scene.view_azimuth()?;
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
     let start = Instant::now();
-    let volume = fill(options, &haze, &camera)?;
+    let volume = fill(options, &aerial, &camera)?;
     let time = start.elapsed();
     let bytes = match format {
-        Format::Exr => layers(options, &haze, &volume)?,
+        Format::Exr => layers(options, &aerial, &volume)?,
         Format::Raw => raw(options, &volume),
     };
     output::write(&[(&target, &bytes)])?;
@@ -120,10 +120,10 @@ impl Options {
     }
 }
 
-fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
+fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Result<Volume> {
     let [width, height, depth] = options.size;
     let place = [0.0, 0.0, options.altitude];
-    let wavelengths = haze.wavelengths();
+    let wavelengths = aerial.wavelengths();
     let channels: Vec<String> = match options.spectral {
         true => ["", "T"]
             .iter()
@@ -139,9 +139,9 @@ fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
         let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
         let (light, through) = values.split_at_mut(channels.len() / 2);
         if options.spectral {
-            return haze.in_scatter(place, point, light, through);
+            return aerial.in_scattering(place, point, light, through);
         }
-        let colours = haze.linear_srgb(place, point)?;
+        let colours = aerial.linear_srgb(place, point)?;
         light.copy_from_slice(&colours.0);
         through.copy_from_slice(&colours.1);
         Ok(())
@@ -168,9 +168,9 @@ fn fill(options: &Options, haze: &Haze, camera: &Camera) -> Result<Volume> {
 }
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
-fn layers(options: &Options, haze: &Haze, volume: &Volume) -> Result<Vec<u8>> {
+fn layers(options: &Options, aerial: &AerialPerspective, volume: &Volume) -> Result<Vec<u8>> {
     let azimuth = options.scene.view_azimuth()?;
-    let mut about = About::scene(haze.conditions(), azimuth);
+    let mut about = About::scene(aerial.conditions(), azimuth);
     options.lens.describe(&mut about);
     about.number("nearM", options.near);
     about.number("farM", options.far);

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use welkin::geometry::{Planet, Side};
-use welkin::{Air, Conditions, Model};
+use welkin::{Conditions, Model, Transmittance};
 
 use crate::failure::{Failure, Result};
 use crate::irradiance::{Light, xyz};
@@ -16,7 +16,7 @@ const STEP: f64 = 0.5;
 
 /// The ground that an observer sees.
 pub struct Ground {
-    air: Air,
+    air: Transmittance,
     planet: Planet,
     altitude: f64,
     sun: [f64; 3],
@@ -56,7 +56,7 @@ impl Ground {
         };
         Ok(Self {
             radiance: radiance.collect::<Result<_>>()?,
-            air: model.air(conditions.visibility)?,
+            air: model.transmittance(conditions.visibility)?,
             sun: conditions.sun_direction(),
             altitude: conditions.altitude,
             srgb: (0..model.wavelengths().len()).map(unit).collect(),

@@ -61,7 +61,7 @@ pub struct Light {
 impl Light {
     pub fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let sky = model.sky(conditions)?;
-        let disc = model.sun_disc(sky.conditions())?;
+        let disc = model.solar_disc(sky.conditions())?;
         let zeros = || vec![0.0; model.wavelengths().len()];
         let [mut normal, mut level, mut centre] = [zeros(), zeros(), zeros()];
         disc.irradiance(disc.direction(), &mut normal)?;

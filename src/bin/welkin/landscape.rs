@@ -3,7 +3,10 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use welkin::{Conditions, Frame, Haze, Model, PolarisedSky, Sky, Stokes, xyz_to_linear_srgb};
+use welkin::{
+    AerialPerspective, Conditions, Model, PolarisationFrame, PolarisedSky, Sky, Stokes,
+    xyz_to_linear_srgb,
+};
 
 use crate::about::About;
 use crate::camera::{Camera, Lens};
@@ -38,7 +41,7 @@ pub struct Options {
         requires = "terrain",
         conflicts_with = "polariser"
     )]
-    haze: Method,
+    aerial_perspective: Method,
 }
 
 /// Width over height of a picture in perspective.
@@ -51,8 +54,8 @@ pub struct Landscape<'a> {
     terrain: Terrain,
     camera: Camera,
     place: [f64; 3],
-    haze: Haze,
-    /// Instead of the haze's own light.
+    aerial: AerialPerspective,
+    /// Instead of the aerial perspective's own light.
     difference: Option<Difference<'a>>,
     sky: Sky,
     /// XYZ per unit of relative radiance.
@@ -67,7 +70,7 @@ struct Polariser {
     sky: PolarisedSky,
     /// rad, from the up vector of the camera to the right.
     angle: f32,
-    frame: Frame,
+    frame: PolarisationFrame,
 }
 
 /// What an ideal polariser leaves of light that is not polarised: that of the ground is taken to be so.
@@ -96,7 +99,7 @@ impl Options {
             0.0,
             conditions.altitude.max(terrain.height(0.0, 0.0)) + 2.0,
         ];
-        let haze = model.haze(conditions)?;
+        let aerial = model.aerial_perspective(conditions)?;
         // The sky of the place, so that what is far away vanishes in it.
         let [lowest, highest] = model.altitude_range();
         let there = Conditions {
@@ -105,8 +108,8 @@ impl Options {
         };
         let sky = model.sky(&there)?;
         Ok(Some(Landscape {
-            difference: Difference::new(model, &haze, self.haze)?,
-            haze,
+            difference: Difference::new(model, &aerial, self.aerial_perspective)?,
+            aerial,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
             terrain,
@@ -134,7 +137,7 @@ impl Options {
         Ok(Some(Polariser {
             sky: model.polarised_sky(conditions)?,
             angle: angle.to_radians() as f32,
-            frame: Frame::Axis(camera.up()),
+            frame: PolarisationFrame::Axis(camera.up()),
         }))
     }
 
@@ -189,7 +192,7 @@ impl Landscape<'_> {
     }
 
     fn pixel(&self, direction: [f64; 3]) -> Result<[f32; 3]> {
-        let radius = self.haze.air().planet().radius;
+        let radius = self.aerial.transmittance().planet().radius;
         let Some(distance) = self.terrain.hit(radius, self.place, direction) else {
             return self.background(direction.map(|v| v as f32));
         };
@@ -198,18 +201,18 @@ impl Landscape<'_> {
         let Some(polariser) = &self.polariser else {
             let (mut light, through) = self.air(point)?;
             if let Some(difference) = &self.difference {
-                light = difference.light(&self.haze, self.place, point)?;
+                light = difference.light(&self.aerial, self.place, point)?;
             }
             return Ok(std::array::from_fn(|c| surface[c] * through[c] + light[c]));
         };
-        let front = self.haze.before_polarised(&polariser.sky)?;
-        let haze = match front.camera() == self.place {
+        let front = self.aerial.joined_to_polarised(&polariser.sky)?;
+        let aerial = match front.camera() == self.place {
             true => front.linear_srgb_stokes(point, polariser.frame)?,
             false => self
-                .haze
+                .aerial
                 .linear_srgb_stokes(self.place, point, polariser.frame)?,
         };
-        let (light, through) = (polariser.pass(&haze.0), haze.1);
+        let (light, through) = (polariser.pass(&aerial.0), aerial.1);
         Ok(std::array::from_fn(|c| {
             HALF * surface[c] * through[c] + light[c]
         }))
@@ -217,11 +220,11 @@ impl Landscape<'_> {
 
     /// Light that the air before a point adds, and what it leaves of that from there.
     fn air(&self, point: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
-        let front = self.haze.before(&self.sky)?;
+        let front = self.aerial.joined_to(&self.sky)?;
         Ok(match front.camera() == self.place {
             true => front.linear_srgb(point)?,
             // Higher than any sky of the model.
-            false => self.haze.linear_srgb(self.place, point)?,
+            false => self.aerial.linear_srgb(self.place, point)?,
         })
     }
 
@@ -236,7 +239,7 @@ impl Landscape<'_> {
     /// Radiance that the surface sends out.
     fn surface(&self, radius: f64, point: [f64; 3]) -> Result<[f32; 3]> {
         let normal = self.terrain.normal(radius, point);
-        let sun = self.haze.sun_direction();
+        let sun = self.aerial.sun_direction();
         let cosine = (0..3).map(|k| normal[k] * sun[k]).sum::<f64>().max(0.0);
         let direct = self.sunlight(radius, point, sun, cosine)?;
         let open = (0.5 + 0.5 * normal[2]) as f32;
@@ -258,8 +261,8 @@ impl Landscape<'_> {
             return Ok([0.0; 3]);
         }
         let mut through = vec![0.0; self.xyz.len()];
-        self.haze
-            .air()
+        self.aerial
+            .transmittance()
             .transmittance_to_space(raised, sun, &mut through)?;
         let mut sum = [0.0; 3];
         for (weight, t) in self.xyz.iter().zip(through) {

@@ -72,7 +72,7 @@ fn table(out: &mut impl Write, options: &Options, model: &Model, light: &Light) 
         "sun                 elevation {:.2}°, azimuth {:.2}°; its disc {:.4}° wide, {:.4e} sr",
         conditions.solar_elevation.to_degrees(),
         conditions.solar_azimuth.to_degrees(),
-        2.0 * welkin::SUN_RADIUS.to_degrees(),
+        2.0 * welkin::SOLAR_ANGULAR_RADIUS.to_degrees(),
         light.solid_angle,
     )?;
     writeln!(
@@ -109,7 +109,7 @@ fn describe(model: &Model, light: &Light) -> Value {
         },
         "sun": {
             "direction": conditions.sun_direction(),
-            "angular_diameter_deg": 2.0 * welkin::SUN_RADIUS.to_degrees(),
+            "angular_diameter_deg": 2.0 * welkin::SOLAR_ANGULAR_RADIUS.to_degrees(),
             "solid_angle_sr": light.solid_angle,
         },
         "wavelengths_nm": model.wavelengths(),

@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use welkin::{Frame, PolarisedSky, Stokes, xyz_to_linear_srgb};
+use welkin::{PolarisationFrame, PolarisedSky, Stokes, xyz_to_linear_srgb};
 
 use crate::about::About;
 use crate::image::Planes;
@@ -36,10 +36,10 @@ pub enum Axes {
 }
 
 impl Axes {
-    fn frame(self) -> Frame {
+    fn frame(self) -> PolarisationFrame {
         match self {
-            Axes::Sun => Frame::SunAligned,
-            Axes::Vertical => Frame::Vertical,
+            Axes::Sun => PolarisationFrame::SunAligned,
+            Axes::Vertical => PolarisationFrame::Vertical,
         }
     }
 }
@@ -179,7 +179,7 @@ fn components(light: &Stokes) -> [f32; 3] {
 
 /// Planes `S0.R` … `S3.B` of linear sRGB.
 pub fn colour_layers(view: &View, sky: &PolarisedSky) -> welkin::Result<Vec<(String, Vec<f32>)>> {
-    let frame = Frame::Axis(view.up());
+    let frame = PolarisationFrame::Axis(view.up());
     let pixel = |pixel, _: &mut (), out: &mut [f32]| {
         let xyz = match view.direction(pixel) {
             Some(direction) => sky.xyz(direction, frame)?.map(|s| components(&s)),
@@ -202,7 +202,7 @@ pub fn spectral_layers(
     sky: &PolarisedSky,
     name: impl Fn(usize, f64) -> String,
 ) -> welkin::Result<Vec<(String, Vec<f32>)>> {
-    let frame = Frame::Axis(view.up());
+    let frame = PolarisationFrame::Axis(view.up());
     let wavelengths = sky.sky().wavelengths();
     let n = wavelengths.len();
     let pixel = |pixel, light: &mut Vec<Stokes>, out: &mut [f32]| {

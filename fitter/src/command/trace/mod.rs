@@ -1,24 +1,24 @@
 //! `welkin-fit trace`: a CSV of lines of sight in, the same with radiances out.
 
+mod atmosphere_choice;
+mod resumable_rows;
 mod rows;
-mod source;
-mod work;
 
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
+use resumable_rows::{Answer, Work};
 use rows::Row;
 use std::path::PathBuf;
 use welkin::output::{Target, write};
 use welkin_fitter::atmosphere::Atmosphere;
 use welkin_fitter::dataset::Store;
 use welkin_fitter::tracer::{self, Aerosol, Options, Tracer};
-use work::{Answer, Work};
 
 /// Arguments of `trace`.
 #[derive(ClapArgs)]
 pub struct Args {
     #[command(flatten)]
-    source: source::SourceArgs,
+    source: atmosphere_choice::SourceArgs,
     /// CSV with altitude_m, view_zenith_deg, view_azimuth_deg and optionally distance_m, solar_elevation_deg, albedo.
     /// Without it the atmosphere file's own lines of sight are used.
     #[arg(long)]

@@ -1,6 +1,6 @@
 //! Lines of sight from a CSV or from the atmosphere's own file.
 
-use super::source::Source;
+use super::atmosphere_choice::Source;
 use anyhow::{Context, Result, bail, ensure};
 use std::path::Path;
 use welkin_fitter::tracer::Query;

@@ -3,7 +3,7 @@
 use super::normal::Normal;
 use super::{Basis, row};
 use crate::decompose::Chunk;
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 

@@ -10,7 +10,7 @@ mod own;
 mod shared;
 
 use super::chunk::Chunk;
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 use equation::{ALBEDOS, Equation};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};

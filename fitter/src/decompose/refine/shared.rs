@@ -4,7 +4,7 @@ use super::equation::{ALBEDOS, Equation, equations};
 use super::normal::Normal;
 use super::{Basis, Own, add, random, row};
 use crate::decompose::Chunk;
-use crate::orders::{FIELDS, NW};
+use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 

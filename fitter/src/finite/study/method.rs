@@ -1,11 +1,11 @@
 //! Ways to the light of a finite segment.
 
-use super::case::Case;
-use crate::orders::{NW, Spectrum};
+use super::segment_case::Case;
+use crate::successive_orders::{NW, Spectrum};
 use crate::units::Solved;
 use anyhow::Result;
 use std::sync::{Arc, Mutex, PoisonError};
-use welkin::{Air, Conditions, Haze, Model, Sky};
+use welkin::{AerialPerspective, Conditions, Model, Sky, Transmittance};
 
 /// A way to the light of a finite segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,9 +14,9 @@ pub enum Method {
     Difference,
     /// The same, averaged over seven directions within ±0.25° near the horizon at low altitude.
     Blurred,
-    /// Quadrature of the stored source function: what `Haze` does.
+    /// Quadrature of the stored source function: what `AerialPerspective` does.
     Quadrature,
-    /// The same up to where the sky takes over: what `Foreground` does.
+    /// The same up to where the sky takes over: what `JoinedAerialPerspective` does.
     Joined,
     /// `Difference` and `Quadrature`, weighted by the inverse of their expected variances.
     Blend,
@@ -51,7 +51,7 @@ impl Method {
 pub struct Methods<'a> {
     model: &'a Model,
     solved: &'a [Solved],
-    hazes: Last<Haze>,
+    hazes: Last<AerialPerspective>,
     /// Of observers.
     skies: Last<Sky>,
 }
@@ -128,10 +128,11 @@ impl<'a> Methods<'a> {
         })
     }
 
-    /// What [`Methods::light`] needs: the haze of the conditions of a case.
-    pub fn haze(&self, case: &Case) -> Result<Arc<Haze>> {
+    /// What [`Methods::light`] needs: the aerial perspective of the conditions of a case.
+    pub fn aerial(&self, case: &Case) -> Result<Arc<AerialPerspective>> {
         let conditions = self.conditions(case, 0.0, case.sun);
-        self.hazes.get(conditions, |c| self.model.haze(c))
+        self.hazes
+            .get(conditions, |c| self.model.aerial_perspective(c))
     }
 
     /// The sky of an observer.
@@ -142,20 +143,21 @@ impl<'a> Methods<'a> {
     fn quadrature(&self, case: &Case) -> Result<[f64; NW]> {
         let [from, to] = case.ends();
         let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
-        self.haze(case)?
-            .in_scatter(from, to, &mut light, &mut through)?;
+        self.aerial(case)?
+            .in_scattering(from, to, &mut light, &mut through)?;
         Ok(self.relative(&light))
     }
 
     fn joined(&self, case: &Case) -> Result<[f64; NW]> {
-        let haze = self.haze(case)?;
+        let aerial = self.aerial(case)?;
         let sky = self
             .model
             .sky(&self.conditions(case, case.altitude, case.sun))?;
         let [_, to] = case.ends();
         let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
-        haze.before(&sky)?
-            .in_scatter(to, &mut light, &mut through)?;
+        aerial
+            .joined_to(&sky)?
+            .in_scattering(to, &mut light, &mut through)?;
         Ok(self.relative(&light))
     }
 
@@ -177,7 +179,9 @@ impl<'a> Methods<'a> {
 
     fn terms(&self, case: &Case) -> Result<Option<Terms>> {
         let [from, to] = case.ends();
-        let air = self.model.air(self.solved[case.visibility].visibility)?;
+        let air = self
+            .model
+            .transmittance(self.solved[case.visibility].visibility)?;
         let near = self.sky(case, &air, from, case.unit())?;
         let far = self.sky(case, &air, to, case.unit())?;
         let mut through = [0.0; NW];
@@ -193,7 +197,7 @@ impl<'a> Methods<'a> {
     fn sky(
         &self,
         case: &Case,
-        air: &Air,
+        air: &Transmittance,
         place: [f64; 3],
         direction: [f64; 3],
     ) -> Result<Option<[f64; NW]>> {

@@ -1,16 +1,16 @@
 //! How far the polarisation of in-scattered light is from exact integrals.
 
-use super::case::Case;
 use super::method::Methods;
-use super::report::CLASSES;
+use super::quantile_table::CLASSES;
+use super::segment_case::Case;
 use crate::assess::Quantiles;
-use crate::orders::NW;
-use crate::orders::source::Stokes;
 use crate::polarimetry::difference;
+use crate::successive_orders::NW;
+use crate::successive_orders::scattered_source::Stokes;
 use anyhow::Result;
 use rayon::prelude::*;
 use std::fmt::Write;
-use welkin::{Frame, StokesSpectra};
+use welkin::{PolarisationFrame, StokesSpectra};
 
 /// Errors of the polarisation for one kind of segment, all wavelengths.
 #[derive(Clone, Debug)]
@@ -84,8 +84,8 @@ fn stokes(methods: &Methods, case: &Case) -> Result<Stokes> {
         q: &mut q,
         u: &mut u,
     };
-    let haze = methods.haze(case)?;
-    haze.in_scatter_stokes(from, to, Frame::Vertical, out, &mut through)?;
+    let aerial = methods.aerial(case)?;
+    aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, out, &mut through)?;
     Ok([i, q, u])
 }
 

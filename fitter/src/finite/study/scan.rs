@@ -1,8 +1,8 @@
 //! Columns of neighbouring pixels across the horizon: stripes show as jumps.
 
-use super::case::Case;
 use super::method::{Lights, METHODS, Methods};
-use crate::orders::Spectrum;
+use super::segment_case::Case;
+use crate::successive_orders::Spectrum;
 use crate::units::Solved;
 use anyhow::Result;
 use rayon::prelude::*;

@@ -1,13 +1,13 @@
 //! Towers on flat ground (the paper's Fig. 14), all black, so that nothing but the air between is seen.
 
-use super::case::Case;
 use super::method::{METHODS, Methods};
 use super::scan::all;
-use crate::orders::{NW, Spectrum};
+use super::segment_case::Case;
 use crate::picture::camera::{Camera, Projection};
 use crate::picture::ground::{Ground, Pattern};
 use crate::picture::scene::{Builder, Place, Scene, Tower};
 use crate::picture::{Picture, Settings, render};
+use crate::successive_orders::{NW, Spectrum};
 use crate::tracer::solids::{Reflectance, Solids};
 use crate::tracer::{Options, Tracer};
 use crate::units::Solved;

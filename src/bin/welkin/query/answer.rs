@@ -1,7 +1,8 @@
 //! Answers questions that come sorted, so that neighbours have as much in common as can be.
 
 use welkin::{
-    Air, Conditions, Frame, GeneralHaze, Haze, PolarisedSky, Result, Sky, Stokes, SunDisc,
+    AerialPerspective, AerialPerspectiveQuery, Conditions, PolarisationFrame, PolarisedSky, Result,
+    Sky, SolarDisc, Stokes, Transmittance,
 };
 
 use super::quantity::{Key, Quantity, Question};
@@ -10,12 +11,12 @@ use super::shared::Shared;
 /// What a thread keeps from row to row: the last of everything.
 pub struct Answerer<'a> {
     shared: &'a Shared<'a>,
-    general_haze: Option<GeneralHaze<'a>>,
+    aerial_perspective_query: Option<AerialPerspectiveQuery<'a>>,
     sky: Kept<Sky>,
     polarised: Kept<PolarisedSky>,
-    haze: Kept<Haze>,
-    disc: Kept<SunDisc>,
-    air: Kept<Air, u64>,
+    aerial: Kept<AerialPerspective>,
+    disc: Kept<SolarDisc>,
+    air: Kept<Transmittance, u64>,
     spectrum: Spectrum,
 }
 
@@ -36,10 +37,10 @@ impl<'a> Answerer<'a> {
         let zeros = || vec![0.0; shared.irradiance.len()];
         Self {
             shared,
-            general_haze: None,
+            aerial_perspective_query: None,
             sky: None,
             polarised: None,
-            haze: None,
+            aerial: None,
             disc: None,
             air: None,
             spectrum: Spectrum {
@@ -62,9 +63,11 @@ impl<'a> Answerer<'a> {
                 let relative = self.at(question)?;
                 Ok(self.shared.times_irradiance(relative, wavelength))
             }
-            Quantity::Polarisation => Ok(self.stokes(question, Frame::SunAligned)?.signed_degree()),
-            Quantity::StokesQ => Ok(self.stokes(question, Frame::Vertical)?.q),
-            Quantity::StokesU => Ok(self.stokes(question, Frame::Vertical)?.u),
+            Quantity::Polarisation => Ok(self
+                .stokes(question, PolarisationFrame::SunAligned)?
+                .signed_degree()),
+            Quantity::StokesQ => Ok(self.stokes(question, PolarisationFrame::Vertical)?.q),
+            Quantity::StokesU => Ok(self.stokes(question, PolarisationFrame::Vertical)?.u),
         }
     }
 
@@ -85,7 +88,7 @@ impl<'a> Answerer<'a> {
         match question.quantity {
             Quantity::Transmittance => self.transmittance(question, &conditions),
             Quantity::InScatter => {
-                self.in_scatter(question, &conditions)?;
+                self.in_scattering(question, &conditions)?;
                 self.divide();
                 Ok(())
             }
@@ -124,7 +127,7 @@ impl<'a> Answerer<'a> {
         let model = self.shared.model;
         let visibility = conditions.checked(model)?.visibility;
         let air = kept(&mut self.air, visibility.to_bits(), || {
-            model.air(visibility)
+            model.transmittance(visibility)
         })?;
         let ([from, to], out) = (question.ray.ends(conditions), &mut self.spectrum.values);
         match question.ray.is_endless() {
@@ -133,32 +136,36 @@ impl<'a> Answerer<'a> {
         }
     }
 
-    fn in_scatter(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
+    fn in_scattering(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
         let ray = &question.ray;
-        if let Some(shared) = self.shared.haze() {
-            let haze = self.general_haze.get_or_insert_with(|| shared.clone());
+        if let Some(shared) = self.shared.aerial() {
+            let aerial = self
+                .aerial_perspective_query
+                .get_or_insert_with(|| shared.clone());
             let Spectrum { values, rest, .. } = &mut self.spectrum;
             let [from, to] = ray.ends(conditions);
             return match ray.is_endless() {
-                true => haze.to_end(conditions, from, ray.direction, values, rest),
-                false => haze.in_scatter(conditions, from, to, values, rest),
+                true => aerial.to_end(conditions, from, ray.direction, values, rest),
+                false => aerial.in_scattering(conditions, from, to, values, rest),
             };
         }
         let model = self.shared.model;
-        let haze = kept(&mut self.haze, question.place(), || model.haze(conditions))?;
-        ray.through(haze, &mut self.spectrum.values, &mut self.spectrum.rest)
+        let aerial = kept(&mut self.aerial, question.place(), || {
+            model.aerial_perspective(conditions)
+        })?;
+        ray.through(aerial, &mut self.spectrum.values, &mut self.spectrum.rest)
     }
 
     fn sun(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
         let model = self.shared.model;
         let disc = kept(&mut self.disc, question.place(), || {
-            model.sun_disc(conditions)
+            model.solar_disc(conditions)
         })?;
         disc.radiance(question.ray.narrow(), &mut self.spectrum.values)
     }
 
     /// Of the sky, or of what the air within a finite distance scatters.
-    fn stokes(&mut self, question: &Question, frame: Frame) -> Result<Stokes> {
+    fn stokes(&mut self, question: &Question, frame: PolarisationFrame) -> Result<Stokes> {
         let (model, wavelength) = (self.shared.model, question.wavelength);
         let conditions = &self.shared.reachable(&question.conditions)?;
         if question.ray.is_endless() {
@@ -171,12 +178,16 @@ impl<'a> Answerer<'a> {
             return sky.stokes_at(question.ray.narrow(), frame, wavelength);
         }
         let [from, to] = question.ray.ends(conditions);
-        let light = if let Some(shared) = self.shared.haze() {
-            let haze = self.general_haze.get_or_insert_with(|| shared.clone());
-            haze.relative_stokes_at(conditions, from, to, frame, wavelength)?
+        let light = if let Some(shared) = self.shared.aerial() {
+            let aerial = self
+                .aerial_perspective_query
+                .get_or_insert_with(|| shared.clone());
+            aerial.relative_stokes_at(conditions, from, to, frame, wavelength)?
         } else {
-            let haze = kept(&mut self.haze, question.place(), || model.haze(conditions))?;
-            haze.relative_stokes_at(from, to, frame, wavelength)?
+            let aerial = kept(&mut self.aerial, question.place(), || {
+                model.aerial_perspective(conditions)
+            })?;
+            aerial.relative_stokes_at(from, to, frame, wavelength)?
         };
         let irradiance = model.head().solar_irradiance_at(wavelength) as f32;
         Ok(Stokes {

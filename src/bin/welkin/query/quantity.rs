@@ -1,7 +1,7 @@
 //! What a row asks for.
 
 use welkin::format::printable;
-use welkin::{Conditions, Haze};
+use welkin::{AerialPerspective, Conditions};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -28,10 +28,10 @@ impl Quantity {
             b"stokes_q" => Ok(Self::StokesQ),
             b"stokes_u" => Ok(Self::StokesU),
             b"transmittance" => Ok(Self::Transmittance),
-            b"in_scatter" => Ok(Self::InScatter),
+            b"in_scattering" => Ok(Self::InScatter),
             b"sun_radiance" => Ok(Self::SunRadiance),
             other => Err(format!(
-                "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q, stokes_u, transmittance, in_scatter or sun_radiance",
+                "unknown quantity \"{}\": expected radiance, relative_radiance, polarisation, stokes_q, stokes_u, transmittance, in_scattering or sun_radiance",
                 printable(&String::from_utf8_lossy(other))
             )),
         }
@@ -139,14 +139,14 @@ impl Ray {
     /// In-scattered light and transmittance from the altitude of the conditions.
     pub fn through(
         &self,
-        haze: &Haze,
+        aerial: &AerialPerspective,
         light: &mut [f32],
         through: &mut [f32],
     ) -> welkin::Result<()> {
-        let [from, to] = self.ends(haze.conditions());
+        let [from, to] = self.ends(aerial.conditions());
         match self.is_endless() {
-            true => haze.to_end(from, self.direction, light, through),
-            false => haze.in_scatter(from, to, light, through),
+            true => aerial.to_end(from, self.direction, light, through),
+            false => aerial.in_scattering(from, to, light, through),
         }
     }
 }

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use welkin::{
-    Budget, Channels, Conditions, General, GeneralHaze, Interpolation, Model, Plan,
-    PolarisedGeneral, Result,
+    AerialPerspectiveQuery, Budget, Channels, Conditions, Interpolation, Model, Plan, PointQuery,
+    PolarisedPointQuery, Result,
 };
 
 /// The model and what is prepared of it when it is first needed.
@@ -19,9 +19,9 @@ pub struct Shared<'a> {
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     moved: AtomicBool,
-    general: OnceLock<Option<Box<General<'a>>>>,
-    polarised: OnceLock<Option<Box<PolarisedGeneral<'a>>>>,
-    haze: OnceLock<Option<GeneralHaze<'a>>>,
+    general: OnceLock<Option<Box<PointQuery<'a>>>>,
+    polarised: OnceLock<Option<Box<PolarisedPointQuery<'a>>>>,
+    aerial: OnceLock<Option<AerialPerspectiveQuery<'a>>>,
 }
 
 impl<'a> Shared<'a> {
@@ -35,14 +35,16 @@ impl<'a> Shared<'a> {
             moved: AtomicBool::new(false),
             general: OnceLock::new(),
             polarised: OnceLock::new(),
-            haze: OnceLock::new(),
+            aerial: OnceLock::new(),
         }
     }
 
     /// Radiance of any direction under any conditions, as exact as prepared skies.
-    pub fn general(&self) -> Option<&General<'a>> {
+    pub fn general(&self) -> Option<&PointQuery<'a>> {
         let prepared = self.general.get_or_init(|| {
-            let general = self.model.general(&self.whole(Channels::Spectral).ok()?);
+            let general = self
+                .model
+                .point_query(&self.whole(Channels::Spectral).ok()?);
             Some(Box::new(
                 general.ok()?.with_interpolation(Interpolation::Full),
             ))
@@ -51,10 +53,10 @@ impl<'a> Shared<'a> {
     }
 
     /// The same of Stokes vectors.
-    pub fn polarised(&self) -> Option<&PolarisedGeneral<'a>> {
+    pub fn polarised(&self) -> Option<&PolarisedPointQuery<'a>> {
         let prepared = self.polarised.get_or_init(|| {
             let plan = self.whole(Channels::Stokes).ok()?;
-            Some(Box::new(self.model.polarised_general(&plan).ok()?))
+            Some(Box::new(self.model.polarised_point_query(&plan).ok()?))
         });
         prepared.as_deref()
     }
@@ -71,8 +73,10 @@ impl<'a> Shared<'a> {
     }
 
     /// Light of any segment under any conditions.
-    pub fn haze(&self) -> Option<&GeneralHaze<'a>> {
-        let prepared = self.haze.get_or_init(|| self.model.general_haze().ok());
+    pub fn aerial(&self) -> Option<&AerialPerspectiveQuery<'a>> {
+        let prepared = self
+            .aerial
+            .get_or_init(|| self.model.aerial_perspective_query().ok());
         prepared.as_ref()
     }
 

@@ -66,16 +66,16 @@ pub struct Options {
 enum Extra {
     Polarisation,
     Transmittance,
-    Haze,
+    AerialPerspective,
 }
 
 impl Extra {
-    /// What needs a chunk, if it is not radiance. Haze needs the transmittance too.
+    /// What needs a chunk, if it is not radiance. Aerial perspective needs the transmittance too.
     fn of(payload: &Payload) -> Option<Self> {
         match payload {
             Payload::Polarisation(_) | Payload::PolarisationBasis(_) => Some(Self::Polarisation),
             Payload::Transmittance(_) => Some(Self::Transmittance),
-            Payload::Source(_) | Payload::SourceBasis(_) => Some(Self::Haze),
+            Payload::Source(_) | Payload::SourceBasis(_) => Some(Self::AerialPerspective),
             _ => None,
         }
     }

@@ -1,0 +1,24 @@
+//! The successive-orders solver: the whole light field of an atmosphere by successive orders of scattering, without noise.
+//!
+//! Single scattering is integrated along each ray. Multiple scattering is smooth, so it is kept as angular moments of the light
+//! field on a grid of altitudes and sun zeniths (`moments`), filled order by order ([`fn@solve`]) and gathered along each view ray
+//! ([`view_rays`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency tensor of the incoming light; aerosols
+//! scatter spherical harmonics of the intensity and depolarise. The Monte Carlo tracer is its reference.
+
+pub mod first_order;
+pub mod moments;
+pub mod ray_points;
+pub mod scattered_source;
+mod solve;
+mod spectral_medium;
+pub mod view_rays;
+
+/// The grid of the moments.
+pub use self::moments as grid;
+pub use moments::Moments;
+pub use ray_points::Path;
+pub use solve::{LightField, Settings, solve};
+pub use spectral_medium::{
+    DEGREE, Medium, NW, PER_SPHERE, SOLAR_ANGULAR_RADIUS, Spectrum, rayleigh_phase,
+};
+pub use view_rays::{FIELDS, Fields, Gatherer, POLARISED};

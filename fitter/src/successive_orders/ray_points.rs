@@ -1,0 +1,124 @@
+//! The points along a view ray at which the source function is sampled.
+
+use super::moments::HIGHEST;
+use super::spectral_medium::{Medium, NW, Spectrum};
+use crate::column::ColumnIntegrator;
+
+/// A quadrature node on a ray.
+pub struct Node {
+    /// Altitude, m.
+    pub altitude: f64,
+    /// Cosine and sine of the angle at the planet's centre between the observer and this point.
+    pub arc: (f64, f64),
+    /// Cosine of the local zenith angle of the view direction.
+    pub cos_zenith: f64,
+    /// Transmittance to the observer times the quadrature weight, m.
+    pub weight: Spectrum,
+}
+
+/// A ray from an observer, in the vertical plane that holds it.
+pub struct Path {
+    /// Quadrature nodes, outwards.
+    pub nodes: Vec<Node>,
+    /// Transmittance of the whole ray.
+    pub transmittance: Spectrum,
+    /// Where it ends on the ground: cosine and sine of the arc.
+    pub ground: Option<(f64, f64)>,
+}
+
+/// Two-point Gauss-Legendre on 0..1.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+/// Longest segment, m: over it the sun's elevation changes by a quarter of a degree.
+const LONGEST: f64 = 25_000.0;
+/// Segments of a ray: they get longer where there would be more.
+const MOST_SEGMENTS: f64 = 1e5;
+
+/// Divides the ray from `altitude` with zenith cosine `mu` and `length` into segments; `fineness` 1 is for production.
+pub fn trace(
+    medium: &Medium,
+    altitude: f64,
+    mu: f64,
+    length: f64,
+    ground: bool,
+    fineness: f64,
+) -> Path {
+    let radius = medium.atmosphere.planet_radius;
+    let integrator = ColumnIntegrator::new(&medium.atmosphere);
+    let r0 = radius + altitude;
+    let at = |s: f64| {
+        let r = (r0 * r0 + 2.0 * r0 * mu * s + s * s).sqrt();
+        (r - radius, (s + r0 * mu) / r)
+    };
+    let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
+    let arc = |s: f64| {
+        let (x, z) = (s * sine, r0 + s * mu);
+        let r = x.hypot(z);
+        (z / r, x / r)
+    };
+    let transmittance = |s: f64| medium.transmittance(&integrator.along(altitude, mu, s));
+    let mut nodes = vec![];
+    let mut s = 0.0;
+    while s < length {
+        let (h, c) = at(s);
+        let ds = segment(medium, h, c, fineness).max(length / MOST_SEGMENTS);
+        let ds = ds.min(length - s);
+        for x in GAUSS {
+            let d = s + x * ds;
+            let (h, c) = at(d);
+            let t = transmittance(d);
+            nodes.push(Node {
+                altitude: h.max(0.0),
+                arc: arc(d),
+                cos_zenith: c.clamp(-1.0, 1.0),
+                weight: t.map(|t| t * 0.5 * ds as f32),
+            });
+        }
+        s += ds;
+        if transmittance(s).iter().all(|&t| t < 1e-6) {
+            return Path {
+                nodes,
+                transmittance: [0.0; NW],
+                ground: None,
+            };
+        }
+    }
+    Path {
+        nodes,
+        transmittance: transmittance(length),
+        ground: ground.then(|| arc(length)),
+    }
+}
+
+/// Segment length at altitude `h` where the ray rises with `cosine`: bounded in optical depth, in height and in arc.
+fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
+    let profiles = medium.profiles(h);
+    let extinction: f32 = medium
+        .parts
+        .iter()
+        .zip(profiles)
+        .map(|(part, p)| part.extinction[2] * p)
+        .sum();
+    let climb = fineness * height_step(h, medium.atmosphere.top());
+    let r = medium.atmosphere.planet_radius + h;
+    // |cosine·ds + ds²/2r| = climb, the curvature of the planet included.
+    let slope = cosine.abs();
+    let by_height = 2.0 * climb / (slope + (slope * slope + 2.0 * climb / r).sqrt());
+    by_height
+        .min(fineness * 0.5 / f64::from(extinction).max(1e-12))
+        .min(fineness * LONGEST)
+}
+
+/// How far one may climb before the profiles change: finest across the inversion at 2 km, and ever finer towards the edge of air that
+/// does not end where the grid of the light field does.
+fn height_step(h: f64, top: f64) -> f64 {
+    match h {
+        h if h < 1300.0 => 400.0,
+        h if h < 2700.0 => 150.0,
+        h if h < 10_500.0 => 600.0,
+        h if h < 14_000.0 => 350.0,
+        h if h < 40_000.0 => 1000.0,
+        h if h < 60_000.0 => 2000.0,
+        h if h < HIGHEST || top <= HIGHEST => 5000.0,
+        h => (0.1 * (top - h)).clamp(100.0, 5000.0),
+    }
+}

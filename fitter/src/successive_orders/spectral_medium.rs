@@ -1,0 +1,191 @@
+//! An atmosphere prepared for spectral loops: coefficients as fixed-length arrays over wavelength.
+
+use crate::atmosphere::{Atmosphere, Phase};
+use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
+use anyhow::{Result, bail, ensure};
+
+/// Wavelengths that are treated together.
+pub const NW: usize = 12;
+/// One value per wavelength.
+pub type Spectrum = [f32; NW];
+
+/// Highest degree of the spherical harmonics of multiply scattered light.
+pub const DEGREE: usize = 12;
+/// Angular radius of the sun, rad (0.2667°, as in the published model).
+pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
+
+/// Isotropic share of a phase function, per steradian.
+pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
+
+/// A Henyey-Greenstein part of a constituent.
+pub struct Aerosol {
+    /// Scattering coefficient where the profile is 1, m⁻¹.
+    pub scattering: Spectrum,
+    /// Asymmetry parameter.
+    pub g: Spectrum,
+}
+
+/// One constituent's spectral coefficients.
+pub struct Part {
+    /// m⁻¹ where the profile is 1.
+    pub extinction: Spectrum,
+    /// Rayleigh scattering coefficient, m⁻¹ where the profile is 1; zero if there is none.
+    pub rayleigh: Spectrum,
+    /// Its Henyey-Greenstein parts.
+    pub aerosols: Vec<Aerosol>,
+    /// Σ scattering · g^l for each degree l.
+    pub legendre: Vec<Spectrum>,
+}
+
+/// An atmosphere with its sun table.
+pub struct Medium {
+    /// The atmosphere itself.
+    pub atmosphere: Atmosphere,
+    /// Per constituent.
+    pub parts: Vec<Part>,
+    /// Polarising share Δ = (1−ρ)/(1+ρ/2) of Rayleigh scattering.
+    pub polarising: Spectrum,
+    sun: SunColumns,
+    sun_radius: f64,
+}
+
+impl Medium {
+    /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is a point).
+    pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {
+        ensure!(
+            atmosphere.wavelengths.len() == NW,
+            "the solver needs {NW} wavelengths"
+        );
+        ensure!(
+            atmosphere.constituents.len() <= MAX_CONSTITUENTS,
+            "too many constituents"
+        );
+        let mut polarising = [1.0; NW];
+        let mut parts = vec![];
+        for constituent in &atmosphere.constituents {
+            let mut part = Part {
+                extinction: spectrum(&constituent.extinction),
+                rayleigh: [0.0; NW],
+                aerosols: vec![],
+                legendre: vec![[0.0; NW]; DEGREE + 1],
+            };
+            for scatterer in &constituent.scatterers {
+                let scattering = spectrum(&scatterer.scattering);
+                match &scatterer.phase {
+                    Phase::Rayleigh { depolarisation } => {
+                        part.rayleigh = scattering;
+                        for (d, rho) in polarising.iter_mut().zip(depolarisation) {
+                            *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
+                        }
+                    }
+                    Phase::HenyeyGreenstein { g } => {
+                        let g = spectrum(g);
+                        for (l, sum) in part.legendre.iter_mut().enumerate() {
+                            for w in 0..NW {
+                                sum[w] += scattering[w] * g[w].powi(l as i32);
+                            }
+                        }
+                        part.aerosols.push(Aerosol { scattering, g });
+                    }
+                    Phase::Tabulated(_) => bail!(
+                        "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
+                        scatterer.name
+                    ),
+                }
+            }
+            parts.push(part);
+        }
+        let sun = SunColumns::new(&atmosphere);
+        Ok(Self {
+            atmosphere,
+            parts,
+            polarising,
+            sun,
+            sun_radius,
+        })
+    }
+
+    /// Profiles of all constituents at `altitude`.
+    pub fn profiles(&self, altitude: f64) -> [f32; MAX_CONSTITUENTS] {
+        let mut out = [0.0; MAX_CONSTITUENTS];
+        for (k, p) in out.iter_mut().enumerate().take(self.parts.len()) {
+            *p = self.atmosphere.profile(k, altitude) as f32;
+        }
+        out
+    }
+
+    /// Transmittance for columns along a path.
+    pub fn transmittance(&self, columns: &Columns) -> Spectrum {
+        self.attenuate(&columns.map(|c| c as f32))
+    }
+
+    /// Transmittance from `altitude` to the sun, whose centre stands `mu` above the local horizontal (sine of its elevation).
+    ///
+    /// Near the planet's edge it is the share of the disc above the horizon, seen through the air at the centroid of that share.
+    pub fn sunlight(&self, altitude: f64, mu: f64) -> Option<Spectrum> {
+        let dip = self.sun.planet().dip(altitude);
+        let angle = mu.clamp(-1.0, 1.0).asin() + dip;
+        let x = angle / self.sun_radius.max(1e-12);
+        if x <= -1.0 {
+            return None;
+        }
+        let (share, rise) = if x >= 1.0 {
+            (1.0, 0.0)
+        } else {
+            visible_disc(x)
+        };
+        let centre = (angle + rise * self.sun_radius).max(0.0);
+        let columns = self.sun.at(altitude, centre, dip);
+        Some(self.attenuate(&columns).map(|t| t * share as f32))
+    }
+
+    fn attenuate(&self, columns: &[f32; MAX_CONSTITUENTS]) -> Spectrum {
+        let mut tau = [0.0f32; NW];
+        for (part, c) in self.parts.iter().zip(columns) {
+            for (sum, extinction) in tau.iter_mut().zip(&part.extinction) {
+                *sum += extinction * c;
+            }
+        }
+        tau.map(|t| (-t).exp())
+    }
+}
+
+/// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's centre, for
+/// a centre `x` radii above the horizon.
+fn visible_disc(x: f64) -> (f64, f64) {
+    use std::f64::consts::PI;
+    let chord = 1.0 - x * x;
+    let share = 0.5 + (x * chord.sqrt() + x.asin()) / PI;
+    (share, 2.0 / 3.0 * chord.powf(1.5) / (PI * share.max(1e-12)))
+}
+
+/// Narrows a per-wavelength vector.
+pub fn spectrum(values: &[f64]) -> Spectrum {
+    std::array::from_fn(|w| values[w] as f32)
+}
+
+/// Henyey-Greenstein phase function, mean 1, at the cosine `c` of the scattering angle.
+pub fn henyey_greenstein(g: &Spectrum, c: f32) -> Spectrum {
+    std::array::from_fn(|w| {
+        let x = 1.0 + g[w] * g[w] - 2.0 * g[w] * c;
+        (1.0 - g[w] * g[w]) / (x * x.sqrt())
+    })
+}
+
+/// Rayleigh phase function, mean 1, for polarising shares `delta`.
+pub fn rayleigh_phase(delta: &Spectrum, c: f32) -> Spectrum {
+    delta.map(|d| 0.75 * d * (1.0 + c * c) + 1.0 - d)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_solar_disc_sets_smoothly() {
+        assert!((visible_disc(0.0).0 - 0.5).abs() < 1e-12);
+        assert!((visible_disc(0.0).1 - 4.0 / (3.0 * std::f64::consts::PI)).abs() < 1e-12);
+        assert!(visible_disc(0.999_999).0 > 0.999 && visible_disc(0.999_999).1 < 1e-3);
+        assert!(visible_disc(-0.999).0 < 1e-3 && (visible_disc(-0.999).1 - 1.0).abs() < 0.01);
+    }
+}

@@ -1,0 +1,215 @@
+//! View rays through a solved light field: the fields that the model stores.
+
+use super::first_order;
+use super::ray_points::{Path, trace};
+use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
+use super::solve::LightField;
+use super::spectral_medium::{Medium, NW, Spectrum, henyey_greenstein};
+use crate::column::planet;
+use welkin::geometry::{Planet, Side};
+
+/// Number of fields.
+pub const FIELDS: usize = 5;
+/// Number of fields of Q and U.
+pub const POLARISED: usize = 4;
+
+/// Light along a view ray, divided by what the evaluator multiplies back.
+///
+/// Singly scattered light is stored without its phase function; soot shares the phase function of the water-soluble particles and
+/// the small difference goes to the multiply scattered light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fields {
+    /// Single Rayleigh scattering, over its phase function.
+    pub rayleigh: Spectrum,
+    /// Single scattering by water-soluble particles and soot, over the phase function of the former.
+    pub fine: Spectrum,
+    /// Single scattering by insoluble particles, over their phase function.
+    pub coarse: Spectrum,
+    /// Multiply scattered light over a black ground: I, Q, U.
+    pub multiple: Stokes,
+    /// Light that left a white ground once: I, Q, U.
+    pub ground: Stokes,
+}
+
+impl Fields {
+    /// The five intensities in the order of the file, then Q and U of the multiply scattered light and of the light from the ground.
+    pub fn spectra(&self) -> [&Spectrum; FIELDS + POLARISED] {
+        let ([i, q, u], [ground_i, ground_q, ground_u]) = (&self.multiple, &self.ground);
+        let (rayleigh, fine, coarse) = (&self.rayleigh, &self.fine, &self.coarse);
+        [
+            rayleigh, fine, coarse, i, ground_i, q, u, ground_q, ground_u,
+        ]
+    }
+}
+
+const WASO: usize = 0;
+const INSO: usize = 1;
+const SOOT: usize = 2;
+
+/// Gathers along view rays.
+pub struct Gatherer<'a> {
+    medium: &'a Medium,
+    light: &'a LightField,
+    planet: Planet,
+    fineness: f64,
+}
+
+impl<'a> Gatherer<'a> {
+    /// With segments `fineness` times the production length.
+    pub fn new(medium: &'a Medium, light: &'a LightField, fineness: f64) -> Self {
+        Self {
+            medium,
+            light,
+            planet: planet(&medium.atmosphere),
+            fineness,
+        }
+    }
+
+    /// The air.
+    pub fn medium(&self) -> &Medium {
+        self.medium
+    }
+
+    /// The light in it.
+    pub fn light(&self) -> &LightField {
+        self.light
+    }
+
+    /// The planet.
+    pub fn planet(&self) -> Planet {
+        self.planet
+    }
+
+    /// The ray from `altitude` (m) at `elevation` (rad) above the local horizontal; on the side of the horizon that `side` says.
+    pub fn path(&self, altitude: f64, elevation: f64, side: Side) -> Path {
+        let ray = self.planet.ray(altitude, elevation);
+        let length = if ray.side == side {
+            ray.length
+        } else {
+            self.tangent(altitude, side)
+        };
+        trace(
+            self.medium,
+            altitude,
+            elevation.sin(),
+            length,
+            side == Side::Down,
+            self.fineness,
+        )
+    }
+
+    /// Length of the ray that touches the ground, counted to the ground or to the top of the atmosphere.
+    fn tangent(&self, altitude: f64, side: Side) -> f64 {
+        let reach = |h: f64| (h * (2.0 * self.planet.radius + h)).sqrt();
+        match side {
+            Side::Down => reach(altitude),
+            Side::Up => reach(altitude) + reach(self.planet.top),
+        }
+    }
+
+    /// Fields along `path`, whose zenith cosine is `mu`, for every sun.
+    pub fn fields(&self, path: &Path, mu: f64, suns: &[Sun]) -> Vec<Fields> {
+        let parts = self.medium.parts.len();
+        let mut sunlit = vec![[0.0; NW]; parts * suns.len()];
+        let mut multiple = vec![[DARK; 2]; suns.len()];
+        for node in &path.nodes {
+            let profiles = self.medium.profiles(node.altitude);
+            let sky = SourceTable::new(self.medium, &self.light.sky, node);
+            let ground = SourceTable::new(self.medium, &self.light.ground, node);
+            for (i, sun) in suns.iter().enumerate() {
+                let local = sun.at(node);
+                if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
+                    first_order::add(
+                        &profiles,
+                        &t,
+                        &node.weight,
+                        &mut sunlit[i * parts..(i + 1) * parts],
+                    );
+                }
+                sky.add(self.medium, &local, &node.weight, &mut multiple[i][0]);
+                ground.add(self.medium, &local, &node.weight, &mut multiple[i][1]);
+            }
+        }
+        let mut out = vec![];
+        for ((sun, sums), light) in suns.iter().zip(sunlit.chunks_exact(parts)).zip(multiple) {
+            out.push(self.assemble(sums, light, scattering_cosine(mu, sun)));
+        }
+        out
+    }
+
+    /// All light along `path`, polarised, for one sun and ground albedo; for an atmosphere of any make.
+    pub fn stokes(&self, path: &Path, mu: f64, sun: &Sun, albedo: f32) -> Stokes {
+        let mut sums = vec![[0.0; NW]; self.medium.parts.len()];
+        let mut light = [DARK; 2];
+        for node in &path.nodes {
+            let local = sun.at(node);
+            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
+                first_order::add(
+                    &self.medium.profiles(node.altitude),
+                    &t,
+                    &node.weight,
+                    &mut sums,
+                );
+            }
+            for (moments, out) in [&self.light.sky, &self.light.ground]
+                .into_iter()
+                .zip(&mut light)
+            {
+                let table = SourceTable::new(self.medium, moments, node);
+                table.add(self.medium, &local, &node.weight, out);
+            }
+        }
+        let mut out = first_order::stokes(self.medium, &sums, mu, sun);
+        for (s, total) in out.iter_mut().enumerate() {
+            for w in 0..NW {
+                let ground = albedo / (1.0 - albedo * self.light.spherical_albedo[w]);
+                total[w] += light[0][s][w] + ground * light[1][s][w];
+            }
+        }
+        out
+    }
+
+    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
+        let [mut multiple, ground] = light;
+        let waso = first_order::aerosol(self.medium, WASO, sums);
+        let soot = first_order::aerosol(self.medium, SOOT, sums);
+        let shared = henyey_greenstein(&self.asymmetry(WASO), cosine);
+        let own = henyey_greenstein(&self.asymmetry(SOOT), cosine);
+        for w in 0..NW {
+            multiple[0][w] += soot[w] * (own[w] - shared[w]);
+        }
+        Fields {
+            rayleigh: first_order::rayleigh(self.medium, sums),
+            fine: std::array::from_fn(|w| waso[w] + soot[w]),
+            coarse: first_order::aerosol(self.medium, INSO, sums),
+            multiple,
+            ground,
+        }
+    }
+
+    /// Polarising share of Rayleigh scattering.
+    pub fn polarising(&self) -> &Spectrum {
+        &self.medium.polarising
+    }
+
+    /// Henyey-Greenstein phase function of an aerosol species.
+    pub fn phase(&self, species: usize, cosine: f32) -> Spectrum {
+        henyey_greenstein(&self.asymmetry(species), cosine)
+    }
+
+    /// Asymmetry parameter of an aerosol species; 0 where the atmosphere has none.
+    pub fn asymmetry(&self, species: usize) -> Spectrum {
+        let mut found = self
+            .medium
+            .parts
+            .iter()
+            .filter_map(|p| p.aerosols.get(species));
+        found.next().map_or([0.0; NW], |a| a.g)
+    }
+}
+
+/// Cosine of the angle between a view ray of zenith cosine `mu` and the sun.
+pub fn scattering_cosine(mu: f64, sun: &Sun) -> f32 {
+    let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
+    (sine * sun.elevation.0 * sun.azimuth.0 + mu * sun.elevation.1).clamp(-1.0, 1.0) as f32
+}

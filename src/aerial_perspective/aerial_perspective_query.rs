@@ -1,0 +1,273 @@
+//! In-scattered light where every segment has its own conditions: of the tables of a [`AerialPerspective`] only the nodes that a segment needs
+//! are computed, by the same rules.
+
+use std::sync::Arc;
+
+use super::source_expansion::{Expansion, Fill, Scratch};
+use super::source_table::{ground_factor, overflow, reach, sun_nodes};
+use super::sun_transmittance::NODES;
+use super::{AerialPerspective, Scatterers, sun_direction};
+use crate::conditions::Conditions;
+use crate::error::Result;
+use crate::format::visibility_node;
+use crate::kernel::axis::{Stencil, hermite, linear};
+use crate::kernel::simd::{Instructions, Kernel, dispatch};
+use crate::model::Model;
+use crate::polarisation::{PolarisationFrame, Stokes};
+use crate::transmittance::{Extinction, Segment};
+
+/// Transmittance and in-scattered light of segments that share no conditions, like the rows of a table.
+///
+/// It answers as the [`AerialPerspective`] of the conditions does, but for rounding, and takes some tens of microseconds for a segment with new
+/// conditions where preparing an aerial perspective takes milliseconds; segments that follow each other under the same sun, visibility and albedo
+/// share what they need. Holds the source of all visibilities; clones, one per thread, share that.
+///
+/// Where the conditions change, a few small tables are allocated. `Send + Sync`.
+#[derive(Clone)]
+pub struct AerialPerspectiveQuery<'a> {
+    model: &'a Model,
+    expansion: Arc<Expansion<'a>>,
+    /// Right where the stamps say so.
+    aerial: AerialPerspective,
+    visibilities: Stencil,
+    ground: Vec<f64>,
+    /// Sines of the sun nodes of the source.
+    suns: Vec<f64>,
+    now: u32,
+    /// When each node of the beam and of the source, `[sun][altitude]`, was computed.
+    beam: Vec<u32>,
+    source: Vec<u32>,
+    scratch: Scratch,
+}
+
+impl Model {
+    /// Prepares in-scattering for segments that share no conditions. Reads and verifies the sources of all visibilities.
+    ///
+    /// # Errors
+    /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged.
+    pub fn aerial_perspective_query(&self) -> Result<AerialPerspectiveQuery<'_>> {
+        let expansion = Arc::new(Expansion::new(self)?);
+        let [visibility, _] = self.visibility_range();
+        let aerial = self.aerial_perspective(&Conditions {
+            visibility,
+            altitude: self.altitude_range()[0],
+            solar_elevation: self.solar_elevation_range()[1],
+            albedo: 0.0,
+            solar_azimuth: 0.0,
+        })?;
+        let mut query = AerialPerspectiveQuery {
+            model: self,
+            expansion,
+            visibilities: hermite(&self.head().visibility_nodes(), visibility_node(visibility)),
+            ground: Vec::new(),
+            suns: Vec::new(),
+            now: 0,
+            beam: vec![0; NODES],
+            source: Vec::new(),
+            scratch: Scratch::default(),
+            aerial,
+        };
+        let conditions = query.aerial.conditions;
+        query.turn(&conditions);
+        Ok(query)
+    }
+}
+
+impl AerialPerspectiveQuery<'_> {
+    /// Wavelengths of the results, nm.
+    pub fn wavelengths(&self) -> &[f64] {
+        self.aerial.wavelengths()
+    }
+
+    /// As [`AerialPerspective::in_scattering`], under these conditions.
+    ///
+    /// # Errors
+    /// As [`Model::aerial_perspective`] and [`AerialPerspective::in_scattering`].
+    pub fn in_scattering(
+        &mut self,
+        conditions: &Conditions,
+        from: [f64; 3],
+        to: [f64; 3],
+        in_scattering: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.set(conditions)?;
+        let segment = self.aerial.segment(from, to)?;
+        self.fill(&segment)?;
+        self.aerial
+            .in_scattering(from, to, in_scattering, transmittance)
+    }
+
+    /// As [`AerialPerspective::to_end`], under these conditions.
+    ///
+    /// # Errors
+    /// As [`Model::aerial_perspective`] and [`AerialPerspective::to_end`].
+    pub fn to_end(
+        &mut self,
+        conditions: &Conditions,
+        from: [f64; 3],
+        direction: [f64; 3],
+        in_scattering: &mut [f32],
+        transmittance: &mut [f32],
+    ) -> Result<()> {
+        self.set(conditions)?;
+        let (segment, _) = Segment::to_end(&self.aerial.air.planet(), from, direction)?;
+        self.fill(&segment)?;
+        self.aerial
+            .to_end(from, direction, in_scattering, transmittance)
+    }
+
+    /// As [`AerialPerspective::relative_stokes_at`], under these conditions.
+    ///
+    /// # Errors
+    /// As [`Model::aerial_perspective`] and [`AerialPerspective::relative_stokes_at`].
+    pub fn relative_stokes_at(
+        &mut self,
+        conditions: &Conditions,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: PolarisationFrame,
+        wavelength: f64,
+    ) -> Result<Stokes> {
+        self.set(conditions)?;
+        let segment = self.aerial.segment(from, to)?;
+        self.fill(&segment)?;
+        self.aerial.relative_stokes_at(from, to, frame, wavelength)
+    }
+
+    /// Goes over to other conditions.
+    fn set(&mut self, conditions: &Conditions) -> Result<()> {
+        let conditions = conditions.checked(self.model)?;
+        let last = self.aerial.conditions;
+        let shared = |c: &Conditions| [c.solar_elevation, c.visibility, c.albedo].map(f64::to_bits);
+        if shared(&conditions) != shared(&last) {
+            self.turn(&conditions);
+        }
+        if conditions.solar_elevation != last.solar_elevation
+            || conditions.solar_azimuth != last.solar_azimuth
+        {
+            self.aerial.sun = sun_direction(conditions.solar_elevation, conditions.solar_azimuth);
+        }
+        self.aerial.conditions = conditions;
+        Ok(())
+    }
+
+    /// Prepares what is small, and forgets the nodes.
+    fn turn(&mut self, conditions: &Conditions) {
+        let head = self.model.head();
+        let Conditions {
+            visibility,
+            solar_elevation,
+            ..
+        } = *conditions;
+        let (nodes, x) = (head.visibility_nodes(), visibility_node(visibility));
+        self.visibilities = hermite(&nodes, x);
+        self.ground = ground_factor(head, visibility, conditions.albedo);
+        let sources = &self.expansion.sources;
+        let around: Vec<_> = (linear(&nodes, x).taps())
+            .map(|(v, weight)| (sources[v], weight))
+            .collect();
+        let aerial = &mut self.aerial;
+        aerial.species = Scatterers::new(head, around.into_iter());
+        aerial.air.extinction = Extinction::new(head, visibility);
+        aerial.grey = aerial.air.grey();
+        aerial.beam.turn(&aerial.air.planet(), solar_elevation);
+        self.suns = sun_nodes(solar_elevation, reach(&head.planet));
+        aerial.source.turn(&self.suns);
+        let nodes = aerial.source.altitudes() * self.suns.len();
+        // Near the zenith the sun has fewer nodes; room for more stays.
+        self.source.resize(nodes.max(self.source.len()), 0);
+        self.now = self.now.checked_add(1).unwrap_or_else(|| {
+            self.beam.fill(0);
+            self.source.fill(0);
+            1
+        });
+    }
+
+    /// Computes the nodes that a segment needs.
+    fn fill(&mut self, segment: &Segment) -> Result<()> {
+        dispatch(Needs {
+            query: self,
+            segment,
+        })
+    }
+
+    fn fill_beam(&mut self, nodes: &[usize]) {
+        for &node in nodes {
+            if self.beam[node] != self.now {
+                self.beam[node] = self.now;
+                self.aerial.beam.fill(&self.aerial.air.layers, node);
+            }
+        }
+    }
+
+    /// Computes the source at two altitudes and a sun.
+    fn fill_source(&mut self, altitude: usize, sun: usize) -> Result<()> {
+        let (stamps, now) = (&mut self.source, self.now);
+        let mut missing = [0; 2];
+        let mut count = 0;
+        for altitude in [altitude, altitude + 1] {
+            let stamp = &mut stamps[sun * self.aerial.source.altitudes() + altitude];
+            if *stamp != now {
+                *stamp = now;
+                missing[count] = altitude;
+                count += 1;
+            }
+        }
+        if count == 0 {
+            return Ok(());
+        }
+        let fill = Fill {
+            expansion: &self.expansion,
+            visibilities: &self.visibilities,
+            ground: &self.ground,
+            sun: (sun, self.suns[sun]),
+            altitudes: &missing[..count],
+            table: &mut self.aerial.source,
+            scratch: &mut self.scratch,
+        };
+        match fill.run() {
+            true => Ok(()),
+            false => {
+                // What is not finite must not be taken for computed.
+                self.source.fill(0);
+                Err(overflow())
+            }
+        }
+    }
+}
+
+/// Computes the nodes that a segment needs.
+struct Needs<'b, 'a> {
+    query: &'b mut AerialPerspectiveQuery<'a>,
+    segment: &'b Segment,
+}
+
+impl Kernel for Needs<'_, '_> {
+    type Output = Result<()>;
+
+    #[inline(always)]
+    fn run<I: Instructions>(self, _: I) -> Result<()> {
+        let Self { query, segment } = self;
+        let (panels, places, _) = query.aerial.panels(segment);
+        let planet = query.aerial.air.planet();
+        let ends = 2 * (panels.count + 1).div_ceil(2);
+        for (i, places) in places.iter().enumerate() {
+            let nodes = query.aerial.beam.nodes(&planet, places);
+            let count = ends.saturating_sub(i * nodes.len()).min(nodes.len());
+            for nodes in &nodes[..count] {
+                query.fill_beam(nodes);
+            }
+        }
+        let stations = panels.count + 1..panels.count + 1 + panels.stations.shares.len();
+        for i in stations {
+            let places = &places[i / super::path_points::BATCH];
+            let lane = i % super::path_points::BATCH;
+            let source = &query.aerial.source;
+            let [altitude, sun] = source.cell(places.altitude.0[lane], places.sun.0[lane]);
+            query.fill_source(altitude, sun)?;
+            query.fill_source(altitude, sun + 1)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,217 @@
+//! A baked sky in colour.
+
+use core::marker::PhantomData;
+
+use super::batch::{Directions, Group, Sink, check_length};
+use super::coordinates::Frame;
+use super::{BakeError, Baked, Channels};
+use crate::conditions::Conditions;
+use crate::error::Result;
+use crate::kernel::lanes::Lanes;
+use crate::sky::Sky;
+use crate::sky::XYZ_TO_SRGB;
+
+/// X, Y, Z and nothing: the width of a vector.
+const LANES: usize = 4;
+
+/// A sky as tables of about 12 kB that hold the colours and no wavelengths. Otherwise as [`BakedSky`](crate::BakedSky).
+///
+/// The tables hold CIE XYZ, as the components of wide-gamut skies in RGB can be negative.
+#[derive(Clone, Debug)]
+pub struct BakedColourSky {
+    baked: Baked<LANES>,
+}
+
+struct Xyz<'a>(&'a Sky);
+
+impl Channels<LANES> for Xyz<'_> {
+    fn blocks(&self) -> usize {
+        1
+    }
+
+    fn count(&self) -> usize {
+        3
+    }
+
+    fn project(&self, radiance: &[f32], _: usize) -> Lanes<LANES> {
+        let [x, y, z] = self.0.project_xyz(radiance);
+        Lanes([x, y, z, 1.0])
+    }
+}
+
+impl Sky {
+    /// As [`Sky::bake`], for colours.
+    ///
+    /// # Errors
+    /// As [`Sky::bake`].
+    pub fn bake_colour(&self, tolerance: f64) -> Result<BakedColourSky> {
+        let baked = Baked::new(self, &Xyz(self), tolerance)?;
+        Ok(BakedColourSky { baked })
+    }
+}
+
+impl BakedColourSky {
+    /// The conditions that the sky was prepared for.
+    pub fn conditions(&self) -> &Conditions {
+        &self.baked.conditions
+    }
+
+    /// As [`Sky::set_solar_azimuth`].
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if the azimuth is not finite.
+    pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        self.baked.set_solar_azimuth(azimuth)
+    }
+
+    /// What baking added to the error of X, Y and Z.
+    pub fn bake_error(&self) -> BakeError {
+        self.baked.error
+    }
+
+    pub(super) fn frame(&self) -> Frame {
+        self.baked.frame
+    }
+
+    /// Memory on the heap, bytes.
+    pub fn bytes(&self) -> usize {
+        self.baked.table.bytes()
+    }
+
+    /// As [`Sky::xyz`].
+    ///
+    /// # Errors
+    /// [`crate::Error::Direction`] for a vector that is zero or not finite.
+    #[inline]
+    pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+        self.one::<CieXyz>(direction)
+    }
+
+    /// As [`Sky::linear_srgb`].
+    ///
+    /// # Errors
+    /// [`crate::Error::Direction`] for a vector that is zero or not finite.
+    #[inline]
+    pub fn linear_srgb(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+        self.one::<LinearSrgb>(direction)
+    }
+
+    /// [`BakedColourSky::xyz`] for many directions.
+    ///
+    /// # Errors
+    /// [`crate::Error::Direction`]; [`crate::Error::Length`] for components of different lengths, or unless `out` has one element
+    /// per direction. What precedes a bad direction may or may not be written.
+    pub fn xyz_batch(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
+        self.batch::<CieXyz>(directions, out)
+    }
+
+    /// [`BakedColourSky::linear_srgb`] for many directions.
+    ///
+    /// # Errors
+    /// As [`BakedColourSky::xyz_batch`].
+    pub fn linear_srgb_batch(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
+        self.batch::<LinearSrgb>(directions, out)
+    }
+
+    #[inline(always)]
+    fn one<C: Space>(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+        let mut out = [[0.0; 3]];
+        self.baked.one(
+            direction,
+            Colours::<C> {
+                out: &mut out,
+                space: PhantomData,
+            },
+        )?;
+        Ok(out[0])
+    }
+
+    #[inline(always)]
+    fn batch<C: Space>(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
+        directions.check()?;
+        check_length("output", out.len(), directions.len())?;
+        self.baked.each(
+            directions,
+            Colours::<C> {
+                out,
+                space: PhantomData,
+            },
+        )
+    }
+}
+
+/// Colours one after another.
+struct Colours<'a, C> {
+    out: &'a mut [[f32; 3]],
+    space: PhantomData<C>,
+}
+
+impl<C: Space> Sink<LANES> for Colours<'_, C> {
+    #[inline(always)]
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            ..
+        } = group;
+        let mut logarithms = [Lanes::splat(0.0); W];
+        for i in 0..count {
+            logarithms[i] = table.logarithm(spots, i, 0);
+        }
+        let [x, y, z, _] = transpose(&logarithms);
+        let xyz = [
+            x.exp2() * spots.opacity,
+            y.exp2() * spots.opacity,
+            z.exp2() * spots.opacity,
+        ];
+        let [r, g, b] = C::from_xyz(xyz);
+        let (r, g, b) = (r.0, g.0, b.0);
+        for (i, out) in self.out[index..][..count].iter_mut().enumerate() {
+            *out = [r[i], g[i], b[i]];
+        }
+    }
+}
+
+/// A colour space.
+trait Space {
+    fn from_xyz<const W: usize>(xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3];
+}
+
+struct CieXyz;
+
+impl Space for CieXyz {
+    #[inline(always)]
+    fn from_xyz<const W: usize>(xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
+        xyz
+    }
+}
+
+struct LinearSrgb;
+
+impl Space for LinearSrgb {
+    #[inline(always)]
+    fn from_xyz<const W: usize>([x, y, z]: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
+        let [r, g, b] = XYZ_TO_SRGB;
+        [weigh(x, y, z, r), weigh(x, y, z, g), weigh(x, y, z, b)]
+    }
+}
+
+#[inline(always)]
+fn weigh<const W: usize>(x: Lanes<W>, y: Lanes<W>, z: Lanes<W>, weight: [f32; 3]) -> Lanes<W> {
+    let limit = Lanes::splat(f32::MAX);
+    let sum = x * weight[0] + y * weight[1] + z * weight[2];
+    sum.min(limit).max(-limit)
+}
+
+#[inline(always)]
+fn transpose<const W: usize>(rows: &[Lanes<LANES>; W]) -> [Lanes<W>; LANES] {
+    let mut columns = [Lanes::splat(0.0); LANES];
+    for (k, column) in columns.iter_mut().enumerate() {
+        for i in 0..W {
+            column.0[i] = rows[i].0[k];
+        }
+    }
+    columns
+}

@@ -1,0 +1,195 @@
+//! A baked sky with its polarisation.
+
+use core::ops::Range;
+
+use super::BakeError;
+use super::baked_spectral::{BakedSky, LANES, write};
+use super::batch::{Directions, Group, Sink};
+use super::frame_rotation::Axes;
+use super::polarisation_table::{self, PolarisationTable, turned};
+use crate::error::Result;
+use crate::kernel::lanes::Lanes;
+use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
+
+/// A [`BakedSky`] with its polarisation: as fast a way to all Stokes vectors of a direction.
+///
+/// Single queries, batches, wide and narrow vectors give the same bits, and the radiance is that of [`BakedPolarisedSky::sky`].
+/// Q² + U² ≤ I². Nothing allocates. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct BakedPolarisedSky {
+    sky: BakedSky,
+    pub(super) degrees: PolarisationTable,
+    error: BakeError,
+}
+
+impl PolarisedSky {
+    /// Bakes the sky into tables whose errors are at most `tolerance` at 95 % of the directions and wavelengths, e.g.
+    /// [`BakedSky::TOLERANCE`]: that of the radiance, relative to it, and that of (Q, U), relative to the radiance, too.
+    ///
+    /// # Errors
+    /// As [`Sky::bake`](crate::Sky::bake).
+    pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
+        let mut sky = self.sky().bake(tolerance)?;
+        let grid = sky.baked.table.grid;
+        let (degrees, error) = PolarisationTable::new(self, grid, sky.frame(), tolerance)?;
+        sky.baked.table.refine(degrees.grid());
+        Ok(BakedPolarisedSky {
+            sky,
+            degrees,
+            error,
+        })
+    }
+}
+
+impl BakedPolarisedSky {
+    /// The sky without its polarisation.
+    pub fn sky(&self) -> &BakedSky {
+        &self.sky
+    }
+
+    /// As [`Sky::set_solar_azimuth`](crate::Sky::set_solar_azimuth).
+    ///
+    /// # Errors
+    /// [`crate::Error::OutOfRange`] if the azimuth is not finite.
+    pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        self.sky.set_solar_azimuth(azimuth)
+    }
+
+    /// What baking added to the error of (Q, U) over I, as a distance: directions as in [`BakedSky::bake_error`], which is that
+    /// of I.
+    pub fn polarisation_error(&self) -> BakeError {
+        self.error
+    }
+
+    /// Memory on the heap, bytes: less than three times that of [`BakedPolarisedSky::sky`].
+    pub fn bytes(&self) -> usize {
+        self.sky.bytes() + self.degrees.bytes()
+    }
+
+    /// Stokes vectors at each of [`BakedSky::wavelengths`], as [`PolarisedSky::stokes`].
+    ///
+    /// # Errors
+    /// [`crate::Error::Direction`] for a direction or an axis that is zero or not finite;
+    /// [`crate::Error::Length`] unless the outputs have one element per wavelength.
+    #[inline]
+    pub fn stokes(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        out: StokesSpectra,
+    ) -> Result<()> {
+        let sink = self.sink(frame, out, 1)?;
+        self.sky.baked.one(direction, sink)
+    }
+
+    /// [`BakedPolarisedSky::stokes`] for many directions.
+    ///
+    /// # Errors
+    /// As [`BakedPolarisedSky::stokes`]; [`crate::Error::Length`] also for components of different lengths.
+    /// What precedes a bad direction may or may not be written.
+    pub fn stokes_batch(
+        &self,
+        directions: &Directions,
+        frame: PolarisationFrame,
+        out: StokesSpectra,
+    ) -> Result<()> {
+        directions.check()?;
+        let sink = self.sink(frame, out, directions.len())?;
+        self.sky.baked.each(directions, sink)
+    }
+
+    #[inline]
+    fn sink<'a>(
+        &'a self,
+        frame: PolarisationFrame,
+        out: StokesSpectra<'a>,
+        directions: usize,
+    ) -> Result<Rows<'a>> {
+        out.check(directions.saturating_mul(self.sky.wavelengths().len()))?;
+        let axes = Axes::new(frame)?;
+        let sky = self;
+        Ok(Rows { sky, axes, out })
+    }
+}
+
+/// Stokes vectors one after another.
+struct Rows<'a> {
+    sky: &'a BakedPolarisedSky,
+    axes: Axes,
+    out: StokesSpectra<'a>,
+}
+
+impl Sink<LANES> for Rows<'_> {
+    #[inline(always)]
+    fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
+        let &Group {
+            first: index,
+            count,
+            table,
+            spots,
+            vectors,
+        } = group;
+        let BakedPolarisedSky { sky, degrees, .. } = self.sky;
+        let n = sky.wavelengths().len();
+        let turn = self.axes.turn(sky.frame(), vectors);
+        for i in 0..count {
+            let row = &mut self.out.i[(index + i) * n..][..n];
+            for block in 0..table.blocks() {
+                write(row, block, sky.light(table, spots, i, block));
+            }
+        }
+        for block in 0..degrees.blocks {
+            // All directions up to here before any is turned: otherwise the compiler makes half vectors of the sums, too.
+            let mut values = [Lanes::splat(0.0); W];
+            for (i, values) in values[..count].iter_mut().enumerate() {
+                *values = degrees.at(spots, i, block);
+            }
+            let mut most = Lanes::splat(0.0);
+            for (i, values) in values[..count].iter().enumerate() {
+                let row = (index + i) * n;
+                let span = row + block * polarisation_table::LANES..row + n;
+                let light = &self.out.i[span.clone()];
+                let [q, u] = turned(values, &turn, i);
+                most = (q * q + u * u).max(most);
+                multiply(&mut self.out.q[span.clone()], light, &q);
+                multiply(&mut self.out.u[span], light, &u);
+            }
+            if most.0.iter().any(|&square| square > ALMOST_WHOLE) {
+                self.out.limit(index * n..(index + count) * n);
+            }
+        }
+    }
+}
+
+/// Squared degree that may exceed 1 when rounding has had its share.
+pub(super) const ALMOST_WHOLE: f32 = 1.0 - 16.0 * f32::EPSILON;
+
+impl StokesSpectra<'_> {
+    /// Where splines overshoot, back to the whole light. That is rare.
+    #[cold]
+    fn limit(&mut self, span: Range<usize>) {
+        let parts = self.q[span.clone()]
+            .iter_mut()
+            .zip(&mut self.u[span.clone()]);
+        for (&i, (q, u)) in self.i[span].iter().zip(parts) {
+            // What is bounded does not overflow when it is squared in double precision.
+            let [bounded_q, bounded_u] = [*q, *u].map(|v| f64::from(v.max(-i).min(i)));
+            let most = f64::from(i) * f64::from(ALMOST_WHOLE);
+            let share = (most / bounded_q.hypot(bounded_u).max(f64::MIN_POSITIVE)).min(1.0);
+            *q = (bounded_q * share) as f32;
+            *u = (bounded_u * share) as f32;
+        }
+    }
+}
+
+/// Writes a part of the light at up to a block of wavelengths.
+#[inline(always)]
+fn multiply(out: &mut [f32], light: &[f32], share: &Lanes<{ polarisation_table::LANES }>) {
+    match (out.first_chunk_mut(), light.first_chunk()) {
+        (Some(out), Some(light)) => *out = (Lanes(*light) * *share).0,
+        _ => {
+            let rest = out.iter_mut().zip(light.iter().zip(&share.0));
+            rest.for_each(|(out, (light, share))| *out = light * share);
+        }
+    }
+}

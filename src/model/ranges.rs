@@ -1,0 +1,98 @@
+//! Conditions within the ranges of a model.
+
+use super::Model;
+use crate::conditions::{Conditions, grounded};
+use crate::error::{Error, Result};
+
+impl Conditions {
+    /// Moves every parameter into the range of `model`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a parameter is not finite.
+    pub fn clamped(&self, model: &Model) -> Result<Self> {
+        let mut moved = *self;
+        for (parameter, value, [min, max]) in moved.ranges(model) {
+            if !value.is_finite() {
+                return Err(parameter.error(*value, min, max));
+            }
+            *value = value.clamp(min, max);
+        }
+        Ok(moved)
+    }
+
+    /// Checks every parameter against the range of `model`; a relative excess of 1e-9 is rounding and gets clamped.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the first parameter that the model does not reach.
+    pub fn checked(&self, model: &Model) -> Result<Self> {
+        let mut checked = Self {
+            altitude: grounded(self.altitude),
+            ..*self
+        };
+        for (parameter, value, range) in checked.ranges(model) {
+            *value = parameter.checked(*value, range)?;
+        }
+        Ok(checked)
+    }
+
+    fn ranges(&mut self, model: &Model) -> [(Parameter, &mut f64, [f64; 2]); 5] {
+        let parameter = |name, unit| Parameter { name, unit };
+        [
+            (
+                parameter("solar_elevation", "rad"),
+                &mut self.solar_elevation,
+                model.solar_elevation_range(),
+            ),
+            (
+                parameter("solar_azimuth", "rad"),
+                &mut self.solar_azimuth,
+                [f64::MIN, f64::MAX],
+            ),
+            (
+                parameter("visibility", "m"),
+                &mut self.visibility,
+                model.visibility_range(),
+            ),
+            (parameter("albedo", ""), &mut self.albedo, [0.0, 1.0]),
+            (
+                parameter("altitude", "m"),
+                &mut self.altitude,
+                model.altitude_range(),
+            ),
+        ]
+    }
+}
+
+/// A visibility, m, within its range; a relative excess of 1e-9 is rounding and gets clamped.
+pub(crate) fn checked_visibility(visibility: f64, range: [f64; 2]) -> Result<f64> {
+    let parameter = Parameter {
+        name: "visibility",
+        unit: "m",
+    };
+    parameter.checked(visibility, range)
+}
+
+struct Parameter {
+    name: &'static str,
+    unit: &'static str,
+}
+
+impl Parameter {
+    fn checked(&self, value: f64, [min, max]: [f64; 2]) -> Result<f64> {
+        let slack = 1e-9 * min.abs().max(max.abs()).min(1e12);
+        match value.is_finite() && value >= min - slack && value <= max + slack {
+            true => Ok(value.clamp(min, max)),
+            false => Err(self.error(value, min, max)),
+        }
+    }
+
+    fn error(&self, value: f64, min: f64, max: f64) -> Error {
+        Error::OutOfRange {
+            parameter: self.name,
+            value,
+            min,
+            max,
+            unit: self.unit,
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! A prepared sky with its polarisation.
+
+use super::frame::{Aspect, PolarisationFrame};
+use super::prepare_stokes::prepare;
+use super::stokes::{Stokes, between};
+use super::stokes_tables::{Block, Mix, Polarisation, limit_even};
+use crate::conditions::Conditions;
+use crate::error::Result;
+use crate::format::Kind;
+use crate::geometry::Ray;
+use crate::kernel::math::{LANES, finite};
+use crate::model::Model;
+use crate::phase_function::SunAngle;
+use crate::sky::prepare::NodeWeights;
+use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
+
+/// A clear sky whose light is polarised, at one set of conditions.
+///
+/// Singly scattered light is polarised as Rayleigh scattering says; what was scattered more often comes from tables of
+/// its own (Wilkie et al. 2021, section 5.2, but with both components). Everything that [`Sky`] says about directions holds here, too.
+///
+/// After [`Model::polarised_sky`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
+#[derive(Clone, Debug)]
+pub struct PolarisedSky {
+    sky: Sky,
+    polarisation: Polarisation,
+}
+
+impl Model {
+    /// Whether the file holds the polarisation of skylight.
+    pub fn is_polarised(&self) -> bool {
+        let mut kinds = self.directory().iter().map(|entry| entry.kind);
+        kinds.any(|kind| kind == Kind::PolarisationBasis)
+    }
+
+    /// Prepares a sky with its polarisation: after this, queries cost no allocation and no system call.
+    ///
+    /// # Errors
+    /// As [`Model::sky`]; [`Error::MissingChunk`](crate::Error::MissingChunk) for a file without polarisation.
+    pub fn polarised_sky(&self, conditions: &Conditions) -> Result<PolarisedSky> {
+        let conditions = conditions.checked(self)?;
+        let place = NodeWeights::new(self.head(), &conditions);
+        let basis = (Kind::PolarisationBasis, None, None);
+        let chunks = place.keys_of(Kind::Polarisation);
+        self.prefetch(place.keys().chain(chunks).chain([basis]))?;
+        let sky = Sky::prepare(self, &conditions)?;
+        let polarisation = prepare(self, &place, conditions.albedo, &sky.tables().layout)?;
+        Ok(PolarisedSky { sky, polarisation })
+    }
+}
+
+impl PolarisedSky {
+    /// The sky without its polarisation.
+    pub fn sky(&self) -> &Sky {
+        &self.sky
+    }
+
+    /// As [`Sky::set_solar_azimuth`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the azimuth is not finite.
+    pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
+        self.sky.set_solar_azimuth(azimuth)
+    }
+
+    /// Memory that the sky holds on the heap, bytes: that of [`PolarisedSky::sky`] and half as much.
+    pub fn bytes(&self) -> usize {
+        self.sky.bytes() + self.polarisation.bytes()
+    }
+
+    /// Stokes vectors in W m⁻² sr⁻¹ nm⁻¹ at each of [`Sky::wavelengths`], in the frame of the caller. Q² + U² ≤ I².
+    ///
+    /// # Errors
+    /// [`Error::Direction`](crate::Error::Direction) for a direction or an axis that is zero or not finite;
+    /// [`Error::Length`](crate::Error::Length) unless `out` has one element per wavelength.
+    pub fn stokes(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        out: &mut [Stokes],
+    ) -> Result<()> {
+        check_length(out.len(), self.sky.wavelengths().len())?;
+        let irradiance = &self.sky.tables().irradiance;
+        self.evaluate(direction, frame, |block, light| {
+            let i =
+                core::array::from_fn(|l| (light.radiance[l] * irradiance[block][l]).min(f32::MAX));
+            store(out, block, i, &light);
+        })
+    }
+
+    /// Stokes vectors per unit of solar spectral irradiance, sr⁻¹; otherwise as [`PolarisedSky::stokes`].
+    ///
+    /// # Errors
+    /// As [`PolarisedSky::stokes`].
+    pub fn relative_stokes(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        out: &mut [Stokes],
+    ) -> Result<()> {
+        check_length(out.len(), self.sky.wavelengths().len())?;
+        self.evaluate(direction, frame, |block, light| {
+            store(out, block, light.radiance, &light);
+        })
+    }
+
+    /// Stokes vector in W m⁻² sr⁻¹ nm⁻¹ at any wavelength (nm) within the range of the model.
+    ///
+    /// # Errors
+    /// [`Error::Direction`](crate::Error::Direction); [`Error::OutOfRange`](crate::Error::OutOfRange) for the wavelength.
+    pub fn stokes_at(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        wavelength: f64,
+    ) -> Result<Stokes> {
+        let i = self.sky.radiance_at(direction, wavelength)?;
+        let mut values = [Stokes::default(); MOST_WAVELENGTHS];
+        let nodes = self.sky.wavelengths();
+        self.evaluate(direction, frame, |block, light| {
+            store(&mut values[..nodes.len()], block, [1.0; LANES], &light);
+        })?;
+        Ok(between(nodes, &values[..nodes.len()], wavelength, i))
+    }
+
+    /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².
+    ///
+    /// # Errors
+    /// [`Error::Direction`](crate::Error::Direction) for a direction or an axis that is zero or not finite.
+    pub fn xyz(&self, direction: [f32; 3], frame: PolarisationFrame) -> Result<[Stokes; 3]> {
+        let mut sums = [Stokes::default(); 3];
+        let weights = &self.sky.tables().xyz;
+        self.evaluate(direction, frame, |block, light| {
+            for (sum, weight) in sums.iter_mut().zip(&weights[block]) {
+                for (lane, weight) in weight.iter().enumerate() {
+                    let i = weight * light.radiance[lane];
+                    sum.i += i;
+                    sum.q += i * light.q[lane];
+                    sum.u += i * light.u[lane];
+                }
+            }
+        })?;
+        Ok(sums.map(|sum| Stokes {
+            i: finite(sum.i),
+            q: finite(sum.q),
+            u: finite(sum.u),
+        }))
+    }
+
+    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit` block by
+    /// block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
+    pub(crate) fn ratios(
+        &self,
+        ray: &Ray,
+        phi: f64,
+        angle: SunAngle,
+        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
+    ) {
+        let tables = self.sky.tables();
+        let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
+        let aspect = Aspect::along(
+            self.sky.cylinder(ray),
+            phi,
+            self.sky.conditions().solar_elevation,
+        );
+        let mix = Mix {
+            single: aspect.single_even().map(|v| v as f32),
+            from_q: [1.0, 0.0],
+            from_u: [0.0, 1.0],
+        };
+        let sine = phi.sin() as f32;
+        self.polarisation
+            .ratios(tables, &lookup, &mix, |block, [q, u]| {
+                emit(block, limit_even(q, u, sine));
+            });
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        emit: impl FnMut(usize, Block),
+    ) -> Result<()> {
+        let lookup = self.sky.lookup(direction)?;
+        let aspect = self.sky.aspect(direction);
+        let mix = Mix::new(&aspect, frame)?;
+        self.polarisation
+            .evaluate(self.sky.tables(), &lookup, &mix, emit);
+        Ok(())
+    }
+}
+
+/// Writes a block of wavelengths, of which the last may be cut short.
+#[inline(always)]
+fn store(out: &mut [Stokes], block: usize, i: [f32; LANES], light: &Block) {
+    let rest = &mut out[block * LANES..];
+    for (lane, stokes) in rest.iter_mut().take(LANES).enumerate() {
+        *stokes = Stokes {
+            i: i[lane],
+            q: i[lane] * light.q[lane],
+            u: i[lane] * light.u[lane],
+        };
+    }
+}
+
+impl Sky {
+    fn aspect(&self, direction: [f32; 3]) -> Aspect {
+        let (sun, azimuth) = self.sun();
+        Aspect::new(direction, sun, azimuth)
+    }
+}

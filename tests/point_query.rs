@@ -1,0 +1,246 @@
+//! Queries without preparation give what prepared skies give.
+
+mod common;
+#[allow(dead_code)]
+#[path = "../tools/src/random.rs"]
+mod random;
+
+use proptest::prelude::*;
+use welkin::{Conditions, Error, Interpolation, Model, PointQuery};
+
+/// Relative differences from skies at random conditions of the default model: median, 95th and 99th percentile.
+fn differences(interpolation: Interpolation) -> [f64; 3] {
+    let model = Model::default_model().unwrap();
+    let general = PointQuery::new(welkin::DEFAULT_MODEL)
+        .unwrap()
+        .with_interpolation(interpolation);
+    let (mut places, mut views) = (
+        random::Sequence::<4>::default(),
+        random::Sequence::<2>::default(),
+    );
+    let mut differences = Vec::new();
+    for _ in 0..400 {
+        let conditions = random::conditions(&model, places.draw());
+        let sky = model.sky(&conditions).unwrap();
+        for _ in 0..4 {
+            let direction = random::sphere(views.draw());
+            let [mut got, mut expected] = [[0.0; 12]; 2];
+            general.radiance(&conditions, direction, &mut got).unwrap();
+            sky.radiance(direction, &mut expected).unwrap();
+            let pairs = got.iter().zip(expected).filter(|&(_, e)| e > 0.0);
+            differences.extend(pairs.map(|(&g, e)| f64::from((g - e).abs() / e)));
+        }
+    }
+    differences.sort_by(f64::total_cmp);
+    [0.5, 0.95, 0.99].map(|q| differences[(q * differences.len() as f64) as usize])
+}
+
+#[test]
+fn fewer_chunks_cost_as_much_accuracy_as_is_said() {
+    let [linear, lean, full] = [
+        Interpolation::Linear,
+        Interpolation::Lean,
+        Interpolation::Full,
+    ]
+    .map(differences);
+    println!("linear {linear:.6?}\nlean   {lean:.6?}\nfull   {full:.8?}");
+    let below = |got: [f64; 3], limits: [f64; 3]| got.iter().zip(limits).all(|(&g, l)| g < l);
+    assert!(below(full, [1e-6, 2e-6, 4e-6]));
+    assert!(below(lean, [6e-4, 4e-3, 7e-3]));
+    assert!(below(linear, [1e-3, 7e-3, 1.3e-2]));
+}
+
+#[test]
+fn it_fits_where_there_is_no_heap() {
+    assert!(size_of::<PointQuery>() < 76_000);
+}
+
+#[test]
+fn at_the_nodes_all_interpolations_agree() {
+    let general = |i| {
+        PointQuery::new(welkin::DEFAULT_MODEL)
+            .unwrap()
+            .with_interpolation(i)
+    };
+    for (altitude, visibility) in [(0.0, 20e3), (1150.0, 59.4e3), (15e3, 131.8e3)] {
+        let conditions = Conditions {
+            altitude,
+            visibility,
+            ..Conditions::default()
+        };
+        let [mut linear, mut lean, mut full] = [[0.0; 12]; 3];
+        let direction = [0.3, 0.4, 0.2];
+        for (interpolation, out) in [
+            (Interpolation::Linear, &mut linear),
+            (Interpolation::Lean, &mut lean),
+            (Interpolation::Full, &mut full),
+        ] {
+            let general = general(interpolation);
+            general.radiance(&conditions, direction, out).unwrap();
+        }
+        assert_eq!(lean, full);
+        assert_eq!(linear, full);
+    }
+}
+
+/// Either side of a node and of the middle of an interval, where other neighbours may count.
+#[test]
+fn nothing_jumps_between_intervals() {
+    let model = Model::default_model().unwrap();
+    let [altitudes, visibilities] = [&model.head().altitudes, &model.head().visibilities];
+    let middles = |nodes: &[f64]| {
+        nodes
+            .windows(2)
+            .map(|n| (n[0] + n[1]) / 2.0)
+            .collect::<Vec<_>>()
+    };
+    let places = [altitudes, visibilities].map(|nodes| {
+        let inner = &nodes[1..nodes.len() - 1];
+        [inner.to_vec(), middles(nodes)].concat()
+    });
+    for interpolation in [
+        Interpolation::Linear,
+        Interpolation::Lean,
+        Interpolation::Full,
+    ] {
+        let general = PointQuery::new(welkin::DEFAULT_MODEL)
+            .unwrap()
+            .with_interpolation(interpolation);
+        for (&altitude, &visibility) in places[0]
+            .iter()
+            .flat_map(|a| places[1].iter().map(move |v| (a, v)))
+        {
+            let [mut below, mut above] = [[0.0; 12]; 2];
+            for (nudge, out) in [(-1e-9, &mut below), (1e-9, &mut above)] {
+                let conditions = Conditions {
+                    altitude: altitude * (1.0 + nudge),
+                    visibility: visibility * (1.0 + nudge),
+                    ..Conditions::default()
+                };
+                general.radiance(&conditions, [0.3, 0.4, 0.2], out).unwrap();
+            }
+            for (below, above) in below.into_iter().zip(above) {
+                assert!(
+                    (below / above - 1.0).abs() < 2e-6,
+                    "{altitude} {visibility} {below} {above}"
+                );
+            }
+        }
+    }
+}
+
+fn bits_of(error: &Error) -> String {
+    error.to_string()
+}
+
+proptest! {
+    #![proptest_config(common::cases(256))]
+
+    #[test]
+    fn general_queries_agree_with_skies(
+        altitude in prop_oneof![Just(0.0), Just(120.0), Just(2000.0), 0.0..2000.0f64],
+        visibility in prop_oneof![Just(59.4e3), Just(20e3), Just(131.8e3), 20e3..131.8e3f64],
+        albedo in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64],
+        elevation in -4.2..90.0f64,
+        solar_azimuth in -7.0..7.0f64,
+        direction in prop::array::uniform3(-1.0..1.0f32),
+        bytes in prop::sample::select(vec![common::model_bytes(), common::wide_bytes(), common::long_bytes()]),
+    ) {
+        let general = PointQuery::new(&bytes).unwrap().with_interpolation(Interpolation::Full);
+        general.verify(&bytes).unwrap();
+        let model = Model::from_bytes(bytes.clone()).unwrap();
+        let solar_elevation = elevation.to_radians();
+        let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
+        let sky = model.sky(&conditions).unwrap();
+        let n = general.wavelengths().len();
+        let (mut got, mut expected, mut zenith) = (vec![f32::NAN; n], vec![f32::NAN; n], vec![f32::NAN; n]);
+        general.radiance(&conditions, direction, &mut got).unwrap();
+        sky.radiance(direction, &mut expected).unwrap();
+        sky.radiance([0.0, 0.0, 1.0], &mut zenith).unwrap();
+        for i in 0..n {
+            let allowed = (3e-5 * expected[i]).max(1e-7 * zenith[i]);
+            prop_assert!((got[i] - expected[i]).abs() <= allowed, "{} {}", got[i], expected[i]);
+        }
+    }
+
+    #[test]
+    fn any_conditions_and_directions_give_numbers_or_the_errors_of_skies(
+        [solar_elevation, solar_azimuth, visibility, albedo, altitude] in prop::array::uniform5(prop_oneof![any::<f64>(), -1.0..2e5f64]),
+        direction in prop::array::uniform3(any::<f32>()),
+    ) {
+        let bytes = common::model_bytes();
+        let general = PointQuery::new(&bytes).unwrap();
+        let model = Model::from_bytes(bytes.clone()).unwrap();
+        let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
+        let mut out = vec![f32::NAN; general.wavelengths().len()];
+        let got = general.radiance(&conditions, direction, &mut out);
+        let expected = model.sky(&conditions).and_then(|sky| sky.radiance(direction, &mut out.clone()));
+        match (&got, &expected) {
+            (Ok(()), Ok(())) => prop_assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0)),
+            (Err(got), Err(expected)) => prop_assert_eq!(bits_of(got), bits_of(expected)),
+            _ => prop_assert!(false, "{got:?} {expected:?}"),
+        }
+    }
+
+    #[test]
+    fn damaged_files_never_panic(place in any::<prop::sample::Index>(), bit in 0..8u32, refresh in any::<bool>()) {
+        let original = common::model_bytes();
+        let mut bytes = original.clone();
+        let place = place.index(bytes.len());
+        bytes[place] ^= 1 << bit;
+        if refresh {
+            common::seal(&mut bytes, &original);
+        }
+        if let Ok(general) = PointQuery::new(&bytes) {
+            let mut out = vec![f32::NAN; general.wavelengths().len()];
+            for z in [-0.5, 0.1, 1.0] {
+                for altitude in [0.0, 500.0] {
+                    let conditions = Conditions { altitude, ..Conditions::default() };
+                    if general.radiance(&conditions, [0.3, 0.2, z], &mut out).is_ok() {
+                        prop_assert!(out.iter().all(|l| l.is_finite()), "{out:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn missing_chunks_and_wrong_lengths_are_typed_errors() {
+    let head = common::head(&[0.0, 120.0, 1000.0], &[20e3, 59.4e3]);
+    let mut chunks = common::chunks(&head);
+    chunks.retain(|c| c.altitude != Some(1));
+    let bytes = welkin::format::encode(&head, &chunks).unwrap();
+    let general = PointQuery::new(&bytes).unwrap();
+    let mut out = vec![0.0; general.wavelengths().len()];
+    let conditions = Conditions::default();
+    general
+        .radiance(&conditions, [0.0, 0.0, 1.0], &mut out)
+        .unwrap();
+    let wrong = general.radiance(&conditions, [0.0, 0.0, 1.0], &mut out[1..]);
+    assert!(matches!(wrong, Err(Error::Length { .. })));
+    let above = Conditions {
+        altitude: 60.0,
+        ..conditions
+    };
+    let missing = general.radiance(&above, [0.0, 0.0, 1.0], &mut out);
+    assert!(matches!(
+        missing,
+        Err(Error::MissingChunk {
+            altitude: Some(120.0),
+            ..
+        })
+    ));
+    assert!(matches!(PointQuery::new(b""), Err(Error::NotWelkin)));
+    assert!(matches!(
+        PointQuery::new(&bytes[..bytes.len() - 1]),
+        Err(Error::Length { .. })
+    ));
+    let mut damaged = bytes.clone();
+    *damaged.last_mut().unwrap() ^= 1;
+    let general = PointQuery::new(&damaged).unwrap();
+    assert!(matches!(
+        general.verify(&damaged),
+        Err(Error::Checksum { .. })
+    ));
+}
