@@ -7,8 +7,8 @@ use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, SolarPositions, delta_t};
 
 use crate::failure::{Failure, Result};
+use crate::position::Position;
 use crate::span::Span;
-use crate::sun::Position;
 
 /// Seconds of a day.
 const DAY: f64 = 86_400.0;

@@ -25,6 +25,7 @@ mod parallel;
 mod picture;
 mod plan;
 mod polarised;
+mod position;
 mod projection;
 mod query;
 mod render;

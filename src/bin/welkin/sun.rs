@@ -4,6 +4,7 @@ use welkin::Conditions;
 
 use crate::almanac::{Instants, Observer, Time};
 use crate::failure::{Failure, Result};
+use crate::position::Position;
 use crate::span::Span;
 
 #[derive(clap::Args)]
@@ -35,13 +36,6 @@ pub struct Sun {
     longitude: Option<f64>,
 }
 
-/// Angles of the sun's centre, rad; azimuth counter-clockwise from +x.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Position {
-    pub elevation: f64,
-    pub azimuth: f64,
-}
-
 fn latitude(text: &str) -> std::result::Result<f64, String> {
     within(text, 90.0)
 }
@@ -54,17 +48,6 @@ fn within(text: &str, most: f64) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.abs() <= most => Ok(value),
         _ => Err(format!("expected degrees in -{most}..={most}")),
-    }
-}
-
-impl Position {
-    /// The same air under this sun.
-    pub fn over(&self, air: &Conditions) -> Conditions {
-        Conditions {
-            solar_elevation: self.elevation,
-            solar_azimuth: self.azimuth,
-            ..*air
-        }
     }
 }
 
