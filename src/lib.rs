@@ -68,7 +68,7 @@ cfg_if::cfg_if! {
 
         pub use aerial_perspective::{
             AerialPerspective, AerialPerspectiveQuery, JoinedAerialPerspective,
-            JoinedPolarisedAerialPerspective,
+            JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
             BakeError, BakedColourSky, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
