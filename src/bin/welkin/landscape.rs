@@ -125,7 +125,7 @@ impl Options {
         };
         let sky = model.sky(&there)?;
         Ok(Some(Landscape {
-            difference: Difference::new(model, &aerial, self.aerial_perspective)?,
+            difference: Difference::new(model, conditions, self.aerial_perspective)?,
             aerial,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
