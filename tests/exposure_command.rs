@@ -154,7 +154,7 @@ fn colours_beyond_the_gamut_leave_no_holes() {
     let folder = folder.path();
     works(
         folder,
-        "render --sun-elevation -2 --altitude 12000 --visibility 131.8 --size 96 --white-balance d65 --out deep",
+        "render --sun-elevation -4 --altitude 15000 --visibility 131.8 --size 256 --out deep",
     );
     let light = exr(&folder.join("deep.exr"));
     let shown = png(&folder.join("deep.png"));
