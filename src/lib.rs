@@ -34,6 +34,7 @@
 //! with `libm`) what is left is [`PointQuery`], which needs neither the standard library nor an allocator.
 
 #![deny(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without the standard library parts of the shared modules are not used.
 #![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]
