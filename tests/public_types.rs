@@ -85,6 +85,7 @@ all_shared! {
     Stokes,
     Stencil,
     StokesSpectra<'static>,
+    SkyDifference<'static>,
     SolarDisc,
     Target,
     Taps,
