@@ -679,3 +679,53 @@ fn only_a_sky_of_the_same_scene_is_taken() {
     assert!(matches!(wrong, Err(Error::Length { .. })));
     assert!(matches!(front.xyz([f64::NAN; 3]), Err(Error::Point { .. })));
 }
+
+/// Eq. 2 of the paper, from skies that are prepared one by one.
+#[cfg(feature = "default-model")]
+#[test]
+fn the_difference_of_skies_is_that_of_prepared_skies() {
+    let model = Model::default_model().unwrap();
+    let conditions = Conditions {
+        solar_azimuth: 0.7,
+        ..Conditions::default()
+    };
+    let difference = model.sky_difference(&conditions).unwrap();
+    let n = model.head().wavelengths.len();
+    let (from, to) = ([0.0, 0.0, 50.0], [0.0, 0.0, 9000.0]);
+    let mut got = vec![0.0; n];
+    difference.in_scattering(from, to, &mut got).unwrap();
+    let [near, far] = [from, to].map(|point| {
+        let altitude = point[2];
+        let sky = model
+            .sky(&Conditions {
+                altitude,
+                ..conditions
+            })
+            .unwrap();
+        let mut out = vec![0.0; n];
+        sky.relative_radiance([0.0, 0.0, 1.0], &mut out).unwrap();
+        out
+    });
+    let mut through = vec![0.0; n];
+    let air = model.transmittance(conditions.visibility).unwrap();
+    air.transmittance(from, to, &mut through).unwrap();
+    for w in 0..n {
+        let expected = near[w] - through[w] * far[w];
+        assert!(
+            (got[w] - expected).abs() <= 1e-5 * near[w],
+            "{w}: {} {expected}",
+            got[w]
+        );
+    }
+    let mut blurred = vec![0.0; n];
+    let level = [20e3, 3e3, 50.0];
+    difference.blurred(from, level, &mut blurred).unwrap();
+    difference.in_scattering(from, level, &mut got).unwrap();
+    assert!(blurred.iter().all(|&l| l >= 0.0) && blurred != got);
+    let beyond = difference.in_scattering(from, [0.0, 0.0, 20e3], &mut got);
+    assert!(
+        matches!(beyond, Err(Error::OutOfRange { .. })),
+        "{beyond:?}"
+    );
+    assert!(difference.in_scattering(from, to, &mut got[1..]).is_err());
+}

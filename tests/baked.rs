@@ -9,7 +9,7 @@ mod random;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use common::{radiance as truth, unit};
+use common::{on_sphere, radiance as truth, unit};
 use proptest::prelude::*;
 use welkin::{BakedColourSky, BakedSky, Conditions, Directions, Error, Model, Sky};
 
@@ -46,10 +46,6 @@ fn radiance(sky: &BakedSky, direction: [f32; 3]) -> Vec<f32> {
     out
 }
 
-fn sphere(z: f64, azimuth: f64) -> [f32; 3] {
-    unit(z.asin(), azimuth)
-}
-
 fn error(got: f32, expected: f32) -> f64 {
     if got == expected {
         return 0.0;
@@ -75,7 +71,7 @@ proptest! {
         let (mut spectral, mut colours) = (Vec::new(), Vec::new());
         for i in 0..4000 {
             let (z, azimuth) = (1.0 - 2.0 * (f64::from(i) * 0.754_877_67 + seed).fract(), f64::from(i) * 3.88);
-            let direction = sphere(z, azimuth);
+            let direction = on_sphere(z, azimuth);
             let pairs = radiance(&baked, direction).into_iter().zip(truth(&sky, direction));
             spectral.extend(pairs.map(|(got, expected)| error(got, expected)));
             let pairs = colour.xyz(direction).unwrap().into_iter().zip(sky.xyz(direction).unwrap());
@@ -156,7 +152,7 @@ proptest! {
         let sky = MODEL.sky(&conditions).unwrap();
         let baked = bake(&sky);
         let dip = (6_378_000.0 / (6_378_000.0 + conditions.altitude)).acos();
-        let normal = sphere(tilt, turn).map(f64::from);
+        let normal = on_sphere(tilt, turn).map(f64::from);
         let across = unit(0.0, turn + TAU / 4.0).map(f64::from);
         let third: [f64; 3] = [
             normal[1] * across[2] - normal[2] * across[1],

@@ -6,6 +6,7 @@ mod common;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
+use common::on_sphere;
 use proptest::prelude::*;
 use welkin::{
     BakedPolarisedSky, BakedSky, Conditions, Directions, Error, Model, PolarisationFrame,
@@ -73,11 +74,6 @@ fn truth(sky: &PolarisedSky, direction: [f32; 3], frame: PolarisationFrame) -> V
     out
 }
 
-fn sphere(z: f64, azimuth: f64) -> [f32; 3] {
-    let r = (1.0 - z * z).sqrt();
-    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
-}
-
 /// Distance of (Q, U) over I.
 fn distance(got: &Stokes, expected: &Stokes) -> f64 {
     if expected.i == 0.0 {
@@ -101,7 +97,7 @@ proptest! {
         let mut errors = Vec::new();
         for i in 0..600 {
             let z = 1.0 - 2.0 * (f64::from(i) * 0.754_877_67 + seed).fract();
-            let direction = sphere(z, f64::from(i) * 3.88);
+            let direction = on_sphere(z, f64::from(i) * 3.88);
             let got = stokes(&baked, direction, frame).unwrap();
             errors.extend(got.iter().zip(&truth(&sky, direction, frame)).map(|(a, b)| distance(a, b)));
         }
@@ -182,7 +178,7 @@ proptest! {
         let conditions = Conditions { solar_azimuth: 0.0, ..conditions };
         let Some(baked) = bake(&MODEL.polarised_sky(&conditions).unwrap()) else { return Ok(()) };
         for frame in [PolarisationFrame::Vertical, PolarisationFrame::SunAligned] {
-            let [left, right] = [azimuth, -azimuth].map(|a| stokes(&baked, sphere(z, a), frame).unwrap());
+            let [left, right] = [azimuth, -azimuth].map(|a| stokes(&baked, on_sphere(z, a), frame).unwrap());
             for (a, b) in left.iter().zip(&right) {
                 prop_assert!((a.q - b.q).abs() <= 1e-5 * a.i && (a.u + b.u).abs() <= 1e-5 * a.i, "{a:?} {b:?}");
             }
@@ -273,7 +269,7 @@ fn the_whole_light_is_never_less_than_its_polarised_part() {
         let sky = model.polarised_sky(&Conditions::default()).unwrap();
         let baked = sky.bake(1e9).unwrap();
         for k in 0..300 {
-            let direction = sphere(1.0 - f64::from(k) / 150.0, 2.4 * f64::from(k));
+            let direction = on_sphere(1.0 - f64::from(k) / 150.0, 2.4 * f64::from(k));
             for light in stokes(&baked, direction, PolarisationFrame::SunAligned).unwrap() {
                 assert!(
                     light.i >= 0.0 && light.q.hypot(light.u) <= light.i,

@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
+use common::command::run;
 use welkin::{Conditions, Model, PolarisationFrame};
 
 struct Bench {
@@ -23,17 +24,7 @@ impl Bench {
     }
 
     fn run(&self, arguments: &[&str], input: &str) -> Output {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-            .args(arguments)
-            .current_dir(self.folder.path())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        // The command may stop before it has read all.
-        let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-        child.wait_with_output().unwrap()
+        run(self.folder.path(), arguments, input)
     }
 
     fn on_model(&self, arguments: &[&str], input: &str) -> Output {

@@ -4,30 +4,12 @@
 mod common;
 
 use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
+use common::command::{QUANTITIES, run, welkin};
 use welkin::format::{Chunk, Head, Payload, encode};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,wavelength_nm,distance_m\n";
-
-fn welkin(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin"));
-    command.args(arguments).current_dir(folder);
-    command
-}
-
-fn run(folder: &Path, arguments: &[&str], input: &str) -> Output {
-    let mut child = welkin(folder, arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Who refuses the arguments does not read.
-    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-    child.wait_with_output().unwrap()
-}
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
@@ -89,16 +71,7 @@ fn absurd_files() -> Vec<(&'static str, Vec<u8>)> {
 fn answers_about_absurd_files_are_numbers_or_errors() {
     let folder = tempfile::tempdir().unwrap();
     let mut table = HEADER.to_owned();
-    for quantity in [
-        "radiance",
-        "relative_radiance",
-        "polarisation",
-        "stokes_q",
-        "stokes_u",
-        "transmittance",
-        "in_scattering",
-        "sun_radiance",
-    ] {
+    for quantity in QUANTITIES {
         for (elevation, zenith, nm) in [
             (20, 70, 430.0),
             (20, 30, 320.0),

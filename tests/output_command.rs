@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use common::command::fifo;
+
 struct Bench(tempfile::TempDir);
 
 impl Bench {
@@ -154,13 +156,7 @@ fn pipes_devices_and_links_stay_what_they_are() {
     use std::os::unix::fs::{FileTypeExt, symlink};
     let bench = Bench::new();
     let pipe = bench.path("pipe");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    fifo(&pipe);
     for line in [
         format!("{RENDER} --format exr --out pipe"),
         format!("{SUBSET} --out pipe"),
@@ -248,13 +244,7 @@ fn temporaries(folder: &Path) -> usize {
 fn stopped_midway(bench: &Bench) -> Child {
     use std::os::unix::fs::symlink;
     let pipe = bench.path("pipe");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    fifo(&pipe);
     symlink("pipe", bench.path("sky.png")).unwrap();
     fs::write(bench.path("sky.exr"), "old").unwrap();
     let line = format!("{RENDER} --out sky");

@@ -84,6 +84,7 @@ all_shared! {
     Stokes,
     Stencil,
     StokesSpectra<'static>,
+    SkyDifference<'static>,
     SolarDisc,
     Target,
     Taps,

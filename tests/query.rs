@@ -1,38 +1,20 @@
-//! `welkin query` on many rows: the answers of prepared skies and hazes, row by row.
+//! `welkin query` on many rows: the answers of prepared skies and aerial perspectives, row by row.
 #![cfg(feature = "cli")]
 
-use std::io::Write;
-use std::process::{Command, Output, Stdio};
+mod common;
 
+use std::path::Path;
+use std::process::Output;
+
+use common::command::{QUANTITIES, run};
+use common::random::Random;
 use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
-const QUANTITIES: [&str; 8] = [
-    "radiance",
-    "relative_radiance",
-    "polarisation",
-    "stokes_q",
-    "stokes_u",
-    "transmittance",
-    "in_scattering",
-    "sun_radiance",
-];
 
 fn query(arguments: &[&str], table: String) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .arg("query")
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let writing = std::thread::spawn(move || input.write_all(table.as_bytes()));
-    let output = child.wait_with_output().unwrap();
-    // The command may stop before it has read all.
-    let _ = writing.join().unwrap();
-    output
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    run(folder, &[&["query"], arguments].concat(), table)
 }
 
 /// Value and error of each row.
@@ -42,23 +24,6 @@ fn answers(output: &Output) -> Vec<(Option<f32>, String)> {
     let rows = reader.records().map(|row| row.unwrap());
     rows.map(|row| (row[9].parse().ok(), row[10].to_owned()))
         .collect()
-}
-
-/// Numbers that are as good as random, the same in every run (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.share()
-    }
 }
 
 /// A row, as numbers in the order of the columns.

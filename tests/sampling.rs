@@ -1,9 +1,12 @@
 //! Draws follow their densities, densities follow the luminance, and sums over the sphere come out.
 #![cfg(feature = "default-model")]
 
+mod common;
+
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
+use common::random::Random;
 use welkin::{
     BakedSky, Conditions, Error, Model, SOLAR_ANGULAR_RADIUS, Sky, SkySampler, SolarDisc,
 };
@@ -30,19 +33,6 @@ fn samplers(sky: &Sky) -> [SkySampler; 2] {
     [without, with]
 }
 
-/// Independent of whatever the library uses.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1u64 << 24) as f32
-    }
-}
-
 /// Bins of equal solid angle.
 const BANDS: usize = 12;
 const SECTORS: usize = 24;
@@ -62,7 +52,7 @@ fn counts_of_draws_pass_a_chi_square_test() {
             let mut random = Random(7);
             let mut counts = [0.0f64; BANDS * SECTORS];
             for _ in 0..draws {
-                counts[bin(sampler.sample([random.next(), random.next()]).direction)] += 1.0;
+                counts[bin(sampler.sample([random.single(), random.single()]).direction)] += 1.0;
             }
             let expected = expected(&sampler, &sky(elevation, altitude));
             let (mut statistic, mut bins) = (0.0, 0.0f64);
@@ -121,7 +111,7 @@ fn expected(sampler: &SkySampler, sky: &Sky) -> Vec<f64> {
 /// A point that is uniform in the disc: one of the ball's middle, seen from far away.
 fn in_disc(sun: [f32; 3], random: &mut Random) -> [f32; 3] {
     loop {
-        let point: [f32; 3] = std::array::from_fn(|_| 2.0 * random.next() - 1.0);
+        let point: [f32; 3] = std::array::from_fn(|_| 2.0 * random.single() - 1.0);
         let along: f32 = (0..3).map(|i| point[i] * sun[i]).sum();
         let across: [f32; 3] = std::array::from_fn(|i| point[i] - along * sun[i]);
         if along.abs() < 0.2 && across.iter().map(|v| v * v).sum::<f32>() <= 1.0 {
@@ -135,7 +125,7 @@ fn densities_are_those_of_the_draws() {
     for sampler in samplers(&sky(12.0, 300.0)) {
         let mut random = Random(1);
         for _ in 0..2000 {
-            let sample = sampler.sample([random.next(), random.next()]);
+            let sample = sampler.sample([random.single(), random.single()]);
             let length: f32 = sample.direction.iter().map(|v| v * v).sum();
             assert!(
                 (length - 1.0).abs() < 1e-5 && sample.pdf > 0.0,
@@ -166,7 +156,7 @@ fn densities_follow_the_luminance() {
     let mut random = Random(5);
     let weights: Vec<f64> = (0..20_000)
         .map(|_| {
-            let sample = sampler.sample([random.next(), random.next()]);
+            let sample = sampler.sample([random.single(), random.single()]);
             f64::from(colour.xyz(sample.direction).unwrap()[1] / sample.pdf)
         })
         .collect();
@@ -194,7 +184,7 @@ fn irradiance_agrees_with_draws() {
             let mut random = Random(11);
             let draws = 40_000;
             for _ in 0..draws {
-                let sample = sampler.sample([random.next(), random.next()]);
+                let sample = sampler.sample([random.single(), random.single()]);
                 let cosine: f32 = (0..3).map(|i| normal[i] * sample.direction[i]).sum();
                 baked.radiance(sample.direction, &mut spectrum).unwrap();
                 for (sum, l) in sum.iter_mut().zip(&spectrum) {

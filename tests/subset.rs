@@ -6,24 +6,20 @@ mod common;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use common::command::welkin;
 use serde_json::Value;
 use welkin::{Conditions, Model};
 
+/// The test model without some of it.
 fn subset(folder: &Path, arguments: &[&str]) -> Output {
     std::fs::write(folder.join("source.welkin"), common::model_bytes()).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args([
-            "subset",
-            "--model",
-            "source.welkin",
-            "--out",
-            "small.welkin",
-            "--json",
-        ])
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    subset_of_source(folder, arguments)
+}
+
+fn subset_of_source(folder: &Path, arguments: &[&str]) -> Output {
+    let files = "subset --model source.welkin --out small.welkin --json";
+    let all: Vec<&str> = files.split(' ').chain(arguments.iter().copied()).collect();
+    welkin(folder, &all).output().unwrap()
 }
 
 fn report(output: &Output) -> Value {
@@ -129,22 +125,7 @@ fn extras_and_what_nobody_sees_can_be_left_out() {
     let folder = tempfile::tempdir().unwrap();
     let source = folder.path().join("source.welkin");
     std::fs::write(&source, common::polarised_bytes(0.02)).unwrap();
-    let run = |arguments: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_welkin"))
-            .args([
-                "subset",
-                "--model",
-                "source.welkin",
-                "--out",
-                "small.welkin",
-                "--json",
-            ])
-            .args(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        report(&output)
-    };
+    let run = |arguments: &[&str]| report(&subset_of_source(folder.path(), arguments));
     let small = || Model::open(folder.path().join("small.welkin")).unwrap();
     run(&["--without", "aerial-perspective"]);
     assert!(small().is_polarised());

@@ -1,9 +1,12 @@
 //! The sun's disc: one physics with transmittance and haze, light of what is visible, draws that survive rounding.
 #![cfg(feature = "default-model")]
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
+use common::random::Random;
 use welkin::format::{Payload, encode, unpack};
 use welkin::{BakedSky, Conditions, Error, Model, Part, SOLAR_ANGULAR_RADIUS, SolarDisc};
 
@@ -17,23 +20,6 @@ static LEAN: LazyLock<Model> = LazyLock::new(|| {
 });
 
 const N: usize = 12;
-
-/// Independent of whatever the library uses.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
 
 fn dip(altitude: f64) -> f64 {
     MODEL.head().planet.dip(altitude)
@@ -78,8 +64,8 @@ fn row(what: &str, errors: &mut [f64]) -> f64 {
 
 /// Half of the suns are within 5° of the geometric horizon, a tenth within 0.1°.
 fn random_conditions(random: &mut Random) -> Conditions {
-    let altitude = 15_000.0 * random.next().powi(2);
-    let above = match random.next() {
+    let altitude = 15_000.0 * random.share().powi(2);
+    let above = match random.share() {
         x if x < 0.1 => random.between(0.0, 0.1),
         x if x < 0.5 => random.between(0.0, 5.0),
         _ => random.between(0.0, 90.0),
@@ -89,7 +75,7 @@ fn random_conditions(random: &mut Random) -> Conditions {
             .clamp(MODEL.solar_elevation_range()[0], FRAC_PI_2),
         solar_azimuth: random.between(-PI, PI),
         visibility: random.between(20e3, 131.8e3),
-        albedo: random.next(),
+        albedo: random.share(),
         altitude,
     }
 }
@@ -159,9 +145,9 @@ fn the_disc_dims_downwards_as_the_air_says() {
         let sun = MODEL.solar_disc(&conditions).unwrap();
         let air = MODEL.transmittance(conditions.visibility).unwrap();
         // Mirrored about the centre: as far from it, so as bright without air.
-        let turn = random.next() * TAU;
+        let turn = random.share() * TAU;
         let (y, x) = turn.sin_cos();
-        let radius = 0.98 * SOLAR_ANGULAR_RADIUS * random.next().sqrt();
+        let radius = 0.98 * SOLAR_ANGULAR_RADIUS * random.share().sqrt();
         let at = |sign: f64| {
             let elevation = conditions.solar_elevation + sign * radius * y;
             let across = sign * radius * x / conditions.solar_elevation.cos();
@@ -452,7 +438,7 @@ fn draws_survive_a_rotation_in_single_precision() {
         let count = draws / 5;
         for _ in 0..count {
             let turned = rotation(&mut random);
-            let u = [random.next() as f32, random.next() as f32];
+            let u = [random.share() as f32, random.share() as f32];
             let sample = sampler.sample(u);
             let back = there_and_back(&turned, sample.direction);
             let (light, pdf) = (sampler.xyz(back).unwrap(), sampler.pdf(back).unwrap());
@@ -566,7 +552,7 @@ fn draws_cover_what_is_visible() {
             }
         }
         for _ in 0..count {
-            let u = [share * random.next() as f32, random.next() as f32];
+            let u = [share * random.share() as f32, random.share() as f32];
             let sample = sampler.sample(u);
             sun.radiance(sample.direction, &mut light).unwrap();
             assert_eq!(sample.part, Part::Sun);

@@ -149,26 +149,19 @@ struct Colours<'a, C> {
 impl<C: Space> Sink<LANES> for Colours<'_, C> {
     #[inline(always)]
     fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
-        let &Group {
-            first: index,
-            count,
-            table,
-            spots,
-            ..
-        } = group;
         let mut logarithms = [Lanes::splat(0.0); W];
-        for i in 0..count {
-            logarithms[i] = table.logarithm(spots, i, 0);
+        for i in 0..group.count {
+            logarithms[i] = group.table.logarithm(group.spots, i, 0);
         }
         let [x, y, z, _] = transpose(&logarithms);
-        let xyz = [
-            x.exp2() * spots.opacity,
-            y.exp2() * spots.opacity,
-            z.exp2() * spots.opacity,
-        ];
+        let opacity = group.spots.opacity;
+        let xyz = [x.exp2() * opacity, y.exp2() * opacity, z.exp2() * opacity];
         let [r, g, b] = C::from_xyz(xyz);
         let (r, g, b) = (r.0, g.0, b.0);
-        for (i, out) in self.out[index..][..count].iter_mut().enumerate() {
+        for (i, out) in self.out[group.first..][..group.count]
+            .iter_mut()
+            .enumerate()
+        {
             *out = [r[i], g[i], b[i]];
         }
     }

@@ -122,31 +122,24 @@ struct Rows<'a> {
 impl Sink<LANES> for Rows<'_> {
     #[inline(always)]
     fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
-        let &Group {
-            first: index,
-            count,
-            table,
-            spots,
-            vectors,
-        } = group;
         let BakedPolarisedSky { sky, degrees, .. } = self.sky;
-        let n = sky.wavelengths().len();
-        let turn = self.axes.turn(sky.frame(), vectors);
+        let (first, count, n) = (group.first, group.count, sky.wavelengths().len());
+        let turn = self.axes.turn(sky.frame(), group.vectors);
         for i in 0..count {
-            let row = &mut self.out.i[(index + i) * n..][..n];
-            for block in 0..table.blocks() {
-                write(row, block, sky.light(table, spots, i, block));
+            let row = &mut self.out.i[(first + i) * n..][..n];
+            for block in 0..group.table.blocks() {
+                write(row, block, sky.light(group, i, block));
             }
         }
         for block in 0..degrees.blocks {
             // All directions up to here before any is turned: otherwise the compiler makes half vectors of the sums, too.
             let mut values = [Lanes::splat(0.0); W];
             for (i, values) in values[..count].iter_mut().enumerate() {
-                *values = degrees.at(spots, i, block);
+                *values = degrees.at(group.spots, i, block);
             }
             let mut most = Lanes::splat(0.0);
             for (i, values) in values[..count].iter().enumerate() {
-                let row = (index + i) * n;
+                let row = (first + i) * n;
                 let span = row + block * polarisation_table::LANES..row + n;
                 let light = &self.out.i[span.clone()];
                 let [q, u] = turned(values, &turn, i);
@@ -155,7 +148,7 @@ impl Sink<LANES> for Rows<'_> {
                 multiply(&mut self.out.u[span], light, &u);
             }
             if most.0.iter().any(|&square| square > ALMOST_WHOLE) {
-                self.out.limit(index * n..(index + count) * n);
+                self.out.limit(first * n..(first + count) * n);
             }
         }
     }

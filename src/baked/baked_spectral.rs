@@ -4,7 +4,6 @@ use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::Frame;
 use super::grid_choice::{PEAK, TAIL};
 use super::hero_wavelengths::{Heroes, WavelengthAxis};
-use super::spline_table::{Spots, Table};
 use super::{BakeError, Baked, Channels};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -178,10 +177,7 @@ impl BakedSky {
         wavelengths: &[[f32; 4]],
         out: &mut [[f32; 4]],
     ) -> Result<()> {
-        directions.check()?;
-        check_length("wavelengths", wavelengths.len(), directions.len())?;
-        check_length("output", out.len(), directions.len())?;
-        self.check_wavelengths(wavelengths)?;
+        self.check_heroes(directions, wavelengths, out.len())?;
         self.baked.each(
             directions,
             Heroes {
@@ -190,6 +186,19 @@ impl BakedSky {
                 out,
             },
         )
+    }
+
+    /// Checks what batches of heroes take.
+    pub(super) fn check_heroes(
+        &self,
+        directions: &Directions,
+        wavelengths: &[[f32; 4]],
+        results: usize,
+    ) -> Result<()> {
+        directions.check()?;
+        check_length("wavelengths", wavelengths.len(), directions.len())?;
+        check_length("output", results, directions.len())?;
+        self.check_wavelengths(wavelengths)
     }
 
     pub(super) fn check_wavelengths(&self, wavelengths: &[[f32; 4]]) -> Result<()> {
@@ -211,12 +220,11 @@ impl BakedSky {
     #[inline(always)]
     pub(super) fn light<const W: usize>(
         &self,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
+        group: &Group<LANES, W>,
         i: usize,
         block: usize,
     ) -> Lanes<LANES> {
-        let value = table.value(spots, i, block) * self.irradiance[block];
+        let value = group.table.value(group.spots, i, block) * self.irradiance[block];
         value.min(Lanes::splat(f32::MAX))
     }
 }
@@ -243,18 +251,11 @@ struct Rows<'a> {
 impl Sink<LANES> for Rows<'_> {
     #[inline(always)]
     fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
-        let &Group {
-            first: index,
-            count,
-            table,
-            spots,
-            ..
-        } = group;
         let n = self.sky.wavelengths.len();
-        for i in 0..count {
-            let row = &mut self.out[(index + i) * n..][..n];
+        for i in 0..group.count {
+            let row = &mut self.out[(group.first + i) * n..][..n];
             for block in 0..self.sky.irradiance.len() {
-                write(row, block, self.sky.light(table, spots, i, block));
+                write(row, block, self.sky.light(group, i, block));
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
 use super::baked_spectral::LANES;
-use super::batch::{Directions, Group, Sink, check_length};
+use super::batch::{Directions, Group, Sink};
 use super::frame_rotation::{Axes, FrameRotation};
 use super::polarisation_table::{self, turned};
 use super::spline_table::Spots;
@@ -58,10 +58,8 @@ impl BakedPolarisedSky {
         wavelengths: &[[f32; 4]],
         out: &mut [[Stokes; 4]],
     ) -> Result<()> {
-        directions.check()?;
-        check_length("wavelengths", wavelengths.len(), directions.len())?;
-        check_length("output", out.len(), directions.len())?;
-        self.sky().check_wavelengths(wavelengths)?;
+        self.sky()
+            .check_heroes(directions, wavelengths, out.len())?;
         let axes = Axes::new(frame)?;
         self.sky().baked.each(
             directions,
@@ -86,20 +84,13 @@ struct Heroes<'a> {
 impl Sink<LANES> for Heroes<'_> {
     #[inline(always)]
     fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
-        let &Group {
-            first: index,
-            count,
-            table,
-            spots,
-            vectors,
-        } = group;
         let sky = self.sky.sky();
-        let turn = self.axes.turn(sky.frame(), vectors);
-        for i in 0..count {
-            let wavelengths = &self.wavelengths[index + i];
-            let light = sky.axis.radiance(table, spots, i, wavelengths);
-            let ratios = self.ratios(spots, &turn, i, wavelengths);
-            self.out[index + i] = bounded(light, ratios);
+        let turn = self.axes.turn(sky.frame(), group.vectors);
+        for i in 0..group.count {
+            let wavelengths = &self.wavelengths[group.first + i];
+            let light = sky.axis.radiance(group, i, wavelengths);
+            let ratios = self.ratios(group.spots, &turn, i, wavelengths);
+            self.out[group.first + i] = bounded(light, ratios);
         }
     }
 }

@@ -2,7 +2,6 @@
 //! 2014). Format specification, section 7.3, with the weights of each interval as polynomials.
 
 use super::batch::{Group, Sink};
-use super::spline_table::{Spots, Table};
 use crate::kernel::axis::hermite;
 use crate::kernel::lanes::Lanes;
 use crate::sky::Sky;
@@ -136,16 +135,9 @@ pub(super) struct Heroes<'a> {
 impl Sink<LANES> for Heroes<'_> {
     #[inline(always)]
     fn put<const W: usize>(&mut self, group: &Group<LANES, W>) {
-        let &Group {
-            first: index,
-            count,
-            table,
-            spots,
-            ..
-        } = group;
-        for i in 0..count {
-            let wavelengths = &self.wavelengths[index + i];
-            self.out[index + i] = self.axis.radiance(table, spots, i, wavelengths).0;
+        for i in 0..group.count {
+            let wavelengths = &self.wavelengths[group.first + i];
+            self.out[group.first + i] = self.axis.radiance(group, i, wavelengths).0;
         }
     }
 }
@@ -155,11 +147,11 @@ impl WavelengthAxis {
     #[inline(always)]
     pub fn radiance<const W: usize>(
         &self,
-        table: &Table<LANES>,
-        spots: &Spots<W>,
+        group: &Group<LANES, W>,
         i: usize,
         wavelengths: &[f32; 4],
     ) -> Lanes<4> {
+        let (table, spots) = (group.table, group.spots);
         let mixed = if table.blocks() == 1 {
             self.mix(wavelengths, &table.logarithm(spots, i, 0).0)
         } else {

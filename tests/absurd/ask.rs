@@ -3,7 +3,8 @@
 use welkin::{
     AerialPerspective, AerialPerspectiveQuery, BakedColourSky, BakedPolarisedSky, BakedSky, Budget,
     Channels, Conditions, Directions, Error, Interpolation, Model, PointQuery, PolarisationFrame,
-    PolarisedPointQuery, PolarisedSky, Result, Sky, SolarDisc, Stokes, StokesSpectra,
+    PolarisedPointQuery, PolarisedSky, Result, Sky, SkyDifference, SolarDisc, Stokes,
+    StokesSpectra,
 };
 
 const DIRECTIONS: [[f32; 3]; 6] = [
@@ -121,8 +122,12 @@ impl Asker {
                     self.foreground(&aerial, sky, polarised);
                 }
             }
+            if let Some(skies) = self.allowed("sky difference", model.sky_difference(&conditions)) {
+                self.difference(&skies, model.head().wavelengths.len());
+            }
             self.plan(&model, &conditions, wavelength);
-            if let Some(mut aerial) = self.allowed("general haze", model.aerial_perspective_query())
+            if let Some(mut aerial) =
+                self.allowed("aerial perspective query", model.aerial_perspective_query())
             {
                 self.aerial_perspective_query(&mut aerial, &conditions, wavelength);
             }
@@ -320,6 +325,24 @@ impl Asker {
                 let (colour, factors) = aerial.linear_srgb_stokes(from, to, frame).unwrap();
                 self.stokes("in-scatter, Stokes, RGB", &colour);
                 self.share("factors of RGB", &factors);
+            }
+        }
+    }
+
+    fn difference(&mut self, skies: &SkyDifference, n: usize) {
+        let mut light = vec![0.0; n];
+        for [from, to] in SEGMENTS {
+            for answer in [
+                skies.in_scattering(from, to, &mut light),
+                skies.blurred(from, to, &mut light),
+            ] {
+                // Segments leave the altitudes of the model.
+                if matches!(answer, Err(Error::OutOfRange { .. })) {
+                    continue;
+                }
+                if self.allowed("sky difference", answer).is_some() {
+                    self.finite("sky difference", light.iter().copied());
+                }
             }
         }
     }

@@ -3,7 +3,10 @@
 
 pub mod aerial;
 pub mod answer;
+#[cfg(feature = "cli")]
+pub mod command;
 pub mod oracle;
+pub mod random;
 pub mod server;
 
 use proptest::test_runner::{Config, RngSeed};
@@ -386,4 +389,10 @@ pub fn negate_components(chunks: &mut [Chunk]) {
             factors.scale.iter_mut().step_by(2).for_each(|s| *s = -*s);
         }
     }
+}
+
+/// A unit vector at a height and an azimuth.
+pub fn on_sphere(z: f64, azimuth: f64) -> [f32; 3] {
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
 }

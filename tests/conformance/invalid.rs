@@ -1,6 +1,6 @@
 //! Files that readers must refuse, each for one reason.
 
-use welkin::format::{ENCODING_ZSTD, encode, parse, recode};
+use welkin::format::{ENCODING_ZSTD, Head, encode, parse, recode};
 
 use crate::common;
 use crate::files::{minimal, small};
@@ -131,22 +131,71 @@ fn good_in_text_mode(good: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// Where the arrays of a head with one altitude and one visibility start.
+pub struct HeadOffsets {
+    pub wavelength: usize,
+    pub altitude: usize,
+    pub visibility: usize,
+    pub extinction: usize,
+    pub spherical: usize,
+    pub parameter: usize,
+    pub xyz: usize,
+    pub solar: usize,
+    pub irradiance: usize,
+    pub field: usize,
+    pub metadata: usize,
+    pub padding: usize,
+}
+
+impl HeadOffsets {
+    pub fn of(head: &Head) -> Self {
+        let (nw, nf, nk) = (head.wavelengths.len(), head.fields.len(), head.constituents);
+        let wavelength = 128;
+        let altitude = wavelength + 8 * nw;
+        let visibility = altitude + 8;
+        let extinction = visibility + 8;
+        let spherical = extinction + 8 * nk * nw;
+        let parameter = spherical + 8 * nw;
+        let xyz = parameter + 8 * nf * nw;
+        let solar = xyz + 24 * nw;
+        let irradiance = solar + 16;
+        let field = irradiance + 4 * head.solar_irradiance.len();
+        let metadata = field + 4 * nf;
+        Self {
+            wavelength,
+            altitude,
+            visibility,
+            extinction,
+            spherical,
+            parameter,
+            xyz,
+            solar,
+            irradiance,
+            field,
+            metadata,
+            padding: metadata + head.metadata.len(),
+        }
+    }
+}
+
 fn forgeries(good: &[u8]) -> Vec<Forgery> {
     let contents = parse(good).expect("a valid file");
     let head = &contents.head;
-    let (nw, nf, nk) = (head.wavelengths.len(), head.fields.len(), head.constituents);
-    let wavelength = 128;
-    let altitude = wavelength + 8 * nw;
-    let visibility = altitude + 8;
-    let extinction = visibility + 8;
-    let spherical = extinction + 8 * nk * nw;
-    let parameter = spherical + 8 * nw;
-    let xyz = parameter + 8 * nf * nw;
-    let solar = xyz + 24 * nw;
-    let irradiance = solar + 16;
-    let field = irradiance + 4 * head.solar_irradiance.len();
-    let metadata = field + 4 * nf;
-    let padding = metadata + head.metadata.len();
+    let HeadOffsets {
+        wavelength,
+        altitude,
+        visibility,
+        extinction,
+        spherical,
+        parameter,
+        xyz,
+        solar,
+        irradiance,
+        field,
+        metadata,
+        padding,
+    } = HeadOffsets::of(head);
+    let nw = head.wavelengths.len();
     let entry = |i: usize| contents.head_length - 64 * (contents.directory.len() - i);
     let column = &contents.directory[1];
     let forge = |name, shows, class, at, bytes: &[u8]| Forgery {

@@ -3,7 +3,7 @@
 use welkin::format::{Head, encode, parse};
 
 use crate::files::small;
-use crate::invalid::{Case, forged};
+use crate::invalid::{Case, HeadOffsets, forged};
 
 pub fn all() -> Vec<Case> {
     [scalars(), tables(), counts(), close_nodes()].concat()
@@ -53,16 +53,18 @@ fn scalars() -> Vec<Case> {
 fn tables() -> Vec<Case> {
     let good = bare(&small(&[0.0], &[50e3]));
     let head = parse(&good).expect("a valid file").head;
-    let (nw, nf, nk) = (head.wavelengths.len(), head.fields.len(), head.constituents);
-    let altitude = 128 + 8 * nw;
-    let visibility = altitude + 8;
-    let extinction = visibility + 8;
-    let spherical = extinction + 8 * nk * nw;
-    let parameter = spherical + 8 * nw;
-    let xyz = parameter + 8 * nf * nw;
-    let solar = xyz + 24 * nw;
-    let irradiance = solar + 16;
-    let field = irradiance + 4 * head.solar_irradiance.len();
+    let nw = head.wavelengths.len();
+    let HeadOffsets {
+        visibility,
+        extinction,
+        spherical,
+        parameter,
+        xyz,
+        solar,
+        irradiance,
+        field,
+        ..
+    } = HeadOffsets::of(&head);
     let number =
         |name, shows, at, value: f64| case(name, shows, forged(&good, at, &value.to_le_bytes()));
     let single =

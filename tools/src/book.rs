@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+    let tools = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tools.parent().expect("a workspace around the tools")
 }
 
 /// README.md and the pages of the book.

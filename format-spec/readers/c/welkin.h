@@ -39,6 +39,9 @@ typedef enum welkin_error {
     WELKIN_ERROR_SCRATCH
 } welkin_error;
 
+/* Of this reader; the files have versions of their own. */
+#define WELKIN_READER_VERSION "1.0.0"
+
 #define WELKIN_MAX_WAVELENGTHS 256
 #define WELKIN_MAX_FIELDS 16
 #define WELKIN_MAX_CONSTITUENTS 16

@@ -5,6 +5,25 @@ use std::f64::consts::FRAC_PI_2;
 use crate::about::About;
 use crate::failure::{Failure, Result};
 
+/// Where a picture looks.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct Heading {
+    /// Azimuth that is looked to, degrees, counter-clockwise from +x: in the middle of the picture, or at the top of the up fish-eye.
+    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
+    view_azimuth: f64,
+}
+
+impl Heading {
+    /// rad.
+    pub fn azimuth(&self) -> Result<f64> {
+        if !self.view_azimuth.is_finite() {
+            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
+            return Err(Failure::message(text));
+        }
+        Ok(self.view_azimuth.to_radians())
+    }
+}
+
 /// Where a perspective camera looks.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Lens {

@@ -22,6 +22,14 @@ impl Failure {
         Self::Message(text.into())
     }
 
+    /// The same with what it is about in front.
+    pub fn about(self, what: &str) -> Self {
+        match self {
+            Self::Message(text) => Self::Message(format!("{what}: {text}")),
+            Self::BrokenPipe => self,
+        }
+    }
+
     /// Puts the file's name in front, unless the error has it already.
     pub fn in_file(path: &Path, error: welkin::Error) -> Self {
         match error {

@@ -10,7 +10,7 @@ use welkin::output;
 
 use crate::Source;
 use crate::about::{About, LUMINANCE, RADIANCE};
-use crate::camera::{Camera, Lens};
+use crate::camera::{Camera, Heading, Lens};
 use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
 use crate::naming::{self, Named};
@@ -23,16 +23,17 @@ const MAGIC: &[u8; 8] = b"WLKFROXL";
 const COLOURS: [&str; 6] = ["R", "G", "B", "TR", "TG", "TB"];
 
 #[derive(clap::Args)]
+// At the height of a person, not on the ground.
+#[command(mut_arg("altitude", |altitude| altitude.default_value("2").help("Altitude of the camera above the ground, m")))]
 pub struct Options {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
     lens: Lens,
     #[command(flatten)]
+    heading: Heading,
+    #[command(flatten)]
     scene: Scene,
-    /// Altitude of the camera above the ground, m.
-    #[arg(long, default_value_t = 2.0, value_name = "M")]
-    altitude: f64,
     /// Width, height and depth of the volume.
     #[arg(long, default_value = "32x18x64", value_parser = size, value_name = "WxHxD")]
     size: [usize; 3],
@@ -89,9 +90,9 @@ pub fn run(options: &Options) -> Result<()> {
     };
     target.check()?;
     let model = options.source.open()?;
-    let aerial = model.aerial_perspective(&options.scene.conditions(options.altitude))?;
+    let aerial = model.aerial_perspective(&options.scene.conditions(&model)?)?;
     let [width, height, _] = options.size;
-    let azimuth = options.scene.view_azimuth()?;
+    let azimuth = options.heading.azimuth()?;
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
     let start = Instant::now();
     let volume = fill(options, &aerial, &camera)?;
@@ -122,7 +123,7 @@ impl Options {
 
 fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Result<Volume> {
     let [width, height, depth] = options.size;
-    let place = [0.0, 0.0, options.altitude];
+    let place = [0.0, 0.0, aerial.conditions().altitude];
     let wavelengths = aerial.wavelengths();
     let channels: Vec<String> = match options.spectral {
         true => ["", "T"]
@@ -169,7 +170,7 @@ fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Resul
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
 fn layers(options: &Options, aerial: &AerialPerspective, volume: &Volume) -> Result<Vec<u8>> {
-    let azimuth = options.scene.view_azimuth()?;
+    let azimuth = options.heading.azimuth()?;
     let mut about = About::scene(aerial.conditions(), azimuth);
     options.lens.describe(&mut about);
     about.number("nearM", options.near);

@@ -1,4 +1,4 @@
-//! Pictures: EXR with any channels, PNG through an exposure and a soft shoulder.
+//! Pictures: EXR with any channels, PNG as a film shows it.
 
 use std::io::Cursor;
 
@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::about::{About, CHROMATICITIES, LUMINANCE, Value};
 use crate::failure::{Failure, Result};
 use crate::header;
+use crate::tone::Film;
 
 const SOFTWARE: &str = concat!("welkin ", env!("CARGO_PKG_VERSION"));
 
@@ -78,9 +79,9 @@ fn chromaticities() -> Chromaticities {
     }
 }
 
-/// Encodes linear sRGB pixels (cd m⁻²) as PNG; `white` is the luminance of display white.
-pub fn png(size: [usize; 2], pixels: &[[f32; 3]], white: f32, about: &About) -> Result<Vec<u8>> {
-    let samples: Vec<[u8; 3]> = pixels.par_iter().map(|&p| display(p, white)).collect();
+/// Encodes linear sRGB pixels (cd m⁻²) as PNG.
+pub fn png(size: [usize; 2], pixels: &[[f32; 3]], film: &Film, about: &About) -> Result<Vec<u8>> {
+    let samples: Vec<[u8; 3]> = pixels.par_iter().map(|&p| film.display(p)).collect();
     png_of_display(size, &samples, about)
 }
 
@@ -106,49 +107,4 @@ pub fn png_of_display(size: [usize; 2], pixels: &[[u8; 3]], about: &About) -> Re
         .map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
-}
-
-/// An sRGB pixel from a linear one; `white` is the luminance of display white.
-pub fn display(pixel: [f32; 3], white: f32) -> [u8; 3] {
-    let rgb = pixel.map(|v| (v / white).max(0.0));
-    soften(rgb).map(|v| (encode_srgb(v) * 255.0 + 0.5) as u8)
-}
-
-/// Compresses the brightest component smoothly below 1 and lets what is far above fade to white, so that the glow
-/// around the sun keeps its hue instead of clipping one component after the other.
-fn soften(rgb: [f32; 3]) -> [f32; 3] {
-    const KNEE: f32 = 0.7;
-    let peak = rgb.into_iter().fold(0.0, f32::max);
-    if peak <= KNEE {
-        return rgb;
-    }
-    let excess = (peak - KNEE) / (1.0 - KNEE);
-    let target = KNEE + (1.0 - KNEE) * (1.0 - (-excess).exp());
-    let fade = excess / (excess + 12.0);
-    rgb.map(|v| {
-        let scaled = v / peak * target;
-        scaled + fade * (target - scaled)
-    })
-}
-
-/// The transfer function of IEC 61966-2-1.
-fn encode_srgb(v: f32) -> f32 {
-    if v <= 0.003_130_8 {
-        12.92 * v
-    } else {
-        1.055 * v.min(1.0).powf(1.0 / 2.4) - 0.055
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn display_is_monotone_and_ends_in_white() {
-        let grey = |v: f32| display([v, v, v], 1.0)[0];
-        assert!((0..1000).all(|i| grey(i as f32 * 0.01) <= grey((i + 1) as f32 * 0.01)));
-        assert_eq!(display([-1.0, 0.0, 0.0], 1.0), [0, 0, 0]);
-        assert!(display([1e6, 5e5, 1e5], 1.0).iter().all(|&v| v > 250));
-    }
 }

@@ -11,6 +11,7 @@ use welkin::{
 use crate::about::About;
 use crate::camera::{Camera, Lens};
 use crate::difference::{Difference, Method};
+use crate::disc::Disc;
 use crate::failure::{Failure, Result};
 use crate::parallel;
 use crate::terrain::{FARTHEST, Field, Terrain, altitude};
@@ -58,6 +59,8 @@ pub struct Landscape<'a> {
     /// Instead of the aerial perspective's own light.
     difference: Option<Difference<'a>>,
     sky: Sky,
+    /// The sun's disc; none if absent.
+    disc: Option<Disc>,
     /// XYZ per unit of relative radiance.
     xyz: Vec<[f64; 3]>,
     /// Irradiance of a level plane by the sky, linear sRGB.
@@ -74,12 +77,21 @@ struct Polariser {
 }
 
 /// What an ideal polariser leaves of light that is not polarised: that of the ground is taken to be so.
-pub const HALF: f32 = 0.5;
+const HALF: f32 = 0.5;
 
 impl Options {
-    /// Whether the landscape is seen through a polariser.
-    pub fn is_filtered(&self) -> bool {
-        self.polariser.is_some()
+    /// Share of the light that reaches the film.
+    pub fn share(&self) -> f64 {
+        match self.polariser {
+            Some(_) => HALF.into(),
+            None => 1.0,
+        }
+    }
+
+    /// The height field, if one is wanted.
+    pub fn file(&self) -> Option<&Path> {
+        let name = self.terrain.as_deref();
+        name.filter(|path| ![Path::new("flat"), Path::new("hills")].contains(path))
     }
 
     /// Prepares the landscape around an observer, if one is wanted.
@@ -88,6 +100,7 @@ impl Options {
         model: &'a Model,
         conditions: &Conditions,
         azimuth: f64,
+        has_disc: bool,
     ) -> Result<Option<Landscape<'a>>> {
         let Some(terrain) = &self.terrain else {
             return Ok(None);
@@ -108,7 +121,7 @@ impl Options {
         };
         let sky = model.sky(&there)?;
         Ok(Some(Landscape {
-            difference: Difference::new(model, &aerial, self.aerial_perspective)?,
+            difference: Difference::new(model, conditions, self.aerial_perspective)?,
             aerial,
             skylight: skylight(&sky)?,
             xyz: model.head().xyz.clone(),
@@ -117,6 +130,10 @@ impl Options {
             camera,
             place,
             sky,
+            disc: match has_disc {
+                true => Some(Disc::new(model, &there)?),
+                false => None,
+            },
         }))
     }
 
@@ -184,10 +201,19 @@ impl Landscape<'_> {
 
     /// Linear sRGB of every pixel, cd m⁻².
     pub fn pixels(&self, [width, height]: [usize; 2]) -> Result<Vec<[f32; 3]>> {
-        let place = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
-        parallel::pixels([width, height], |[column, row]| {
-            let at = [place(column, width), place(row, height)];
-            self.pixel(self.camera.direction(at))
+        let look =
+            |[x, y]: [f64; 2]| Some(self.camera.direction([x / width as f64, y / height as f64]));
+        let radius = self.aerial.transmittance().planet().radius;
+        let is_open = |d| self.terrain.hit(radius, self.place, d).is_none();
+        parallel::pixels([width, height], |pixel| {
+            let middle = pixel.map(|p| p as f64 + 0.5);
+            let direction = [middle[0] / width as f64, middle[1] / height as f64];
+            let mut rgb = self.pixel(self.camera.direction(direction))?;
+            if let Some(disc) = &self.disc {
+                let added = disc.rgb(pixel, &look, is_open)?;
+                rgb = std::array::from_fn(|c| rgb[c] + added[c]);
+            }
+            Ok(rgb)
         })
     }
 

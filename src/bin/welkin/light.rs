@@ -8,20 +8,14 @@ use welkin::Model;
 use crate::Source;
 use crate::failure::Result;
 use crate::irradiance::{Light, Spectrum};
-use crate::scene::{Place, moved};
+use crate::scene::Scene;
 
 #[derive(clap::Args)]
 pub struct Options {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
-    place: Place,
-    /// Altitude of the observer above the ground, m.
-    #[arg(long, default_value_t = 0.0, value_name = "M")]
-    altitude: f64,
-    /// Move conditions that the model does not reach to its nearest.
-    #[arg(long)]
-    clamp: bool,
+    scene: Scene,
     /// Write JSON.
     #[arg(long)]
     json: bool,
@@ -29,15 +23,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
-    let mut conditions = options.place.conditions(options.altitude);
-    if options.clamp {
-        let reached = conditions.clamped(&model)?;
-        for line in moved(&conditions, &reached) {
-            // Nobody is left to tell when standard error is closed.
-            let _ = writeln!(io::stderr(), "welkin: {line}");
-        }
-        conditions = reached;
-    }
+    let conditions = options.scene.conditions(&model)?;
     let light = Light::new(&model, &conditions)?;
     let mut out = io::stdout().lock();
     match options.json {

@@ -3,8 +3,12 @@
 #![forbid(unsafe_code)]
 
 mod about;
+mod almanac;
+mod animate;
 mod camera;
 mod difference;
+mod disc;
+mod exposure;
 mod failure;
 mod froxels;
 mod ground;
@@ -14,19 +18,27 @@ mod info;
 mod irradiance;
 mod landscape;
 mod light;
+mod manual;
 mod naming;
+mod outputs;
 mod parallel;
 mod picture;
 mod plan;
 mod polarised;
+mod position;
 mod projection;
 mod query;
 mod render;
 mod scene;
 mod sheet;
+mod span;
 mod subset;
+mod sun;
 mod terrain;
+mod tone;
+mod turbidity;
 mod verify;
+mod view;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -54,6 +66,8 @@ struct Arguments {
 enum Command {
     /// Render a sky to EXR and PNG.
     Render(render::Options),
+    /// Render a frame at every step of the sun's course, for a time-lapse.
+    Animate(animate::Options),
     /// Render skies from all over the model into one PNG.
     ContactSheet(sheet::Options),
     /// Write aerial perspective as a camera-aligned volume for real-time engines.
@@ -70,6 +84,10 @@ enum Command {
     Subset(subset::Options),
     /// Check a model file against the format specification: exit code 1 if it breaks a rule.
     Verify(verify::Options),
+    /// Write completions for a shell to standard output: welkin completions bash > /etc/bash_completion.d/welkin.
+    Completions(manual::Completions),
+    /// Write man pages, one for the command and one for each subcommand, into a folder.
+    Man(manual::Man),
 }
 
 /// Which model a command works on.
@@ -126,6 +144,7 @@ fn main() -> ExitCode {
     };
     let outcome = match &arguments.command {
         Command::Render(options) => render::run(options).map(done),
+        Command::Animate(options) => animate::run(options).map(done),
         Command::ContactSheet(options) => sheet::run(options).map(done),
         Command::Froxels(options) => froxels::run(options).map(done),
         Command::Light(options) => light::run(options).map(done),
@@ -134,6 +153,8 @@ fn main() -> ExitCode {
         Command::Plan(options) => plan::run(options).map(done),
         Command::Subset(options) => subset::run(options).map(done),
         Command::Verify(options) => verify::run(options),
+        Command::Completions(options) => manual::complete(options, command()).map(done),
+        Command::Man(options) => manual::write(options, command()).map(done),
     };
     match outcome {
         Ok(code) => code,
@@ -144,13 +165,16 @@ fn main() -> ExitCode {
 }
 
 /// Every option takes negative numbers: what they mean is for the command to say.
-fn parse() -> std::result::Result<Arguments, clap::Error> {
+fn command() -> clap::Command {
     let takes_numbers = |argument: Arg| match argument.get_action().takes_values() {
         true => argument.allow_negative_numbers(true),
         false => argument,
     };
-    let command = Arguments::command().mut_subcommands(|command| command.mut_args(takes_numbers));
-    Arguments::from_arg_matches(&command.try_get_matches()?)
+    Arguments::command().mut_subcommands(|command| command.mut_args(takes_numbers))
+}
+
+fn parse() -> std::result::Result<Arguments, clap::Error> {
+    Arguments::from_arg_matches(&command().try_get_matches()?)
 }
 
 fn done((): ()) -> ExitCode {
@@ -165,9 +189,9 @@ fn refuse_arguments(error: &clap::Error) -> ExitCode {
             let _ = error.print();
             ExitCode::SUCCESS
         }
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => complain(
-            "a command is missing: render, froxels, contact-sheet, light, query, info, plan, subset or verify (see welkin --help)",
-        ),
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            complain("a command is missing, such as render or query: see welkin --help")
+        }
         _ => {
             let text = error.render().to_string();
             let about = |line: &&str| !line.trim().is_empty();

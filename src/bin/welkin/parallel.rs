@@ -1,5 +1,7 @@
 //! Pictures row by row on all cores. What comes out does not depend on their number.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
@@ -8,8 +10,21 @@ use crate::failure::Result;
 /// Rows that are in memory twice at a time.
 const BATCH: usize = 64;
 
+/// Whether somebody shows how far all has got, and nobody wants to see each part.
+static IS_WATCHED: AtomicBool = AtomicBool::new(false);
+
+/// A progress bar for work of which other bars would show the parts: they stay hidden from now on.
+pub fn outer_bar(steps: usize, what: &'static str) -> ProgressBar {
+    let bar = bar(steps, what);
+    IS_WATCHED.store(true, Ordering::Relaxed);
+    bar
+}
+
 /// A progress bar on standard error if that is a terminal.
 pub fn bar(steps: usize, what: &'static str) -> ProgressBar {
+    if IS_WATCHED.load(Ordering::Relaxed) {
+        return ProgressBar::hidden();
+    }
     let style = ProgressStyle::with_template("{msg:<8} {wide_bar} {percent:>3} % {eta}");
     let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps as u64)

@@ -4,18 +4,16 @@ use welkin::{PolarisedSky, Sky};
 
 use crate::about::{About, LUMINANCE, RADIANCE};
 use crate::failure::Result;
-use crate::ground::Ground;
 use crate::image::{Planes, exr, png, png_of_display};
-use crate::parallel;
 use crate::polarised::{self, Colouring};
-use crate::projection::Projection;
+use crate::tone::Film;
+use crate::view::View;
 
 /// Which encodings are asked for, and what is the same in all of them.
 pub struct Wanted {
     pub exr: bool,
     pub png: bool,
-    /// Luminance of display white, cd m⁻².
-    pub white: f32,
+    pub film: Film,
     pub about: About,
 }
 
@@ -51,7 +49,7 @@ impl Picture {
                     &wanted.about,
                 )?)
             },
-            || png(view.size, &pixels, wanted.white, &wanted.about),
+            || png(view.size, &pixels, &wanted.film, &wanted.about),
         )
     }
 
@@ -88,7 +86,7 @@ impl Picture {
             })
         };
         Self::encoded(wanted, encode_exr, || {
-            png(size, pixels, wanted.white, &wanted.about)
+            png(size, pixels, &wanted.film, &wanted.about)
         })
     }
 
@@ -106,63 +104,11 @@ impl Picture {
             || {
                 png_of_display(
                     view.size,
-                    &colouring.pixels(&light, wanted.white),
+                    &colouring.pixels(&light, wanted.film.white),
                     &wanted.about,
                 )
             },
         )
-    }
-}
-
-/// The pixels of a picture.
-pub struct View {
-    pub projection: Projection,
-    pub size: [usize; 2],
-    /// Azimuth of the view, rad.
-    pub azimuth: f64,
-    /// What is below the horizon; black if absent.
-    pub ground: Option<Ground>,
-}
-
-impl View {
-    /// Up vector of the camera.
-    pub fn up(&self) -> [f32; 3] {
-        self.projection.up(self.azimuth)
-    }
-
-    /// Of the pixel in a column and a row; `None` outside the fish-eye.
-    pub fn direction(&self, pixel: [usize; 2]) -> Option<[f32; 3]> {
-        self.projection.direction(pixel, self.size, self.azimuth)
-    }
-
-    /// Linear sRGB, cd m⁻²; black outside the fish-eye.
-    pub fn rgb(&self, sky: &Sky) -> welkin::Result<Vec<[f32; 3]>> {
-        parallel::pixels(self.size, |pixel| {
-            let Some(direction) = self.direction(pixel) else {
-                return Ok([0.0; 3]);
-            };
-            let mut rgb = sky.linear_srgb(direction)?;
-            if let Some(ground) = &self.ground {
-                ground.add_srgb(direction, &mut rgb)?;
-            }
-            Ok(rgb)
-        })
-    }
-
-    fn spectral(&self, sky: &Sky) -> welkin::Result<Vec<Vec<f32>>> {
-        let count = sky.wavelengths().len();
-        let pixel = |pixel, _: &mut (), out: &mut [f32]| {
-            let Some(direction) = self.direction(pixel) else {
-                out.fill(0.0);
-                return Ok(());
-            };
-            sky.radiance(direction, out)?;
-            match &self.ground {
-                Some(ground) => ground.add(direction, out),
-                None => Ok(()),
-            }
-        };
-        parallel::planes(self.size, count, || (), pixel)
     }
 }
 

@@ -7,7 +7,7 @@ use welkin::{PolarisationFrame, PolarisedSky, Stokes, xyz_to_linear_srgb};
 use crate::about::About;
 use crate::image::Planes;
 use crate::parallel;
-use crate::picture::View;
+use crate::view::View;
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

@@ -36,10 +36,11 @@ impl Projection {
         }
     }
 
-    /// Unit vector at the centre of a pixel, in a frame with +x in the view azimuth; `None` outside the fish-eye.
-    fn local(self, [column, row]: [usize; 2], [width, height]: [usize; 2]) -> Option<[f64; 3]> {
-        let right = (column as f64 + 0.5) / width as f64 * 2.0 - 1.0;
-        let above = 1.0 - (row as f64 + 0.5) / height as f64 * 2.0;
+    /// Unit vector at a place in the picture, in pixels from its upper left corner, in a frame with +x in the view azimuth; `None`
+    /// outside the fish-eye.
+    fn local(self, [column, row]: [f64; 2], [width, height]: [usize; 2]) -> Option<[f64; 3]> {
+        let right = column / width as f64 * 2.0 - 1.0;
+        let above = 1.0 - row / height as f64 * 2.0;
         match self {
             // Seen from below, the left hand of someone who faces the top edge is at the right edge.
             Projection::Up => fish_eye(right, above).map(|[a, b, c]| [b, a, c]),
@@ -61,20 +62,27 @@ impl Projection {
         }
     }
 
-    /// Direction of a pixel; `azimuth` (rad) is the view azimuth.
-    pub fn direction(self, pixel: [usize; 2], size: [usize; 2], azimuth: f64) -> Option<[f32; 3]> {
-        let [x, y, z] = self.local(pixel, size)?;
+    /// Direction at a place in the picture, in pixels from its upper left corner; `azimuth` (rad) is the view azimuth.
+    pub fn look(self, place: [f64; 2], size: [usize; 2], azimuth: f64) -> Option<[f64; 3]> {
+        let [x, y, z] = self.local(place, size)?;
         let (sine, cosine) = (azimuth % TAU).sin_cos();
-        Some([cosine * x - sine * y, sine * x + cosine * y, z].map(|v| v as f32))
+        Some([cosine * x - sine * y, sine * x + cosine * y, z])
+    }
+
+    /// Direction at the centre of a pixel.
+    pub fn direction(self, pixel: [usize; 2], size: [usize; 2], azimuth: f64) -> Option<[f32; 3]> {
+        let place = pixel.map(|p| p as f64 + 0.5);
+        Some(self.look(place, size, azimuth)?.map(|v| v as f32))
     }
 }
 
-/// The centre of a pixel of a cube with edges of so many pixels.
-fn cube([column, row]: [usize; 2], size: usize) -> [f64; 3] {
-    let place = |pixel: usize| (pixel as f64 + 0.5) / size as f64 * 2.0 - 1.0;
-    let (s, t) = (place(column), place(row % size));
+/// A place on a cube with edges of so many pixels.
+fn cube([column, row]: [f64; 2], size: usize) -> [f64; 3] {
+    let face = ((row / size as f64) as usize).min(5);
+    let place = |pixels: f64| pixels / size as f64 * 2.0 - 1.0;
+    let (s, t) = (place(column), place(row - (face * size) as f64));
     // The table of the OpenGL specification, 8.13.
-    let [right, up, forward] = match row / size {
+    let [right, up, forward] = match face {
         0 => [1.0, -t, -s],
         1 => [-1.0, -t, s],
         2 => [s, 1.0, t],
@@ -240,7 +248,9 @@ mod tests {
                 let d = Projection::Cube
                     .direction([column, row], size, 0.4)
                     .unwrap();
-                let longest = Projection::Cube.local([column, row], size).unwrap();
+                let longest = Projection::Cube
+                    .local([column as f64 + 0.5, row as f64 + 0.5], size)
+                    .unwrap();
                 let longest = longest.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
                 sum += longest.powi(3) * (2.0 / n as f64).powi(2);
                 assert!((dot(d, d) - 1.0).abs() < 1e-5);

@@ -1,80 +1,107 @@
-//! Sun, air, ground and line of sight of a picture or a volume, as arguments.
+//! Sun, air, ground and observer: the conditions of every command that shows a sky, as arguments.
 
 use std::io::Write;
 
 use welkin::{Conditions, Model};
 
 use crate::failure::{Failure, Result, plain};
+use crate::sun::Sun;
+use crate::turbidity;
 
-/// Where the sun stands, and what air and ground are like.
-#[derive(clap::Args)]
-pub struct Place {
-    /// Solar elevation, degrees.
-    #[arg(long, default_value_t = 20.0, value_name = "DEG")]
-    sun_elevation: f64,
-    /// Solar azimuth, degrees, counter-clockwise from +x seen from above.
-    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
-    sun_azimuth: f64,
-    /// Visibility (meteorological range) at the ground, km.
-    #[arg(long, default_value_t = 59.4, value_name = "KM")]
-    visibility: f64,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, default_value_t = 0.2, value_name = "SHARE")]
-    albedo: f64,
-}
-
-/// A place and where one looks.
+/// What is absent is as in the default conditions of the library.
 #[derive(clap::Args)]
 pub struct Scene {
     #[command(flatten)]
-    place: Place,
-    /// Azimuth that is looked to, degrees: in the middle of the picture, or at the top of the up fish-eye.
-    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
-    view_azimuth: f64,
-}
-
-impl Place {
-    /// For an observer at an altitude, m.
-    pub fn conditions(&self, altitude: f64) -> Conditions {
-        Conditions {
-            solar_elevation: self.sun_elevation.to_radians(),
-            solar_azimuth: self.sun_azimuth.to_radians(),
-            visibility: 1e3 * self.visibility,
-            albedo: self.albedo,
-            altitude,
-        }
-    }
+    pub sun: Sun,
+    /// Visibility (meteorological range) at the ground, km; 59.4 if absent.
+    #[arg(long, value_name = "KM", conflicts_with = "turbidity")]
+    visibility: Option<f64>,
+    /// Turbidity instead of the visibility: the vertical optical thickness of molecules and particles over that of the molecules at
+    /// 550 nm, without ozone (Preetham et al. 1999). 1.5 to 4.5 in the default model, where 59.4 km has 2.1.
+    #[arg(long, value_name = "RATIO")]
+    turbidity: Option<f64>,
+    /// Albedo of the ground, 0 to 1.
+    #[arg(long, default_value_t = Conditions::default().albedo, value_name = "SHARE")]
+    albedo: f64,
+    /// Altitude of the observer above the ground, m; 0 if absent.
+    #[arg(long, value_name = "M")]
+    pub altitude: Option<f64>,
+    /// Move conditions that the model does not reach to its nearest, and say which on standard error.
+    #[arg(long)]
+    clamp: bool,
 }
 
 impl Scene {
-    /// For an observer at an altitude, m.
-    pub fn conditions(&self, altitude: f64) -> Conditions {
-        self.place.conditions(altitude)
-    }
-
-    /// The same for an observer at an altitude (m), moved to the nearest that the model reaches; says on standard error what it moved.
-    pub fn clamped(&self, altitude: f64, model: &Model) -> Result<Conditions> {
-        let wished = self.conditions(altitude);
-        let conditions = wished.clamped(model)?;
-        for line in moved(&wished, &conditions) {
-            // Nobody is left to tell when standard error is closed.
-            let _ = writeln!(std::io::stderr(), "welkin: {line}");
-        }
-        Ok(conditions)
-    }
-
-    /// Azimuth that is looked to, rad.
-    pub fn view_azimuth(&self) -> Result<f64> {
-        if !self.view_azimuth.is_finite() {
-            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
+    /// Where the sun stands still.
+    pub fn conditions(&self, model: &Model) -> Result<Conditions> {
+        if self.sun.is_course() {
+            let text = "the sun must stand still here: welkin animate and contact-sheet take A..B";
             return Err(Failure::message(text));
         }
-        Ok(self.view_azimuth.to_radians())
+        Ok(self.course(model, 1)?[0])
+    }
+
+    /// As many conditions as there are steps in the course of the sun.
+    pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
+        let air = self.air(model)?;
+        let positions = self.sun.positions(steps)?;
+        let wished = positions.iter().map(|position| position.over(&air));
+        self.reached(model, wished.collect())
+    }
+
+    /// Everything but the sun.
+    pub fn air(&self, model: &Model) -> Result<Conditions> {
+        let standard = Conditions::default();
+        let visibility = match (self.visibility, self.turbidity) {
+            (Some(km), _) => 1e3 * km,
+            (None, Some(ratio)) => turbidity::visibility(model, ratio, self.clamp)?,
+            (None, None) => standard.visibility,
+        };
+        Ok(Conditions {
+            visibility,
+            albedo: self.albedo,
+            altitude: self.altitude.unwrap_or(standard.altitude),
+            ..standard
+        })
+    }
+
+    /// Whether the air is described at all.
+    pub fn has_visibility(&self) -> bool {
+        self.visibility.is_some() || self.turbidity.is_some()
+    }
+
+    /// With `--clamp` the nearest that the model reaches; says on standard error what it moved. Otherwise all must be in the model.
+    pub fn reached(&self, model: &Model, mut all: Vec<Conditions>) -> Result<Vec<Conditions>> {
+        if !self.clamp {
+            for conditions in &all {
+                conditions.checked(model)?;
+            }
+            return Ok(all);
+        }
+        move_into(model, &mut all)?;
+        Ok(all)
     }
 }
 
+/// Moves all into the range of the model, and says on standard error, once, what it moved.
+pub fn move_into(model: &Model, all: &mut [Conditions]) -> Result<()> {
+    let mut said = Vec::new();
+    for conditions in all {
+        let reached = conditions.clamped(model)?;
+        for line in moved(conditions, &reached) {
+            if !said.contains(&line) {
+                // Nobody is left to tell when standard error is closed.
+                let _ = writeln!(std::io::stderr(), "welkin: {line}");
+                said.push(line);
+            }
+        }
+        *conditions = reached;
+    }
+    Ok(())
+}
+
 /// What differs between conditions, in the units of the command line.
-pub fn moved(from: &Conditions, to: &Conditions) -> Vec<String> {
+fn moved(from: &Conditions, to: &Conditions) -> Vec<String> {
     let both = |of: fn(&Conditions) -> f64| [of(from), of(to)];
     let quantities = [
         (

@@ -1,6 +1,5 @@
-//! `welkin contact-sheet`: skies from all over the model in one picture.
+//! `welkin contact-sheet`: skies from all over the model, or of a day, in one picture.
 
-use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -10,14 +9,14 @@ use welkin::{Conditions, Model};
 
 use crate::Source;
 use crate::about::About;
-use crate::failure::Result;
-use crate::image::{display, png_of_display};
+use crate::exposure::Exposure;
+use crate::failure::{Failure, Result, plain};
+use crate::image::png_of_display;
 use crate::naming::{self, Named};
 use crate::parallel::bar;
-use crate::picture::View;
 use crate::projection::Projection;
-use crate::render::automatic_white;
-use crate::scene::moved;
+use crate::scene::{Scene, move_into};
+use crate::view::View;
 
 /// Columns: solar elevations, degrees.
 const ELEVATIONS: [f64; 7] = [-4.0, -2.0, 0.0, 2.0, 8.0, 30.0, 70.0];
@@ -30,13 +29,24 @@ const BETWEEN: [f64; 4] = [5.23, 27.17, 58.46, 70.53];
 const BETWEEN_VISIBILITY: f64 = 59.4;
 const BACKGROUND: [u8; 3] = [24; 3];
 
+/// What is given is the same in all skies.
 #[derive(clap::Args)]
 pub struct Options {
     #[command(flatten)]
     source: Source,
+    #[command(flatten)]
+    scene: Scene,
+    /// How many skies the course of the sun has.
+    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=64), value_name = "COUNT")]
+    columns: u16,
     /// Height of each sky, pixels.
     #[arg(long, default_value_t = 96, value_parser = clap::value_parser!(u16).range(16..=512), value_name = "PIXELS")]
     size: u16,
+    /// How each is laid onto its square.
+    #[arg(long, value_enum, default_value = "side")]
+    projection: Projection,
+    #[command(flatten)]
+    exposure: Exposure,
     /// The PNG; - for standard output.
     #[arg(long, default_value = "contact-sheet.png", value_name = "FILE")]
     out: PathBuf,
@@ -56,21 +66,31 @@ struct Tile {
     corner: [usize; 2],
 }
 
+impl Options {
+    fn suns(&self) -> usize {
+        match self.scene.sun.is_course() {
+            true => self.columns.into(),
+            false => 1,
+        }
+    }
+}
+
 impl Tile {
-    /// With its own exposure; `None` outside the fish-eye.
-    fn pixels(&self, model: &Model) -> Result<Vec<Option<[u8; 3]>>> {
+    /// `None` outside the fish-eye.
+    fn pixels(&self, model: &Model, exposure: &Exposure) -> Result<Vec<Option<[u8; 3]>>> {
         let sky = model.sky(&self.conditions)?;
         let view = View {
             projection: self.projection,
             size: [self.size; 2],
-            azimuth: 0.0,
+            azimuth: self.conditions.solar_azimuth,
             ground: None,
+            disc: None,
         };
-        let white = automatic_white(&sky)? as f32;
+        let film = exposure.film(&sky, 1.0)?;
         let pixel = |k: usize| {
             let direction = view.direction([k % self.size, k / self.size]);
             let rgb = direction.map(|d| sky.linear_srgb(d)).transpose()?;
-            Ok(rgb.map(|rgb| display(rgb, white)))
+            Ok(rgb.map(|rgb| film.display(rgb)))
         };
         (0..self.size * self.size).map(pixel).collect()
     }
@@ -102,15 +122,12 @@ pub fn run(options: &Options) -> Result<()> {
     let target = named.map_or_else(|| Target::new(&options.out), |Named { target, .. }| target);
     target.check()?;
     let model = options.source.open()?;
-    let size = usize::from(options.size);
-    let width = ELEVATIONS.len() * size;
-    let rows = places().count();
-    let large = width / BETWEEN.len();
-    let mut canvas = Canvas::new([width, rows * size + large]);
-    let tiles = tiles(&model, size, large)?;
+    let sheet = Sheet::new(options, &model)?;
+    let tiles = &sheet.tiles;
+    let mut canvas = Canvas::new(sheet.size);
     let bar = bar(tiles.len(), "skies");
     let skies = tiles.par_iter().map(|tile| {
-        let pixels = tile.pixels(&model);
+        let pixels = tile.pixels(&model, &options.exposure);
         bar.inc(1);
         pixels
     });
@@ -122,72 +139,132 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let png = png_of_display(canvas.size, &canvas.pixels, &About::default())?;
     output::write(&[(&target, &png)])?;
-    describe(&mut target.report())?;
+    sheet.describe(&mut target.report())?;
     writeln!(target.report(), "wrote {target}")?;
     Ok(())
 }
 
-/// All skies of the sheet, and on standard error which are not quite where they should be.
-fn tiles(model: &Model, size: usize, large: usize) -> Result<Vec<Tile>> {
-    let mut tiles = Vec::new();
-    for (row, (visibility, altitude)) in places().enumerate() {
-        for (column, elevation) in ELEVATIONS.into_iter().enumerate() {
-            tiles.push(Tile {
-                conditions: conditions(elevation, visibility, altitude),
-                projection: Projection::Side,
-                size,
-                corner: [column * size, row * size],
-            });
+/// What is where.
+struct Sheet {
+    size: [usize; 2],
+    tiles: Vec<Tile>,
+    /// How many of the tiles are in rows of how many; the rest stands below.
+    grid: usize,
+    columns: usize,
+}
+
+impl Sheet {
+    /// Rows over visibilities and altitudes, columns over suns, as far as they are not given.
+    fn new(options: &Options, model: &Model) -> Result<Self> {
+        if ![Projection::Up, Projection::Side].contains(&options.projection) {
+            let text = "a sheet has squares: --projection up or side";
+            return Err(Failure::message(text));
         }
-    }
-    for (column, elevation) in BETWEEN.into_iter().enumerate() {
-        tiles.push(Tile {
-            conditions: conditions(elevation, BETWEEN_VISIBILITY, 0.0),
-            projection: Projection::Up,
-            size: large,
-            corner: [column * large, places().count() * size],
+        let (scene, size) = (&options.scene, usize::from(options.size));
+        let air = scene.air(model)?;
+        let suns = match scene.sun.is_given() {
+            true => scene.sun.positions(options.suns())?,
+            false => scene.sun.at_elevations(&ELEVATIONS),
+        };
+        let visibilities = match scene.has_visibility() {
+            true => vec![air.visibility],
+            false => VISIBILITIES.map(|km| 1e3 * km).to_vec(),
+        };
+        let altitudes = scene.altitude.map_or(ALTITUDES.to_vec(), |h| vec![h]);
+        let columns = suns.len();
+        let rows = visibilities.iter().flat_map(|&visibility| {
+            altitudes.iter().map(move |&altitude| Conditions {
+                visibility,
+                altitude,
+                ..air
+            })
         });
+        let mut tiles = Vec::new();
+        for (row, air) in rows.enumerate() {
+            for (column, sun) in suns.iter().enumerate() {
+                tiles.push(Tile {
+                    conditions: sun.over(&air),
+                    projection: options.projection,
+                    size,
+                    corner: [column * size, row * size],
+                });
+            }
+        }
+        let width = columns * size;
+        let grid = tiles.len();
+        let mut height = grid / columns * size;
+        let shows_all =
+            !(scene.sun.is_given() || scene.has_visibility() || scene.altitude.is_some());
+        if shows_all {
+            let large = width / BETWEEN.len();
+            let between = Conditions {
+                visibility: 1e3 * BETWEEN_VISIBILITY,
+                ..air
+            };
+            let suns = scene.sun.at_elevations(&BETWEEN);
+            tiles.extend(suns.iter().enumerate().map(|(column, sun)| Tile {
+                conditions: sun.over(&between),
+                projection: Projection::Up,
+                size: large,
+                corner: [column * large, height],
+            }));
+            height += large;
+        }
+        let mut conditions: Vec<_> = tiles.iter().map(|tile| tile.conditions).collect();
+        match shows_all {
+            // A small model shows what it has.
+            true => move_into(model, &mut conditions)?,
+            false => conditions = scene.reached(model, conditions)?,
+        }
+        let all = tiles.iter_mut().zip(conditions);
+        all.for_each(|(tile, reached)| tile.conditions = reached);
+        Ok(Self {
+            size: [width, height],
+            tiles,
+            grid,
+            columns,
+        })
     }
-    let mut lines = BTreeSet::new();
-    for tile in &mut tiles {
-        let reached = tile.conditions.clamped(model)?;
-        lines.extend(moved(&tile.conditions, &reached));
-        tile.conditions = reached;
-    }
-    for line in lines {
-        // Nobody is left to tell when standard error is closed.
-        let _ = writeln!(std::io::stderr(), "welkin: {line}");
-    }
-    Ok(tiles)
-}
 
-/// Visibilities, km, and altitudes, m, of the rows.
-fn places() -> impl Iterator<Item = (f64, f64)> {
-    VISIBILITIES
-        .into_iter()
-        .flat_map(|v| ALTITUDES.map(|h| (v, h)))
-}
-
-fn describe(out: &mut dyn Write) -> Result<()> {
-    writeln!(out, "columns: sun at {ELEVATIONS:?} degrees; rows:")?;
-    for (visibility, altitude) in places() {
-        writeln!(
-            out,
-            "visibility {visibility} km, altitude {altitude} m, towards the sun"
-        )?;
-    }
-    writeln!(
-        out,
-        "last row: visibility {BETWEEN_VISIBILITY} km, altitude 0 m, upwards, sun at {BETWEEN:?} degrees"
-    )?;
-    Ok(())
-}
-
-fn conditions(elevation: f64, visibility: f64, altitude: f64) -> Conditions {
-    Conditions {
-        solar_elevation: elevation.to_radians(),
-        visibility: visibility * 1e3,
-        altitude,
-        ..Conditions::default()
+    fn describe(&self, out: &mut dyn Write) -> Result<()> {
+        let mut rows = Vec::new();
+        let (grid, between) = self.tiles.split_at(self.grid);
+        let degrees = |tiles: &[Tile]| {
+            let each = tiles.iter().map(|tile| {
+                let degrees = tile.conditions.solar_elevation.to_degrees();
+                plain((degrees * 1e4).round() / 1e4)
+            });
+            each.collect::<Vec<_>>().join(", ")
+        };
+        rows.push(format!(
+            "columns: sun at {} degrees; rows:",
+            degrees(&grid[..self.columns])
+        ));
+        let place = |tile: &Tile| {
+            let Conditions {
+                visibility,
+                altitude,
+                ..
+            } = tile.conditions;
+            let km = (visibility * 1e-3 * 1e6).round() / 1e6;
+            format!(
+                "visibility {} km, altitude {} m",
+                plain(km),
+                plain(altitude)
+            )
+        };
+        let firsts = grid.iter().step_by(self.columns);
+        rows.extend(firsts.map(|tile| format!("{}, towards the sun", place(tile))));
+        if let Some(tile) = between.first() {
+            rows.push(format!(
+                "last row: {}, upwards, sun at {} degrees",
+                place(tile),
+                degrees(between)
+            ));
+        }
+        for row in rows {
+            writeln!(out, "{row}")?;
+        }
+        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! Landscapes: heights above the sphere, and where rays meet them.
 
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::path::Path;
 
 use crate::failure::{Failure, Result};
@@ -196,38 +197,79 @@ fn direction_rises(radius: f64, origin: [f64; 3], direction: [f64; 3], s: f64) -
     place[0] * direction[0] + place[1] * direction[1] + (place[2] + radius) * direction[2] > 0.0
 }
 
-/// Ridges of 0 to 1 over a plane, 0 near the origin.
+/// Mountain ranges of 0 to 1 with plains between.
 fn hills(x: f64, y: f64) -> f64 {
-    let (mut sum, mut amplitude, mut scale) = (0.0, 0.5, 1.0);
-    for _ in 0..7 {
-        let ridge = 1.0 - (2.0 * noise(scale * x, scale * y) - 1.0).abs();
-        sum += amplitude * ridge * ridge;
-        amplitude *= 0.5;
-        scale *= 2.03;
-    }
-    let plain = (noise(0.7 * x + 5.3, 0.7 * y - 1.9) * 2.2 - 0.5).clamp(0.0, 1.0);
-    let away = ((x * x + y * y) / 0.06).clamp(0.0, 1.0);
-    sum * plain * away
+    // Ridges wind.
+    let bent = [
+        x + 0.12 * noise(3.0 * x + 7.1, 3.0 * y),
+        y + 0.12 * noise(3.0 * x - 4.4, 3.0 * y + 2.2),
+    ];
+    let range = (0.5 + noise(1.1 * x + 5.3, 1.1 * y - 1.9)).clamp(0.08, 1.0);
+    range * ridges(bent.map(|v| 1.6 * v)).min(1.0)
 }
 
-/// Smooth noise of 0 to 1 with features of size 1.
+/// A ridged multifractal, 0 to 1 and a little: rough where it is high, smooth in valleys. After Musgrave, in Ebert et al. 2003, Texturing
+/// and Modeling.
+fn ridges([mut x, mut y]: [f64; 2]) -> f64 {
+    let (mut sum, mut amplitude, mut weight) = (0.0, 0.5, 1.0);
+    for _ in 0..10 {
+        let ridge = (1.0 - noise(x, y).abs()).max(0.0).powi(2) * weight;
+        sum += amplitude * ridge;
+        weight = (2.0 * ridge).min(1.0);
+        amplitude *= 0.5;
+        // Turned, so that no grid shows.
+        (x, y) = (1.6 * x - 1.2 * y + 17.3, 1.2 * x + 1.6 * y - 9.1);
+    }
+    sum
+}
+
+/// Gradient noise of −1 to 1 with features of size 1: Perlin 2002, Improving Noise.
 fn noise(x: f64, y: f64) -> f64 {
     let (i, j) = (x.floor(), y.floor());
+    let (s, t) = (x - i, y - j);
     let smooth = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-    let (s, t) = (smooth(x - i), smooth(y - j));
-    let value = |a: f64, b: f64| hash((i + a) as i64, (j + b) as i64);
-    let low = value(0.0, 0.0) + s * (value(1.0, 0.0) - value(0.0, 0.0));
-    let high = value(0.0, 1.0) + s * (value(1.0, 1.0) - value(0.0, 1.0));
-    low + t * (high - low)
+    let slope = |a: f64, b: f64| {
+        let [p, q] = GRADIENTS[hash((i + a) as i64, (j + b) as i64) % GRADIENTS.len()];
+        p * (s - a) + q * (t - b)
+    };
+    let across = |b: f64| slope(0.0, b) + smooth(s) * (slope(1.0, b) - slope(0.0, b));
+    let (low, high) = (across(0.0), across(1.0));
+    SQRT_2 * (low + smooth(t) * (high - low))
 }
 
-/// A random number of 0 to 1 at a place.
-fn hash(i: i64, j: i64) -> f64 {
+/// Unit vectors all around.
+const GRADIENTS: [[f64; 2]; 16] = {
+    // Cosines of multiples of 22.5°.
+    const A: f64 = 0.923_879_532_511_286_8;
+    const B: f64 = FRAC_1_SQRT_2;
+    const C: f64 = 0.382_683_432_365_089_8;
+    [
+        [1.0, 0.0],
+        [A, C],
+        [B, B],
+        [C, A],
+        [0.0, 1.0],
+        [-C, A],
+        [-B, B],
+        [-A, C],
+        [-1.0, 0.0],
+        [-A, -C],
+        [-B, -B],
+        [-C, -A],
+        [0.0, -1.0],
+        [C, -A],
+        [B, -B],
+        [A, -C],
+    ]
+};
+
+/// A random number for a place.
+fn hash(i: i64, j: i64) -> usize {
     let mut h = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
         ^ (j as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
     h = (h ^ (h >> 31)).wrapping_mul(0x7fb5_d329_728e_a185);
     h = (h ^ (h >> 27)).wrapping_mul(0x81da_def4_bc2d_d44d);
-    ((h ^ (h >> 33)) >> 11) as f64 / (1u64 << 53) as f64
+    ((h ^ (h >> 33)) >> 32) as usize
 }
 
 #[cfg(test)]

@@ -39,9 +39,9 @@ fn main() -> Result<()> {
     }
     points.push(exact(&skies[0]));
     for (name, interpolation) in [
-        ("point query, 4 chunks", Interpolation::Linear),
-        ("point query, 6 chunks", Interpolation::Lean),
-        ("point query, 16 chunks", Interpolation::Full),
+        ("point query of 4 chunks", Interpolation::Linear),
+        ("point query of 6 chunks", Interpolation::Lean),
+        ("point query of 16 chunks", Interpolation::Full),
     ] {
         points.push(general(&model, name, interpolation)?);
     }
@@ -229,7 +229,7 @@ fn svg(points: &[Point]) -> String {
         let (label, above) = match p.channels {
             "spectral" => (kilobytes, true),
             "RGB" => (kilobytes, false),
-            name => (name.to_owned(), name != "point query, 4 chunks"),
+            name => (name.to_owned(), name != "point query of 4 chunks"),
         };
         let known = points.iter().take_while(|other| !std::ptr::eq(*other, p));
         let repeated = p.tolerance > 0.0

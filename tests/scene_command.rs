@@ -1,0 +1,231 @@
+//! Sun, air and observer as every command takes them.
+#![cfg(feature = "cli")]
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn run(line: &str) -> Output {
+    run_in(Path::new("."), line, "")
+}
+
+fn run_in(folder: &Path, line: &str, input: &str) -> Output {
+    use std::io::Write;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
+        .args(line.split(' '))
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Whoever refuses reads nothing.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+/// What `welkin light` says about its conditions.
+fn conditions(scene: &str) -> serde_json::Value {
+    let output = run(&format!("light --json {scene}"));
+    assert!(output.status.success(), "{scene}: {output:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn number(value: &serde_json::Value, name: &str) -> f64 {
+    value["conditions"][name].as_f64().unwrap()
+}
+
+fn refusal(line: &str) -> String {
+    let output = run(line);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+    assert_eq!(text.lines().count(), 1, "{text}");
+    assert!(output.stdout.is_empty() && !text.contains("panicked"));
+    text
+}
+
+/// The definition (molecules 0.0971, ozone 0.0306 at 550 nm), with the transmittance that another command gives.
+#[test]
+fn turbidity_is_that_of_the_air_of_the_model() {
+    for turbidity in [1.5, 2.1, 3.0, 4.4] {
+        let visibility = number(
+            &conditions(&format!("--turbidity {turbidity}")),
+            "visibility_km",
+        );
+        let rows = format!(
+            "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,wavelength_nm\n\
+             transmittance,{visibility},0.2,0,20,0,0,550\n"
+        );
+        let output = run_in(Path::new("."), "query", &rows);
+        let text = String::from_utf8(output.stdout).unwrap();
+        let cells: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+        let through: f64 = cells[8].parse().unwrap();
+        let got = (-through.ln() - 0.0306) / 0.0971;
+        assert!((got - turbidity).abs() < 2e-3, "{turbidity}: {got}");
+    }
+    let text = refusal("light --turbidity 8");
+    assert!(
+        text.contains("turbidity must be in 1.4") && text.contains("got 8"),
+        "{text}"
+    );
+    for wrong in ["nan", "inf", "-3", "0"] {
+        assert!(refusal(&format!("render --turbidity {wrong}")).contains("turbidity"));
+    }
+    assert!(refusal("light --turbidity 3 --visibility 40").contains("cannot be used with"));
+    let output = run("light --clamp --turbidity 8");
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.starts_with("welkin: turbidity moved from 8 to 4.4"),
+        "{text}"
+    );
+}
+
+/// 17 October 2003 in Golden, Colorado: the example of NREL/TP-560-34302 (39.872046° without refraction, azimuth 194.34024° from the
+/// north to the east). 21 June 2026 on the Tropic of Cancer: the sun passes within 0.01° of the zenith.
+#[test]
+fn dates_and_places_give_the_sun() {
+    let golden = "--latitude 39.742476 --longitude -105.1786";
+    for date in [
+        "--date 2003-10-17 --time 12:30:30-07:00",
+        "--date 2003-10-17T19:30:30Z",
+    ] {
+        let sun = conditions(&format!("{date} {golden}"));
+        assert!(
+            (number(&sun, "solar_elevation_deg") - 39.872_046).abs() < 1e-3,
+            "{sun}"
+        );
+        // Counter-clockwise from the east.
+        assert!(
+            (number(&sun, "solar_azimuth_deg") - (450.0 - 194.340_24)).abs() < 1e-3,
+            "{sun}"
+        );
+    }
+    let noon = "--date 2026-06-21 --time 12:02Z --latitude 23.436 --longitude 0";
+    assert!(number(&conditions(noon), "solar_elevation_deg") > 89.8);
+    // In the morning the sun is in the east, +x; in the south at noon in Europe, −y.
+    let morning = conditions("--date 2026-03-20 --time 07:00Z --latitude 0 --longitude 0");
+    let direction = morning["sun"]["direction"].as_array().unwrap();
+    assert!(direction[0].as_f64().unwrap() > 0.9, "{morning}");
+    let noon = conditions("--date 2026-03-20 --time 12:00Z --latitude 50 --longitude 0");
+    assert!(
+        noon["sun"]["direction"][1].as_f64().unwrap() < -0.7,
+        "{noon}"
+    );
+}
+
+#[test]
+fn dates_that_are_none_are_refused() {
+    let here = "--latitude 48 --longitude 11";
+    for (line, word) in [
+        (
+            format!("light --date 2026-06-21 --time 23:00Z {here}"),
+            "solar elevation must be in -4.2..=90 degrees, got -18",
+        ),
+        (
+            format!("render --date 2026-06-21 --time 12:00 {here}"),
+            "offset from UTC",
+        ),
+        (format!("render --date 2026-06-21 {here}"), "--time"),
+        (
+            format!("render --date 2026-06-21T12:00 {here}"),
+            "offset from UTC",
+        ),
+        (
+            format!("render --date 2026-02-30 --time 12:00Z {here}"),
+            "2026-02-30",
+        ),
+        (
+            format!("render --date 9999-01-01 --time 12:00Z {here}"),
+            "position of the sun",
+        ),
+        (
+            format!("render --date 2026-06-21T12:00Z --time 12:00Z {here}"),
+            "time already",
+        ),
+        (format!("render --time 12:00Z {here}"), "--date"),
+        (
+            "render --date 2026-06-21 --time 12:00Z".to_owned(),
+            "--latitude",
+        ),
+        ("render --latitude 48 --longitude 11".to_owned(), "--date"),
+        (
+            "render --date 2026-06-21 --time 12:00Z --latitude 91 --longitude 11".to_owned(),
+            "-90..=90",
+        ),
+        (
+            "render --date 2026-06-21 --time 12:00Z --latitude 48 --longitude nan".to_owned(),
+            "-180..=180",
+        ),
+        (
+            format!("render --date 2026-06-21 --time 12:00Z {here} --sun-elevation 20"),
+            "cannot be used with",
+        ),
+        (
+            format!("render --date 2026-06-21 --time 12:00Z {here} --sun-azimuth 20"),
+            "cannot be used with",
+        ),
+        (
+            format!("render --date 2026-06-21 --time 10:00Z..12:00Z {here}"),
+            "welkin animate",
+        ),
+        ("render --sun-elevation 1..2".to_owned(), "welkin animate"),
+        ("froxels --sun-elevation 1..2".to_owned(), "welkin animate"),
+        ("light --sun-azimuth 1..2".to_owned(), "welkin animate"),
+        ("light --sun-elevation 1..two".to_owned(), "no number"),
+    ] {
+        let text = refusal(&line);
+        assert!(text.contains(word), "{line}: {text}");
+    }
+}
+
+/// One struct: whoever adds a condition adds it everywhere.
+#[test]
+fn every_command_that_shows_a_sky_takes_all_conditions() {
+    for command in ["render", "animate", "froxels", "light", "contact-sheet"] {
+        let help = String::from_utf8(run(&format!("{command} --help")).stdout).unwrap();
+        for option in [
+            "sun-elevation",
+            "sun-azimuth",
+            "date",
+            "time",
+            "latitude",
+            "longitude",
+            "visibility",
+            "turbidity",
+            "albedo",
+            "altitude",
+            "clamp",
+        ] {
+            assert!(
+                help.contains(&format!("--{option} ")) || help.contains(&format!("--{option}\n")),
+                "{command} {option}"
+            );
+        }
+    }
+}
+
+#[test]
+fn shells_and_man_pages() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = String::from_utf8(run(&format!("completions {shell}")).stdout).unwrap();
+        assert!(
+            script.contains("contact-sheet") && script.contains("turbidity"),
+            "{shell}"
+        );
+    }
+    assert!(refusal("completions tcsh").contains("tcsh"));
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(folder.path(), "man --out .", "");
+    assert!(output.status.success(), "{output:?}");
+    for page in [
+        "welkin.1",
+        "welkin-render.1",
+        "welkin-contact-sheet.1",
+        "welkin-man.1",
+    ] {
+        let text = std::fs::read_to_string(folder.path().join(page)).unwrap();
+        assert!(text.contains(".TH"), "{page}");
+    }
+    let text = std::fs::read_to_string(folder.path().join("welkin-render.1")).unwrap();
+    assert!(text.contains("turbidity") && text.contains("Preetham"));
+    assert!(refusal("man --out missing").contains("is no folder"));
+}
