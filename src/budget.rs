@@ -8,6 +8,22 @@ use crate::point_query::{Chunks, Factors, PointQuery, checked_head};
 use crate::polarisation::PolarisedPointQuery;
 
 /// What the skies of a scene are asked for.
+///
+/// ```
+/// use welkin::{BakedSky, Budget, Channels, Model};
+///
+/// let model = Model::default_model()?;
+/// let budget = |channels| Budget {
+///     altitude: [0.0, 100.0],
+///     visibility: [40e3, 60e3],
+///     solar_elevation: [0.1, 1.0],
+///     tolerance: BakedSky::TOLERANCE,
+///     channels,
+/// };
+/// let [colour, stokes] = [Channels::Colour, Channels::Stokes].map(|c| model.plan(&budget(c)));
+/// assert!(colour?.sky_bytes < stokes?.sky_bytes);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channels {
     /// Radiance at the wavelengths of the model, or at any between them.
@@ -19,6 +35,21 @@ pub enum Channels {
 }
 
 /// The conditions that a scene can meet, and what it tolerates. Albedo is free: every chunk holds all of it.
+///
+/// ```
+/// use welkin::{BakedSky, Budget, Channels, Model};
+///
+/// let model = Model::default_model()?;
+/// let plan = model.plan(&Budget {
+///     altitude: [0.0, 100.0],
+///     visibility: [40e3, 60e3],
+///     solar_elevation: [0.1, 1.0],
+///     tolerance: BakedSky::TOLERANCE,
+///     channels: Channels::Colour,
+/// })?;
+/// assert!(plan.file_bytes < model.file_bytes() / 4);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
     /// Lowest and highest altitude of observers, m.
@@ -34,6 +65,24 @@ pub struct Budget {
 }
 
 /// What a scene needs of a model, and what it gets.
+///
+/// ```
+/// use welkin::{BakedSky, Budget, Channels, Conditions, Model};
+///
+/// let model = Model::stream(welkin::DEFAULT_MODEL.to_vec())?; // or what a server has
+/// let plan = model.plan(&Budget {
+///     altitude: [0.0, 100.0],
+///     visibility: [40e3, 60e3],
+///     solar_elevation: [0.1, 1.0],
+///     tolerance: BakedSky::TOLERANCE,
+///     channels: Channels::Spectral,
+/// })?;
+/// model.load(&plan)?;
+/// let loaded = model.traffic();
+/// model.sky(&Conditions { visibility: 50e3, ..Conditions::default() })?;
+/// assert_eq!(model.traffic(), loaded); // nothing more is read
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     budget: Budget,

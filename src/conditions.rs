@@ -5,6 +5,22 @@ use crate::error::{Error, Result};
 use crate::kernel::real::Real;
 
 /// The conditions of a sky. Angles in radians, lengths in metres.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let conditions = Conditions {
+///     solar_elevation: 5f64.to_radians(),
+///     visibility: 40e3,
+///     ..Conditions::default()
+/// };
+/// assert!((conditions.sun_direction()[2] - 5f64.to_radians().sin()).abs() < 1e-15);
+/// // What the model does not cover is refused, not extrapolated.
+/// let model = Model::default_model()?;
+/// let night = Conditions { solar_elevation: -0.5, ..conditions };
+/// assert_eq!(model.sky(&night).unwrap_err().class(), "range");
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditions {
     /// Geometric elevation of the sun's centre above the observer's horizontal plane, rad.

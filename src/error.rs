@@ -12,9 +12,36 @@ pub type Detail = String;
 pub type Detail = &'static str;
 
 /// Result with this crate's [`Error`].
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// fn zenith_luminance(model: &Model) -> welkin::Result<f32> {
+///     let sky = model.sky(&Conditions::default())?;
+///     Ok(sky.xyz([0.0, 0.0, 1.0])?[1]) // cd m⁻²
+/// }
+/// assert!(zenith_luminance(&Model::default_model()?)? > 100.0);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub type Result<T> = core::result::Result<T, Error>;
 
 /// Why a file, a parameter or a query was refused.
+///
+/// ```
+/// use welkin::{Conditions, Error, Model};
+///
+/// let model = Model::default_model()?;
+/// let fog = Conditions { visibility: 50.0, ..Conditions::default() };
+/// match model.sky(&fog) {
+///     Err(Error::OutOfRange { parameter, min, .. }) => {
+///         assert_eq!(parameter, "visibility");
+///         assert_eq!(min, model.visibility_range()[0]);
+///     }
+///     _ => unreachable!("no model of clear skies knows fog"),
+/// }
+/// assert_eq!(Model::from_bytes(*b"no model").unwrap_err().class(), "magic");
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {

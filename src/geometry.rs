@@ -6,6 +6,15 @@ use core::f64::consts::FRAC_PI_2;
 use crate::kernel::real::Real;
 
 /// A sphere of radius `radius` with an atmosphere up to `top` above it (m).
+///
+/// ```
+/// use welkin::geometry::Planet;
+///
+/// let earth = Planet { radius: 6.378e6, top: 100e3 };
+/// // From an airliner the horizon is three degrees below the horizontal.
+/// let dip = earth.dip(10e3).to_degrees();
+/// assert!((dip - 3.2).abs() < 0.1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planet {
     /// Radius, m.
@@ -15,6 +24,15 @@ pub struct Planet {
 }
 
 /// Which side of the geometric horizon a ray leaves to.
+///
+/// ```
+/// use welkin::geometry::{Planet, Side};
+///
+/// let earth = Planet { radius: 6.378e6, top: 100e3 };
+/// // Below the horizontal and still above the horizon, which lies 1.4° lower at 2 km.
+/// assert_eq!(earth.ray(2000.0, -0.02).side, Side::Up);
+/// assert_eq!(earth.ray(2000.0, -0.03).side, Side::Down);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The ray ends in space.
@@ -24,6 +42,16 @@ pub enum Side {
 }
 
 /// A view ray in terms of the geometric horizon.
+///
+/// ```
+/// use welkin::geometry::{Planet, Side};
+///
+/// let earth = Planet { radius: 6.378e6, top: 100e3 };
+/// let ray = earth.ray(2000.0, -0.1); // altitude in m, elevation in rad
+/// assert_eq!(ray.side, Side::Down);
+/// // About 20 km along a slope of 1 : 10 to the ground.
+/// assert!((ray.length - 20.3e3).abs() < 1e3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Where the ray ends.

@@ -98,6 +98,7 @@
 //! | `cli` | no | the command `welkin` |
 
 #![deny(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(feature = "std"), no_std)]
 // Without the standard library parts of the shared modules are not used.
 #![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]

@@ -1,6 +1,7 @@
-//! Every public type can be moved to and shared between threads, and holds nothing but what it says it borrows.
+//! Every public type can be moved to and shared between threads, holds nothing but what it says it borrows, and has an
+//! example.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use welkin::axis::*;
@@ -164,4 +165,51 @@ fn every_public_type_is_listed() {
         missing.is_empty() && gone.is_empty(),
         "missing: {missing:?}, gone: {gone:?}"
     );
+}
+
+/// Comments of the types that the files of a folder declare, commands left out.
+fn comments(folder: &Path, found: &mut BTreeMap<String, String>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.ends_with("src/bin") {
+            continue;
+        }
+        if path.is_dir() {
+            comments(&path, found);
+            continue;
+        }
+        let mut comment = String::new();
+        for line in std::fs::read_to_string(&path).unwrap().lines() {
+            if let Some(text) = line.strip_prefix("///") {
+                comment += &format!("{}\n", text.trim());
+            } else if line.is_empty() {
+                comment.clear();
+            } else if let Some(declared) = line.strip_prefix("pub ") {
+                let mut words = declared.split(|c: char| !c.is_alphanumeric());
+                let keyword = words.next().unwrap();
+                if ["struct", "enum", "union", "trait", "type"].contains(&keyword) {
+                    let name = words.next().unwrap().to_owned();
+                    *found.entry(name).or_default() += &std::mem::take(&mut comment);
+                }
+            }
+        }
+    }
+}
+
+/// A block that is neither of another language nor only compiled.
+fn has_example(comment: &str) -> bool {
+    comment.lines().filter(|line| *line == "```").count() >= 2
+}
+
+#[test]
+fn every_public_type_has_an_example_that_runs() {
+    let mut found = BTreeMap::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    comments(&root, &mut found);
+    let without: Vec<String> = LISTED
+        .iter()
+        .map(|listed| name(listed))
+        .filter(|name| !found.get(name).is_some_and(|text| has_example(text)))
+        .collect();
+    assert!(without.is_empty(), "no example: {without:?}");
 }

@@ -23,6 +23,22 @@ use crate::transmittance::{Extinction, Segment};
 /// share what they need. Holds the source of all visibilities; clones, one per thread, share that.
 ///
 /// Where the conditions change, a few small tables are allocated. `Send + Sync`.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let model = Model::default_model()?;
+/// let mut query = model.aerial_perspective_query()?;
+/// let (mut light, mut transmittance) = ([0.0; 12], [0.0; 12]);
+/// for visibility in [30e3, 60e3, 120e3] {
+///     let conditions = Conditions { visibility, ..Conditions::default() };
+///     let (from, to) = ([0.0, 0.0, 2.0], [5e3, 0.0, 300.0]);
+///     let before = transmittance[6];
+///     query.in_scattering(&conditions, from, to, &mut light, &mut transmittance)?;
+///     assert!(transmittance[6] > before && light[6] > 0.0);
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct AerialPerspectiveQuery<'a> {
     model: &'a Model,

@@ -25,6 +25,24 @@ const REST: f32 = 0.04;
 /// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond; shorter segments,
 /// and those that end on ground that is seen, are those of the aerial perspective. Points that the planet hides are not seen: from there on the way
 /// into the ground the light goes over into that of the air before it, which a volume of such points does not want.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let model = Model::default_model()?;
+/// let conditions = Conditions { altitude: 100.0, ..Conditions::default() };
+/// let sky = model.sky(&conditions)?;
+/// let aerial = model.aerial_perspective(&conditions)?;
+/// let joined = aerial.joined_to(&sky)?;
+/// // A mountain 20 km away is seen as its radiance times the factors, plus the light of the air before it.
+/// let (_, factors) = joined.linear_srgb([0.0, 20e3, 1500.0])?;
+/// assert!(factors[2] < factors[0]);
+/// // What is beyond the air is seen through all of it: its light is that of the sky.
+/// let (light, _) = joined.linear_srgb([0.0, 0.8e6, 0.6e6 + 100.0])?;
+/// let beyond = sky.linear_srgb([0.0, 0.8, 0.6])?;
+/// assert!((light[2] / beyond[2] - 1.0).abs() < 1e-4);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct JoinedAerialPerspective<'a> {
     aerial: &'a AerialPerspective,

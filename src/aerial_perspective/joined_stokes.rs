@@ -5,6 +5,21 @@ use crate::error::Result;
 use crate::polarisation::{PolarisationFrame, PolarisedSky, Stokes, StokesSpectra};
 
 /// As [`JoinedAerialPerspective`](super::JoinedAerialPerspective), with Stokes vectors; see [`AerialPerspective::joined_to_polarised`].
+///
+/// ```
+/// use welkin::{Conditions, Model, PolarisationFrame};
+///
+/// let model = Model::default_model()?;
+/// let conditions = Conditions::default();
+/// let sky = model.polarised_sky(&conditions)?;
+/// let aerial = model.aerial_perspective(&conditions)?;
+/// let joined = aerial.joined_to_polarised(&sky)?;
+/// let camera_up = PolarisationFrame::Axis([0.0, 0.0, 1.0]);
+/// let (light, _) = joined.linear_srgb_stokes([0.0, 20e3, 500.0], camera_up)?;
+/// // A polariser in front of the camera makes distant air darker.
+/// assert!(light[2].through_polariser(0.0) < light[2].i);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct JoinedPolarisedAerialPerspective<'a> {
     aerial: &'a AerialPerspective,

@@ -61,6 +61,19 @@ use xyz_sum::XyzSum;
 /// a ray, and stays what it is beyond the atmosphere.
 ///
 /// After [`Model::aerial_perspective`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let aerial = Model::default_model()?.aerial_perspective(&Conditions::default())?;
+/// let camera = [0.0, 0.0, 2.0];
+/// let (near, _) = aerial.linear_srgb(camera, [1e3, 0.0, 2.0])?; // cd m⁻²
+/// let (far, factors) = aerial.linear_srgb(camera, [30e3, 0.0, 2.0])?;
+/// assert!(far[1] > near[1]);
+/// // What is 30 km away is seen as `radiance · factors + far`.
+/// assert!(factors.iter().all(|factor| (0.0..1.0).contains(factor)));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct AerialPerspective {
     conditions: Conditions,

@@ -17,6 +17,16 @@ const LANES: usize = 4;
 /// A sky as tables of about 12 kB that hold the colours and no wavelengths. Otherwise as [`BakedSky`](crate::BakedSky).
 ///
 /// The tables hold CIE XYZ, as the components of wide-gamut skies in RGB can be negative.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let baked = sky.bake_colour(BakedSky::TOLERANCE)?;
+/// let [red, _, blue] = baked.linear_srgb([0.0, 0.0, 1.0])?; // cd m⁻²
+/// assert!(blue > red);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BakedColourSky {
     baked: Baked<LANES>,

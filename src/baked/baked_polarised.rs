@@ -15,6 +15,19 @@ use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
 ///
 /// Single queries, batches, wide and narrow vectors give the same bits, and the radiance is that of [`BakedPolarisedSky::sky`].
 /// Q² + U² ≤ I². Nothing allocates. `Send + Sync`.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model, PolarisationFrame, StokesSpectra};
+///
+/// let sky = Model::default_model()?.polarised_sky(&Conditions::default())?;
+/// let baked = sky.bake(BakedSky::TOLERANCE)?;
+/// let [mut i, mut q, mut u] = [[0.0; 12]; 3];
+/// let out = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
+/// baked.stokes([-0.4, 0.0, 0.9], PolarisationFrame::SunAligned, out)?;
+/// // Across from the sun light is polarised strongly, perpendicular to the plane of view and sun.
+/// assert!(q[6] > 0.3 * i[6] && u[6].abs() < 0.01 * i[6]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BakedPolarisedSky {
     sky: BakedSky,

@@ -18,6 +18,22 @@ pub(super) const LANES: usize = 16;
 /// stated additional error. Radiance is continuous except at the geometric horizon.
 ///
 /// Single queries, batches, wide and narrow vectors give the same bits. Nothing allocates. `Send + Sync`.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let baked = sky.bake(BakedSky::TOLERANCE)?;
+/// let direction = [0.3, 0.1, 0.9];
+/// let (mut fast, mut exact) = ([0.0; 12], [0.0; 12]);
+/// baked.radiance(direction, &mut fast)?;
+/// sky.radiance(direction, &mut exact)?;
+/// assert!((fast[3] / exact[3] - 1.0).abs() < 0.01);
+/// // Hero wavelengths: four of a path's own, nm.
+/// let hero = baked.hero(direction, [400.0, 480.0, 550.0, 700.0])?;
+/// assert!(hero[1] > hero[3]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BakedSky {
     pub(super) baked: Baked<LANES>,

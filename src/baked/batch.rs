@@ -7,6 +7,18 @@ use crate::kernel::lanes::Lanes;
 use crate::kernel::simd::{Instructions, Kernel};
 
 /// Directions as a structure of arrays of equal length. They need not be normalised.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Directions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let baked = sky.bake_colour(BakedSky::TOLERANCE)?;
+/// let directions = Directions { x: &[0.0, 1.0], y: &[0.0, 0.0], z: &[1.0, 0.1] };
+/// let mut rgb = [[0.0; 3]; 2];
+/// baked.linear_srgb_batch(&directions, &mut rgb)?;
+/// assert_eq!(rgb[0], baked.linear_srgb([0.0, 0.0, 1.0])?); // the same bits
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Directions<'a> {
     /// Components along x.

@@ -9,6 +9,15 @@ use crate::geometry::Side;
 /// What baking adds to the error of a sky: relative differences of all channels at some 660 directions that are not
 /// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on the ground.
 /// They are dense where errors are large: at the horizon, and beside the sun.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let error = sky.bake(BakedSky::TOLERANCE)?.bake_error();
+/// assert!(error.median <= error.p95 && error.p95 <= BakedSky::TOLERANCE);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeError {
     /// Median.

@@ -16,6 +16,19 @@ const COLUMNS: usize = 48;
 const ROWS: usize = UP + DOWN;
 
 /// What a direction was drawn for. Its density counts both all the same.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model, Part};
+///
+/// let model = Model::default_model()?;
+/// let conditions = Conditions::default();
+/// let sky = model.sky(&conditions)?.bake_colour(BakedSky::TOLERANCE)?;
+/// let sampler = sky.sampler().with_sun(&model.solar_disc(&conditions)?);
+/// // Small first numbers are the sun's.
+/// assert_eq!(sampler.sample([0.001, 0.5]).part, Part::Sun);
+/// assert_eq!(sampler.sample([0.999, 0.5]).part, Part::Sky);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The sky without the sun's disc.
@@ -25,6 +38,19 @@ pub enum Part {
 }
 
 /// A direction, the density that it was drawn with and the light from there.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let sampler = sky.bake_colour(BakedSky::TOLERANCE)?.sampler();
+/// let sample = sampler.sample([0.25, 0.75]);
+/// let weight = sample.xyz[1] / sample.pdf; // what a Monte Carlo estimate of the flux adds
+/// assert!(weight > 0.0);
+/// let length = sample.direction.iter().map(|c| c * c).sum::<f32>();
+/// assert!((length - 1.0).abs() < 1e-5);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Unit vector.
@@ -45,6 +71,26 @@ pub struct Sample {
 /// beyond, so that directions may be turned to another frame and back in single precision: what falls into the rim is
 /// drawn on the rim's inner edge, which changes the light of the disc by less than 1e-4. Along the horizon rounding can make
 /// draws black, which costs 2e-5 of the light of a whole disc.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let model = Model::default_model()?;
+/// let conditions = Conditions::default();
+/// let sky = model.sky(&conditions)?.bake_colour(BakedSky::TOLERANCE)?;
+/// let sampler = sky.sampler().with_sun(&model.solar_disc(&conditions)?);
+/// // Illuminance of level ground, lx, from a grid of draws.
+/// let draws = 64;
+/// let mut sum = 0.0;
+/// for k in 0..draws * draws {
+///     let point = [k % draws, k / draws].map(|i| (i as f32 + 0.5) / draws as f32);
+///     let sample = sampler.sample(point);
+///     sum += sample.xyz[1] * sample.direction[2].max(0.0) / sample.pdf;
+/// }
+/// let illuminance = sum / (draws * draws) as f32;
+/// assert!((20e3..60e3).contains(&illuminance));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SkySampler {
     sky: BakedColourSky,

@@ -16,6 +16,19 @@ use crate::error::{Error, Result};
 use crate::kernel::half::widen;
 
 /// Indices of the nodes that [`crop`] keeps, each strictly increasing.
+///
+/// ```
+/// use welkin::Model;
+/// use welkin::format::{Selection, crop, encode, unpack};
+///
+/// let (mut head, mut chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let lowest = Selection { altitudes: vec![0, 1], ..Selection::all(&head) };
+/// crop(&mut head, &mut chunks, &lowest)?;
+/// let small = Model::from_bytes(encode(&head, &chunks)?)?;
+/// assert_eq!(small.head().altitudes.len(), 2);
+/// assert!(small.file_bytes() < welkin::DEFAULT_MODEL.len() / 4);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Selection {
     /// Into the altitudes.

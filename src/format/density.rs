@@ -28,6 +28,21 @@ pub(super) const RESERVED: Range<usize> =
     offset_of!(Counts, reserved)..offset_of!(Counts, reserved) + size_of::<U32>();
 
 /// Piecewise quadratic densities.
+///
+/// ```
+/// use welkin::format::{DensityView, Kind, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::Transmittance).expect("the default model has one");
+/// let bytes = &file[entry.offset..][..entry.length];
+/// let head = &contents.head;
+/// let view = DensityView::new(bytes, head.constituents, head.planet.top)?;
+/// let layers = view.edges.len() - 1;
+/// assert_eq!(view.density.len(), (2 * layers + 1) * head.constituents);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct DensityView<'a> {
     /// Edges of the layers, m above the ground, `[layers + 1]`.
@@ -95,6 +110,20 @@ impl<'a> DensityView<'a> {
 }
 
 /// Piecewise quadratic densities to be written.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let table = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::Transmittance(table) => Some(table),
+///     _ => None,
+/// });
+/// let table = table.expect("the default model has one");
+/// assert_eq!(table.edges.last(), Some(&head.planet.top));
+/// assert_eq!(table.density.len(), (2 * table.edges.len() - 1) * head.constituents);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DensityTable {
     /// Edges of the layers, m above the ground: 0 first, the top of the atmosphere last.

@@ -9,6 +9,17 @@ use crate::kernel::axis::sample;
 use crate::kernel::axis::{ElevationAxis, Ends, coefficients};
 
 /// Spline axis over the angle from the geometric horizon, on one side of it.
+///
+/// ```
+/// use std::f64::consts::FRAC_PI_2;
+/// use welkin::axis::alpha_angle;
+/// use welkin::format::AlphaAxis;
+///
+/// let axis = AlphaAxis { intervals: 16, exponent: 3.0 };
+/// // The first interval at the horizon is 16³ times narrower than the axis.
+/// let angle = alpha_angle(1.0, FRAC_PI_2, axis.intervals, axis.exponent);
+/// assert!((angle - FRAC_PI_2 / 4096.0).abs() < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlphaAxis {
     /// Number of spline intervals.
@@ -18,6 +29,19 @@ pub struct AlphaAxis {
 }
 
 /// Shape of a phase function; its parameter per wavelength is in [`Field::parameter`].
+///
+/// ```
+/// use welkin::Model;
+/// use welkin::format::PhaseFunction;
+///
+/// let model = Model::default_model()?;
+/// for field in &model.head().fields {
+///     if field.phase == PhaseFunction::HenyeyGreenstein {
+///         assert!(field.parameter.iter().all(|g| g.abs() < 1.0)); // asymmetry, by wavelength
+///     }
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PhaseFunction {
@@ -30,6 +54,20 @@ pub enum PhaseFunction {
 }
 
 /// A part of the radiance with a phase function of its own.
+///
+/// ```
+/// use welkin::Model;
+/// use welkin::format::PhaseFunction;
+///
+/// let model = Model::default_model()?;
+/// let head = model.head();
+/// for field in &head.fields {
+///     assert_eq!(field.parameter.len(), head.wavelengths.len());
+/// }
+/// // One of them is light that the molecules of the air scatter once.
+/// assert!(head.fields.iter().any(|field| field.phase == PhaseFunction::Rayleigh));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Factor that depends on the angle to the sun.
@@ -41,6 +79,16 @@ pub struct Field {
 }
 
 /// Axes, tables and provenance of a model. Angles in radians, lengths in metres, wavelengths in nanometres.
+///
+/// ```
+/// use welkin::Model;
+///
+/// let model = Model::default_model()?;
+/// let head = model.head();
+/// assert_eq!(head.extinction.len(), head.visibilities.len() * head.constituents * head.wavelengths.len());
+/// assert!(head.solar_irradiance_at(500.0) > 1.5); // W m⁻² nm⁻¹
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
     /// Planet radius and top of the atmosphere, m.
@@ -122,6 +170,19 @@ pub(crate) fn visibility_node(visibility: f64) -> f64 {
 }
 
 /// What a chunk holds.
+///
+/// ```
+/// use welkin::Model;
+/// use welkin::format::Kind;
+///
+/// let model = Model::default_model()?;
+/// // Radiance for every altitude and visibility of the file.
+/// let radiances = model.directory().iter().filter(|entry| entry.kind == Kind::Radiance);
+/// let head = model.head();
+/// assert_eq!(radiances.count(), head.altitudes.len() * head.visibilities.len());
+/// assert_eq!(Kind::RadianceBasis.name(), "radiance basis");
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Kind {
@@ -177,6 +238,19 @@ impl Kind {
 }
 
 /// A chunk in the directory.
+///
+/// ```
+/// use welkin::Model;
+/// use welkin::format::Kind;
+///
+/// let model = Model::default_model()?;
+/// let bytes = |kind| {
+///     let entries = model.directory().iter().filter(move |entry| entry.kind == kind);
+///     entries.map(|entry| entry.length).sum::<usize>()
+/// };
+/// assert!(bytes(Kind::Radiance) > bytes(Kind::Column));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// What it holds.

@@ -131,6 +131,17 @@ pub const fn ceil16(n: usize) -> usize {
 }
 
 /// Lengths along the axes of a chunk's tables, in coefficients.
+///
+/// ```
+/// use welkin::Model;
+///
+/// let model = Model::default_model()?;
+/// let shape = model.head().shape();
+/// // Every interval of a spline is between coefficients, three more on free axes.
+/// assert_eq!(shape.up, model.head().up.intervals + 3);
+/// assert_eq!(shape.channels, model.head().fields.len() * shape.wavelengths);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     /// Coefficients of the up axis.

@@ -15,6 +15,17 @@ use crate::kernel::axis::ElevationAxis;
 pub(crate) type Key = (Kind, Option<usize>, Option<usize>);
 
 /// What the first `head_length` bytes of a file say.
+///
+/// ```
+/// use welkin::format::{Kind, parse};
+///
+/// let contents = parse(welkin::DEFAULT_MODEL)?;
+/// let place = contents.index[&(Kind::Radiance, Some(0), Some(1))];
+/// let entry = &contents.directory[place];
+/// assert_eq!((entry.altitude, entry.visibility), (Some(0), Some(1)));
+/// assert!(entry.offset >= contents.head_length);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
     /// Axes, tables and provenance.

@@ -5,6 +5,19 @@ use super::payload_bytes::{check_rank, push_half, push_scale};
 use crate::error::Result;
 
 /// Factors of the polarisation at one altitude and visibility, to be written; unpadded and row-major.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let factors = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::Polarisation(factors) => Some(factors),
+///     _ => None,
+/// });
+/// let factors = factors.expect("the default model is polarised");
+/// assert_eq!(factors.elevation.len(), head.shape().elevation * factors.rank);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolarisationFactors {
     /// Number of components, as in the basis.
@@ -33,6 +46,19 @@ impl PolarisationFactors {
 }
 
 /// What all polarisation chunks share, to be written; unpadded and row-major.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::PolarisationBasis(basis) => Some(basis),
+///     _ => None,
+/// });
+/// let basis = basis.expect("the default model is polarised");
+/// assert_eq!(basis.channel.len(), basis.rank * head.shape().polarisation_channels());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolarisationBasis {
     /// Number of components.

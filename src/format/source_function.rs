@@ -32,6 +32,23 @@ pub const MAX_MOMENTS: usize = 32;
 const MAX_SPECIES: usize = 16;
 
 /// Components along the modes altitude, sun, moment, channel.
+///
+/// ```
+/// use welkin::format::{Payload, Ranks, unpack};
+///
+/// let (_, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::SourceBasis(basis) => Some(basis),
+///     _ => None,
+/// });
+/// let ranks: Ranks = basis.expect("the default model has one").ranks;
+/// for chunk in &chunks {
+///     if let Payload::Source(core) = &chunk.payload {
+///         assert_eq!(core.core.len(), ranks.iter().product::<usize>());
+///     }
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub type Ranks = [usize; 4];
 
 #[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
@@ -65,6 +82,20 @@ pub const fn harmonics(degree: usize, orders: usize) -> usize {
 }
 
 /// What the sources of all visibilities share.
+///
+/// ```
+/// use welkin::format::{Kind, SourceBasisView, TENSOR, harmonics, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::SourceBasis).expect("the default model has one");
+/// let bytes = &file[entry.offset..][..entry.length];
+/// let basis = SourceBasisView::new(bytes, contents.head.wavelengths.len())?;
+/// let moments = TENSOR + harmonics(basis.degree, basis.orders);
+/// assert_eq!(basis.factors[2].len(), moments * basis.ranks[2]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SourceBasisView<'a> {
     /// Highest degree of the harmonics.
@@ -128,6 +159,19 @@ impl<'a> SourceBasisView<'a> {
 }
 
 /// The source at one visibility.
+///
+/// ```
+/// use welkin::format::{Kind, SourceView, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::Source).expect("the default model has one");
+/// let (bytes, head) = (&file[entry.offset..][..entry.length], &contents.head);
+/// let source = SourceView::new(bytes, head.constituents, head.wavelengths.len())?;
+/// assert_eq!(source.parameter.len(), source.phase.len() * head.wavelengths.len());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SourceView<'a> {
     /// Components per mode, as in the basis.
@@ -276,6 +320,21 @@ fn finite<'a>(what: &'static str, values: impl IntoIterator<Item = &'a F32>) -> 
 }
 
 /// What the sources of all visibilities share, to be written.
+///
+/// ```
+/// use welkin::format::{Payload, SOURCE_FIELDS, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::SourceBasis(basis) => Some(basis),
+///     _ => None,
+/// });
+/// let basis = basis.expect("the default model has one");
+/// let channels = SOURCE_FIELDS * head.wavelengths.len();
+/// assert_eq!(basis.factors[0].len(), basis.altitude.len() * basis.ranks[0]);
+/// assert_eq!(basis.factors[3].len(), channels * basis.ranks[3]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SourceBasis {
     /// Highest degree of the harmonics.
@@ -293,6 +352,21 @@ pub struct SourceBasis {
 }
 
 /// The source at one visibility, to be written.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let cores = chunks.iter().filter_map(|chunk| match &chunk.payload {
+///     Payload::Source(core) => Some(core),
+///     _ => None,
+/// });
+/// assert_eq!(cores.clone().count(), head.visibilities.len());
+/// for core in cores {
+///     assert_eq!(core.parameter.len(), core.phase.len() * head.wavelengths.len());
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SourceCore {
     /// Components per mode, as in the basis.

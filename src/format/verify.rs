@@ -10,6 +10,19 @@ use super::views::{BasisView, FactorsView, Payload16};
 use crate::error::Error;
 
 /// A rule of the format specification that a file breaks.
+///
+/// ```
+/// use welkin::format::{parse, verify};
+///
+/// let mut file = welkin::DEFAULT_MODEL.to_vec();
+/// assert!(verify(&file).is_empty());
+/// let chunk = parse(&file)?.directory[3];
+/// file[chunk.offset] ^= 1;
+/// let problems = verify(&file);
+/// assert_eq!(problems[0].chunk, Some(3));
+/// assert_eq!(problems[0].error.class(), "checksum");
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Problem {
     /// Index of the chunk in the directory, if it is about a chunk.

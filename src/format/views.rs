@@ -9,11 +9,40 @@ use super::layout::{Shape, ceil16};
 use crate::error::{Error, Result};
 
 /// Bits of half-precision numbers, little-endian in the file.
+///
+/// ```
+/// use welkin::format::{BasisView, Kind, Payload16, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::RadianceBasis).expect("every model has one");
+/// let bytes = &file[entry.offset..][..entry.length];
+/// let basis = BasisView::radiance(bytes, &contents.head.shape(), entry.rank)?;
+/// let phi: &Payload16 = basis.phi;
+/// let first = half::f16::from_bits(phi[0].get());
+/// assert!(first.is_finite());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub type Payload16 = [U16];
 
 /// Factors of the radiance (kind 1) or of the polarisation (kind 6) at one altitude and visibility.
 ///
 /// Matrices are row-major and `stride` wide, of which the first `rank` columns count, except `level`.
+///
+/// ```
+/// use welkin::format::{FactorsView, Kind, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::Radiance).expect("every model has one");
+/// let (bytes, shape) = (&file[entry.offset..][..entry.length], contents.head.shape());
+/// let factors = FactorsView::radiance(bytes, &shape, entry.rank)?;
+/// assert_eq!(factors.alpha_up.len(), shape.up * factors.stride);
+/// assert!(factors.stride >= factors.rank && factors.is_finite());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct FactorsView<'a> {
     /// Number of components.
@@ -79,6 +108,20 @@ impl<'a> FactorsView<'a> {
 }
 
 /// Factor matrices that all radiance chunks (kind 3) or all polarisation chunks (kind 7) share.
+///
+/// ```
+/// use welkin::format::{BasisView, Kind, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::RadianceBasis).expect("every model has one");
+/// let bytes = &file[entry.offset..][..entry.length];
+/// let basis = BasisView::radiance(bytes, &contents.head.shape(), entry.rank)?;
+/// assert_eq!(basis.channel.len(), basis.stride * basis.channel_stride);
+/// assert!(basis.is_finite());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct BasisView<'a> {
     /// Number of components.
@@ -135,6 +178,18 @@ impl<'a> BasisView<'a> {
 }
 
 /// Logarithms of mean densities along rays from one altitude.
+///
+/// ```
+/// use welkin::format::{ColumnView, Kind, parse};
+///
+/// let file = welkin::DEFAULT_MODEL;
+/// let contents = parse(file)?;
+/// let mut directory = contents.directory.iter();
+/// let entry = directory.find(|e| e.kind == Kind::Column).expect("every model has one");
+/// let view = ColumnView::new(&file[entry.offset..][..entry.length], &contents.head.shape())?;
+/// assert!(view.is_finite());
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ColumnView<'a> {
     /// `[up + down][constituents]`.

@@ -18,6 +18,20 @@ use crate::output::replace_file;
 /// Factors of a radiance chunk, unpadded; [`encode`] rounds the matrices to half precision.
 ///
 /// Matrices are row-major. Lengths as in [`Head::shape`].
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let shape = head.shape();
+/// for chunk in &chunks {
+///     if let Payload::Radiance(factors) = &chunk.payload {
+///         assert_eq!(factors.alpha_up.len(), shape.up * factors.rank);
+///         assert_eq!(factors.level.len(), shape.elevation * shape.wavelengths);
+///     }
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RadianceFactors {
     /// Number of components.
@@ -35,6 +49,19 @@ pub struct RadianceFactors {
 }
 
 /// Factor matrices that all radiance chunks share, unpadded.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let basis = chunks.iter().find_map(|chunk| match &chunk.payload {
+///     Payload::RadianceBasis(basis) => Some(basis),
+///     _ => None,
+/// });
+/// let basis = basis.expect("every model has one");
+/// assert_eq!(basis.channel.len(), basis.rank * head.shape().channels);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RadianceBasis {
     /// Number of components.
@@ -46,6 +73,22 @@ pub struct RadianceBasis {
 }
 
 /// Logarithms of mean densities, `[up + down][constituents]`.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (head, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// let shape = head.shape();
+/// let tables = chunks.iter().filter_map(|chunk| match &chunk.payload {
+///     Payload::Column(table) => Some(table),
+///     _ => None,
+/// });
+/// assert_eq!(tables.clone().count(), head.altitudes.len());
+/// for table in tables {
+///     assert_eq!(table.values.len(), (shape.up + shape.down) * shape.constituents);
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnTable {
     /// Spline coefficients of ln n̄.
@@ -53,6 +96,21 @@ pub struct ColumnTable {
 }
 
 /// What a chunk to be written holds.
+///
+/// ```
+/// use welkin::format::{Payload, unpack};
+///
+/// let (_, chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// // Each radiance chunk has as many components as the basis that all share.
+/// let ranks = chunks.iter().filter_map(|chunk| match &chunk.payload {
+///     Payload::Radiance(factors) => Some(factors.rank),
+///     Payload::RadianceBasis(basis) => Some(basis.rank),
+///     _ => None,
+/// });
+/// let ranks: Vec<usize> = ranks.collect();
+/// assert!(ranks.iter().all(|rank| *rank == ranks[0]));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Payload {
     /// Factors of the radiance at one altitude and visibility.
@@ -74,6 +132,14 @@ pub enum Payload {
 }
 
 /// A chunk to be written.
+///
+/// ```
+/// use welkin::format::{Chunk, ColumnTable, Payload};
+///
+/// let table = ColumnTable { values: vec![0.0; 96] };
+/// let chunk = Chunk::new(Some(0), None, Payload::Column(table)); // of the lowest altitude
+/// assert_eq!((chunk.error_median, chunk.error_p99), (0.0, 0.0)); // not measured
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chunk {
     /// Index into the altitudes of the head; `None` for what all altitudes share.

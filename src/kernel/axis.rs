@@ -6,6 +6,14 @@
 use crate::kernel::real::Real;
 
 /// A spline basis at one coordinate: the coefficients that count, four where it is cubic.
+///
+/// ```
+/// use welkin::axis::{Ends, Taps, spline};
+///
+/// let taps: Taps = spline(2.0, 8, Ends::Free); // at a knot
+/// assert_eq!(taps.index, [2, 3, 4, 5]);
+/// assert!((taps.weight[1] - 2.0 / 3.0).abs() < 1e-6 && taps.weight[3] == 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taps<const N: usize = 4> {
     /// Index of each coefficient.
@@ -15,6 +23,15 @@ pub struct Taps<const N: usize = 4> {
 }
 
 /// What happens beyond the ends of a spline axis.
+///
+/// ```
+/// use welkin::axis::{Ends, coefficients, spline};
+///
+/// assert_eq!(coefficients(8, Ends::Free), 11);
+/// assert_eq!(coefficients(8, Ends::Mirrored), 9);
+/// // At the sun's azimuth the coefficient on one side counts for the other, too.
+/// assert_eq!(spline(0.0, 8, Ends::Mirrored).index, [1, 0, 1, 2]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
     /// `n + 3` coefficients, no symmetry.
@@ -86,6 +103,16 @@ fn reflect(m: isize, n: isize) -> usize {
 }
 
 /// Interpolation between nodes that stand in chunks of their own: up to four nodes and their weights.
+///
+/// ```
+/// use welkin::axis::{Stencil, hermite};
+///
+/// let nodes = [0.0, 1.0, 3.0, 4.0];
+/// let stencil: Stencil = hermite(&nodes, 2.0);
+/// // Exact for parabolas.
+/// let value: f64 = stencil.taps().map(|(i, weight)| weight * nodes[i] * nodes[i]).sum();
+/// assert!((value - 4.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stencil {
     /// Index of the first node.
@@ -249,6 +276,15 @@ pub fn alpha_angle(u: f64, range: f64, intervals: usize, exponent: f64) -> f64 {
 }
 
 /// The solar elevation axis: dense around `centre`, sparser with distance from it.
+///
+/// ```
+/// use welkin::axis::ElevationAxis;
+///
+/// let axis = ElevationAxis { min: -0.07, max: 1.57, centre: -0.01, width: 0.06, intervals: 40 };
+/// assert!((axis.coordinate(axis.elevation(12.5)) - 12.5).abs() < 1e-9);
+/// // The tenth of the axis around the horizon takes almost half of the intervals.
+/// assert!(axis.coordinate(0.1) > 18.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElevationAxis {
     /// Lowest elevation, rad.

@@ -28,6 +28,17 @@ pub(crate) use ranges::checked_visibility;
 /// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
 ///
 /// Opening reads the head of the file only; `Model::sky` touches the chunks that its conditions need.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let model = Model::default_model()?; // or Model::open("file.welkin")
+/// let [lowest, highest] = model.solar_elevation_range(); // rad
+/// assert!(lowest < 0.0 && highest > 1.5);
+/// let sky = model.sky(&Conditions::default())?;
+/// assert_eq!(sky.wavelengths(), model.wavelengths()); // nm
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub struct Model {
     store: Store,
     contents: Contents,

@@ -6,6 +6,25 @@ use std::sync::Arc;
 /// A file that can be read in pieces: on disk, or behind a server that answers range requests.
 ///
 /// [`Model::stream`](crate::Model::stream) asks for the head and then for the chunks of each scene, nothing else.
+///
+/// ```
+/// use std::io;
+/// use welkin::{Conditions, Model, ReadAt};
+///
+/// /// A file of which some bytes are at hand.
+/// struct Remote(&'static [u8]);
+///
+/// impl ReadAt for Remote {
+///     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+///         self.0.read_at(offset, buffer) // here would be a request to a server
+///     }
+/// }
+///
+/// let model = Model::stream(Remote(welkin::DEFAULT_MODEL))?;
+/// model.sky(&Conditions::default())?;
+/// assert!(model.traffic().bytes < model.file_bytes() as u64 / 10);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub trait ReadAt: Send + Sync {
     /// Fills `buffer` with the bytes from `offset` on and returns how many they are: fewer than `buffer.len()` only
     /// where the file ends.

@@ -15,6 +15,17 @@ const FIRST_REQUEST: usize = 32 << 10;
 const PIECE: usize = 1 << 20;
 
 /// Requests to the source of a streamed model and the bytes that they brought.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let model = Model::stream(welkin::DEFAULT_MODEL.to_vec())?;
+/// let opened = model.traffic();
+/// assert!(opened.requests <= 2);
+/// model.sky(&Conditions::default())?;
+/// assert!(model.traffic().bytes > opened.bytes);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
     /// Calls of [`ReadAt::read_at`].

@@ -13,6 +13,15 @@ use crate::format::printable;
 const STANDARD: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
 
 /// Where a command writes a file.
+///
+/// ```
+/// use welkin::output::Target;
+///
+/// assert_eq!(Target::new("-"), Target::Standard);
+/// let target = Target::new("sky.png");
+/// assert_eq!(target.to_string(), "sky.png");
+/// assert!(!target.is_stream());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
     /// Standard output.

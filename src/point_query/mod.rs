@@ -45,6 +45,19 @@ const MOST_WAVELENGTHS: usize = WAVELENGTH_BLOCKS * WIDTH;
 ///
 /// Between the nodes of the file it differs from [`Sky`](crate::Sky) by what [`Interpolation::Lean`] leaves out; where the
 /// tolerances of the format specification count, ask for [`Interpolation::Full`].
+///
+/// ```
+/// use welkin::{Conditions, PointQuery};
+///
+/// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
+/// let mut radiance = [0.0; 12];
+/// for altitude in [0.0, 500.0, 3000.0] {
+///     let conditions = Conditions { altitude, ..Conditions::default() };
+///     query.radiance(&conditions, [0.0, 0.0, 1.0], &mut radiance)?;
+///     assert!(radiance.iter().all(|&l| l > 0.0));
+/// }
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub struct PointQuery<'a> {
     head: HeadView<'a>,
     chunks: Chunks<'a>,

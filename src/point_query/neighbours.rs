@@ -8,6 +8,22 @@ use crate::kernel::axis::{Piece, Stencil, between, hermite, locate};
 const MOST_NODES: usize = 64;
 
 /// How a point query gets from chunks to the altitude and the visibility between them.
+///
+/// ```
+/// use welkin::{Conditions, Interpolation, Model, PointQuery};
+///
+/// let conditions = Conditions { altitude: 700.0, ..Conditions::default() };
+/// let direction = [0.3, 0.1, 0.9];
+/// let (mut lean, mut full, mut sky) = ([0.0; 12], [0.0; 12], [0.0; 12]);
+/// PointQuery::new(welkin::DEFAULT_MODEL)?.radiance(&conditions, direction, &mut lean)?;
+/// PointQuery::new(welkin::DEFAULT_MODEL)?
+///     .with_interpolation(Interpolation::Full)
+///     .radiance(&conditions, direction, &mut full)?;
+/// Model::default_model()?.sky(&conditions)?.radiance(direction, &mut sky)?;
+/// assert!((full[4] / sky[4] - 1.0).abs() < 1e-4);
+/// assert!((lean[4] / sky[4] - 1.0).abs() < 0.02);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// Four chunks, linearly, with creases at the nodes: 0.08 / 0.55 / 1.1 % from `Full` (median, 95th, 99th

@@ -8,6 +8,19 @@ use crate::error::{Error, Result};
 /// `e1` horizontal for [`PolarisationFrame::SunAligned`] towards the sun and away from it, the vertical frame for a [`PolarisationFrame::Axis`]
 /// along the view direction. At the zenith and nadir, the vertical plane is the one of the sun. Degrees of polarisation
 /// do not depend on the axes and are smooth there.
+///
+/// ```
+/// use welkin::{Conditions, Model, PolarisationFrame};
+///
+/// let sky = Model::default_model()?.polarised_sky(&Conditions::default())?;
+/// let stokes = |frame| sky.stokes_at([0.1, 0.5, 0.6], frame, 550.0);
+/// let vertical = stokes(PolarisationFrame::Vertical)?;
+/// let camera = stokes(PolarisationFrame::Axis([0.0, 0.2, 1.0]))?; // its up vector
+/// // Another frame, the same light.
+/// assert_eq!(vertical.i, camera.i);
+/// assert!((vertical.degree() - camera.degree()).abs() < 1e-5);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum PolarisationFrame {
     /// `e1` lies in the vertical plane and points up, so `e2` points to the right.

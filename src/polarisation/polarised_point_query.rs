@@ -16,6 +16,24 @@ use crate::sky::spectrum;
 /// It answers as [`PolarisedSky`](crate::PolarisedSky) does, but for rounding (some 1e-6 of the radiance), in a few microseconds
 /// and without preparation. Made by [`Model::polarised_point_query`](crate::Model::polarised_point_query). Queries allocate nothing.
 /// `Send + Sync`.
+///
+/// ```
+/// use welkin::{BakedSky, Budget, Channels, Conditions, Model, PolarisationFrame};
+///
+/// let model = Model::default_model()?;
+/// let plan = model.plan(&Budget {
+///     altitude: [0.0, 100.0],
+///     visibility: [50e3, 60e3],
+///     solar_elevation: [0.1, 1.0],
+///     tolerance: BakedSky::TOLERANCE,
+///     channels: Channels::Stokes,
+/// })?;
+/// let query = model.polarised_point_query(&plan)?;
+/// let conditions = Conditions { altitude: 40.0, ..Conditions::default() };
+/// let light = query.stokes_at(&conditions, [0.0, 0.5, 0.9], PolarisationFrame::Vertical, 550.0)?;
+/// assert!((0.1..1.0).contains(&light.degree()));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 pub struct PolarisedPointQuery<'a> {
     query: PointQuery<'a>,
     factors: Factors<'a>,

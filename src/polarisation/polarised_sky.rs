@@ -20,6 +20,16 @@ use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 /// its own (Wilkie et al. 2021, section 5.2, but with both components). Everything that [`Sky`] says about directions holds here, too.
 ///
 /// After [`Model::polarised_sky`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
+///
+/// ```
+/// use welkin::{Conditions, Model, PolarisationFrame, Stokes};
+///
+/// let sky = Model::default_model()?.polarised_sky(&Conditions::default())?;
+/// let mut out = [Stokes::default(); 12]; // W m⁻² sr⁻¹ nm⁻¹ at sky.sky().wavelengths()
+/// sky.stokes([0.0, 0.5, 0.9], PolarisationFrame::Vertical, &mut out)?;
+/// assert!(out.iter().all(|light| light.i > 0.0 && light.degree() < 1.0));
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PolarisedSky {
     sky: Sky,

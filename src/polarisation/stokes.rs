@@ -12,6 +12,17 @@ use crate::sky::check_length;
 ///
 /// Renderers whose frames are right-handed about the direction in which the light *travels* (x = `e1`, y = −`e2`) have
 /// U of the other sign.
+///
+/// ```
+/// use std::f32::consts::FRAC_PI_2;
+/// use welkin::Stokes;
+///
+/// let light = Stokes { i: 2.0, q: 1.0, u: 0.0 };
+/// assert_eq!((light.degree(), light.angle()), (0.5, 0.0));
+/// // A polariser along `e1` passes three times as much as one across it.
+/// assert_eq!(light.through_polariser(0.0), 1.5);
+/// assert!((light.through_polariser(FRAC_PI_2) - 0.5).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stokes {
     /// Radiance.
@@ -25,6 +36,18 @@ pub struct Stokes {
 /// Room for Stokes vectors as a structure of arrays of equal length, each `[directions or points][wavelengths]`, W m⁻² sr⁻¹ nm⁻¹.
 ///
 /// The components are those of [`Stokes`].
+///
+/// ```
+/// use welkin::{Conditions, Model, PolarisationFrame, StokesSpectra};
+///
+/// let aerial = Model::default_model()?.aerial_perspective(&Conditions::default())?;
+/// let [mut i, mut q, mut u, mut transmittance] = [[0.0; 12]; 4];
+/// let light = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
+/// let (from, to) = ([0.0, 0.0, 2.0], [0.0, 10e3, 2.0]);
+/// aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, light, &mut transmittance)?;
+/// assert!(q[6].hypot(u[6]) <= i[6]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Debug)]
 pub struct StokesSpectra<'a> {
     /// Radiance.

@@ -26,6 +26,18 @@ pub(crate) const MOST_WAVELENGTHS: usize = 256;
 /// gives the light that the air before the ground scatters. The sun's disc is not included.
 ///
 /// After [`Model::sky`](crate::Model::sky) returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let sky = Model::default_model()?.sky(&Conditions::default())?;
+/// let zenith = [0.0, 0.0, 1.0];
+/// let mut radiance = vec![0.0; sky.wavelengths().len()];
+/// sky.radiance(zenith, &mut radiance)?; // W m⁻² sr⁻¹ nm⁻¹
+/// let rgb = sky.linear_srgb(zenith)?; // cd m⁻², not clipped
+/// assert!(rgb[2] > rgb[0]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Sky {
     conditions: Conditions,

@@ -29,6 +29,17 @@ pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 ///
 /// In a file without transmittance the air before the disc is what the sky takes it for, which is much less exact where
 /// the sun is low: see `tests/sun.rs`.
+///
+/// ```
+/// use welkin::{Conditions, Model, SOLAR_ANGULAR_RADIUS};
+///
+/// let disc = Model::default_model()?.solar_disc(&Conditions::default())?;
+/// let centre = disc.xyz(disc.direction())?[1]; // cd m⁻²
+/// assert!(centre > 1e8);
+/// let circle = std::f64::consts::PI * SOLAR_ANGULAR_RADIUS.powi(2);
+/// assert!((disc.solid_angle() / circle - 1.0).abs() < 1e-4);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SolarDisc {
     cap: Cap,

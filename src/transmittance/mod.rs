@@ -24,6 +24,18 @@ use crate::model::checked_visibility;
 ///
 /// Whatever the file holds, transmittance is 1 over no distance, never grows with distance, is the same in both
 /// directions and multiplies along a line, all but for rounding. Queries allocate nothing. `Send + Sync`.
+///
+/// ```
+/// use welkin::Model;
+///
+/// let model = Model::default_model()?;
+/// let air = model.transmittance(40e3)?; // visibility, m
+/// let mut transmittance = vec![0.0; air.wavelengths().len()];
+/// air.transmittance([0.0, 0.0, 100.0], [20e3, 0.0, 100.0], &mut transmittance)?;
+/// // Air takes more of blue light (the first wavelength) than of red.
+/// assert!(transmittance[0] < transmittance[11] && transmittance[11] < 1.0);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Transmittance {
     pub(crate) layers: Layers,
