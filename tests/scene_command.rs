@@ -11,7 +11,7 @@ fn run(line: &str) -> Output {
 fn run_in(folder: &Path, line: &str, input: &str) -> Output {
     use std::io::Write;
     let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
+        .args(line.split_whitespace())
         .current_dir(folder)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
