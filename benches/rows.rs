@@ -1,4 +1,4 @@
-//! Rows per second of `welkin query`, one core, every row with conditions of its own: `cargo bench --features cli --bench rows`.
+//! Rows per second of `welkin query`, one core, every row with conditions of its own, as CSV: `cargo bench --features cli --bench rows`.
 //! Where the system says so, by processor time, so that other programs do not count.
 //! Paths of other `welkin` commands after `--` are timed beside it, table by table.
 
@@ -81,7 +81,7 @@ fn main() {
     let commands: Vec<String> = std::iter::once(own).chain(others).collect();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("rows.csv");
-    println!("rows per second, each with its own conditions, one core: {commands:?}");
+    println!("rows per second,{}", commands.join(","));
     for (quantity, segments) in [
         ("radiance", false),
         ("relative_radiance", false),
@@ -108,10 +108,10 @@ fn main() {
             let fastest = (0..3)
                 .map(|_| time(command, &file))
                 .fold(f64::MAX, f64::min);
-            format!("{:12.0}", rows as f64 / fastest)
+            format!(",{:.0}", rows as f64 / fastest)
         });
         let rates: String = rates.collect();
         let of = if segments { "segments" } else { "rays" };
-        println!("{quantity:20} {of:9}{rates}");
+        println!("{quantity} of {of}{rates}");
     }
 }

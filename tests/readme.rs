@@ -1,4 +1,4 @@
-//! The examples of README.md, run; and a check that they are those.
+//! The examples of README.md and the book, run; and a check that they are those.
 #![cfg(feature = "default-model")]
 
 use welkin::{BakedSky, Budget, Channels, Directions, PointQuery};
@@ -17,19 +17,43 @@ fn compact(code: &str) -> String {
 #[test]
 fn every_rust_example_is_run_here() {
     let here = compact(include_str!("readme.rs"));
-    let readme = include_str!("../README.md");
-    let blocks: Vec<&str> = readme.split("```rust\n").skip(1).collect();
-    assert!(blocks.len() >= 3);
-    for block in blocks {
-        let code = block.split("```").next().unwrap();
-        for statement in compact(code).split_inclusive(';') {
-            assert!(here.contains(statement), "not run: {statement}");
+    let pages = std::fs::read_dir("docs").unwrap();
+    let mut pages: Vec<_> = pages.map(|entry| entry.unwrap().path()).collect();
+    pages.retain(|path| path.extension().is_some_and(|e| e == "md"));
+    pages.push("README.md".into());
+    let mut blocks = 0;
+    for path in pages {
+        let page = std::fs::read_to_string(&path).unwrap();
+        for block in page.split("```rust\n").skip(1) {
+            blocks += 1;
+            let code = block.split("```").next().unwrap();
+            for statement in compact(code).split_inclusive(';') {
+                assert!(here.contains(statement), "{path:?}, not run: {statement}");
+            }
         }
     }
+    assert!(blocks >= 4);
 }
 
 #[test]
-fn use_it() -> welkin::Result<()> {
+fn first_page() -> welkin::Result<()> {
+    use welkin::{BakedSky, Conditions, Model};
+
+    let model = Model::default_model()?;
+    let sky = model.sky(&Conditions {
+        solar_elevation: 5f64.to_radians(),
+        visibility: 40e3,
+        altitude: 120.0,
+        ..Conditions::default()
+    })?;
+    let baked = sky.bake_colour(BakedSky::TOLERANCE)?;
+    let rgb = baked.linear_srgb([0.3, 0.1, 0.9])?;
+    assert!(rgb[2] > rgb[0] && rgb[0] > 0.0);
+    Ok(())
+}
+
+#[test]
+fn getting_started() -> welkin::Result<()> {
     let camera_up = [0.0, 0.0, 1.0];
 
     let model = Model::default_model()?;
@@ -52,7 +76,7 @@ fn use_it() -> welkin::Result<()> {
 }
 
 #[test]
-fn fast() -> welkin::Result<()> {
+fn which_type() -> welkin::Result<()> {
     let model = Model::default_model()?;
     let conditions = Conditions::default();
     let sky = model.sky(&conditions)?;
@@ -75,15 +99,16 @@ fn fast() -> welkin::Result<()> {
     baked.radiance_batch(&directions, &mut radiance)?;
     let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
     let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
-    let sampler = colour.sampler().with_sun(&model.solar_disc(&conditions)?);
-    let general = PointQuery::new(welkin::DEFAULT_MODEL)?;
+    let disc = model.solar_disc(&conditions)?;
+    let sampler = colour.sampler().with_sun(&disc);
+    let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
     let mut other = [0.0; 12];
-    general.radiance(&conditions, [0.0, 0.0, 1.0], &mut other)?;
+    query.radiance(&conditions, [0.0, 0.0, 1.0], &mut other)?;
     assert!(other.iter().all(|&r| r > 0.0));
     let plan = model.plan(&budget)?;
-    let general = model.polarised_point_query(&plan)?;
+    let query = model.polarised_point_query(&plan)?;
     let frame = PolarisationFrame::Axis([0.0, 1.0, 0.0]);
-    let light = general.stokes_at(&conditions, [0.3, 0.1, 0.9], frame, 550.0)?;
+    let light = query.stokes_at(&conditions, [0.3, 0.1, 0.9], frame, 550.0)?;
     assert!((0.05..1.0).contains(&light.degree()));
 
     assert!(radiance.iter().all(|&r| r > 0.0));
@@ -108,8 +133,8 @@ fn finite_distances() -> welkin::Result<()> {
     assert!(light[2] > 0.0 && factors[0] > factors[2]);
     let (light, factors) = aerial.joined_to(&sky)?.linear_srgb(point)?;
     assert!(light[2] > 0.0 && factors[0] > factors[2]);
-    let (light, factors) =
-        aerial.linear_srgb_stokes(camera, point, PolarisationFrame::Axis(camera_up))?;
+    let frame = PolarisationFrame::Axis(camera_up);
+    let (light, factors) = aerial.linear_srgb_stokes(camera, point, frame)?;
     assert!(light[2].through_polariser(0.0) > 0.0 && factors[0] > factors[2]);
     assert!(in_scattering.iter().chain(&transmittance).all(|&x| x > 0.0));
 

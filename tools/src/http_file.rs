@@ -98,7 +98,7 @@ impl HttpFile {
     /// A request beyond the end.
     fn check_unsatisfiable(&self, headers: &HeaderMap, first: u64) -> io::Result<()> {
         let range = only(headers, header::CONTENT_RANGE)?.unwrap_or_default();
-        let length = range.strip_prefix("bytes */").and_then(|n| n.parse().ok());
+        let length: Option<u64> = range.strip_prefix("bytes */").and_then(|n| n.parse().ok());
         let known = self.version.get().map(|v| v.length);
         match length {
             Some(length) if length <= first && known.is_none_or(|known| known == length) => Ok(()),

@@ -12,7 +12,7 @@ use welkin_fitter::units::Plan;
 #[derive(clap::Args)]
 pub struct Args {
     /// Base name of the SVG and the CSV.
-    #[arg(long, default_value = "docs/representations")]
+    #[arg(long, default_value = "docs/figures/representations")]
     out: PathBuf,
     /// Folder for finished work units; an interrupted run goes on from them.
     #[arg(long, default_value = "work")]
@@ -71,7 +71,9 @@ pub fn run(args: &Args) -> Result<()> {
     let open = |path: &PathBuf| Model::open(path).with_context(|| format!("{}", path.display()));
     let model = args.model.as_ref().map(open).transpose()?;
     let points = chart(&plan, fitting, &ranks, &args.work, model.as_ref())?;
-    let table = csv(&points)?;
+    let command: Vec<String> = std::env::args().skip(1).collect();
+    let mut table = format!("# welkin-fit {}\n", command.join(" ")).into_bytes();
+    table.extend(csv(&points)?);
     print!("{}", String::from_utf8_lossy(&table));
     let svg = svg(&points)?;
     Ok(replace_files(&[

@@ -12,9 +12,10 @@ use crate::about::About;
 use crate::camera::{Camera, Lens};
 use crate::difference::{Difference, Method};
 use crate::disc::Disc;
+use crate::edges::{self, Seen};
 use crate::failure::{Failure, Result};
 use crate::parallel;
-use crate::terrain::{FARTHEST, Field, Terrain, altitude};
+use crate::terrain::{FARTHEST, Field, Terrain, altitude, noise};
 
 /// What stands on the ground.
 #[derive(clap::Args)]
@@ -47,8 +48,11 @@ pub struct Options {
 
 /// Width over height of a picture in perspective.
 pub const ASPECT: f64 = 1.5;
-/// Reflectance in linear sRGB of plains, slopes and snow.
-const COVER: [[f32; 3]; 3] = [[0.10, 0.14, 0.06], [0.20, 0.18, 0.15], [0.75, 0.77, 0.80]];
+/// Reflectance in linear sRGB.
+const MEADOW: [f32; 3] = [0.09, 0.12, 0.05];
+const WOOD: [f32; 3] = [0.03, 0.045, 0.02];
+const ROCK: [f32; 3] = [0.19, 0.17, 0.15];
+const SNOW: [f32; 3] = [0.75, 0.77, 0.80];
 
 /// All that a landscape needs.
 pub struct Landscape<'a> {
@@ -200,26 +204,37 @@ impl Landscape<'_> {
     }
 
     /// Linear sRGB of every pixel, cd m⁻².
-    pub fn pixels(&self, [width, height]: [usize; 2]) -> Result<Vec<[f32; 3]>> {
-        let look =
-            |[x, y]: [f64; 2]| Some(self.camera.direction([x / width as f64, y / height as f64]));
-        let radius = self.aerial.transmittance().planet().radius;
-        let is_open = |d| self.terrain.hit(radius, self.place, d).is_none();
-        parallel::pixels([width, height], |pixel| {
-            let middle = pixel.map(|p| p as f64 + 0.5);
-            let direction = [middle[0] / width as f64, middle[1] / height as f64];
-            let mut rgb = self.pixel(self.camera.direction(direction))?;
-            if let Some(disc) = &self.disc {
-                let added = disc.rgb(pixel, &look, is_open)?;
-                rgb = std::array::from_fn(|c| rgb[c] + added[c]);
-            }
-            Ok(rgb)
+    pub fn pixels(&self, size: [usize; 2]) -> Result<Vec<[f32; 3]>> {
+        let [width, height] = size.map(|n| n as f64);
+        let look = |[x, y]: [f64; 2]| self.camera.direction([x / width, y / height]);
+        let pixels = edges::smooth(size, |place| {
+            let (direction, distance) = (look(place), self.distance(look(place)));
+            Ok(Seen {
+                light: self.light(direction, distance)?,
+                distance: distance.map_or(f32::INFINITY, |d| d as f32),
+            })
+        })?;
+        let Some(disc) = &self.disc else {
+            return Ok(pixels);
+        };
+        let is_open = |direction| self.distance(direction).is_none();
+        parallel::pixels(size, |pixel| {
+            let added = disc.rgb(pixel, &|place| Some(look(place)), is_open)?;
+            let light = pixels[pixel[1] * size[0] + pixel[0]];
+            Ok(std::array::from_fn(|c| light[c] + added[c]))
         })
     }
 
-    fn pixel(&self, direction: [f64; 3]) -> Result<[f32; 3]> {
+    /// Of the terrain in a direction, m.
+    fn distance(&self, direction: [f64; 3]) -> Option<f64> {
         let radius = self.aerial.transmittance().planet().radius;
-        let Some(distance) = self.terrain.hit(radius, self.place, direction) else {
+        self.terrain.hit(radius, self.place, direction)
+    }
+
+    /// From a direction in which the terrain is so far.
+    fn light(&self, direction: [f64; 3], distance: Option<f64>) -> Result<[f32; 3]> {
+        let radius = self.aerial.transmittance().planet().radius;
+        let Some(distance) = distance else {
             return self.background(direction.map(|v| v as f32));
         };
         let point = std::array::from_fn(|k| self.place[k] + distance.min(FARTHEST) * direction[k]);
@@ -269,7 +284,7 @@ impl Landscape<'_> {
         let cosine = (0..3).map(|k| normal[k] * sun[k]).sum::<f64>().max(0.0);
         let direct = self.sunlight(radius, point, sun, cosine)?;
         let open = (0.5 + 0.5 * normal[2]) as f32;
-        let cover = cover(altitude(radius, point), normal[2]);
+        let cover = cover([point[0], point[1]], altitude(radius, point), normal[2]);
         let reflect = |c: usize| cover[c] / PI as f32 * (direct[c] + open * self.skylight[c]);
         Ok(std::array::from_fn(reflect))
     }
@@ -306,18 +321,29 @@ impl Polariser {
     }
 }
 
-/// Snow high up on gentle slopes, rock where it is steep, meadows below.
-fn cover(altitude: f64, level: f64) -> [f32; 3] {
+/// What grows at a place: meadows on plains and above the trees, woods between, rock where it is steep, snow high up.
+fn cover([x, y]: [f64; 2], altitude: f64, level: f64) -> [f32; 3] {
     let mix = |a: [f32; 3], b: [f32; 3], t: f64| -> [f32; 3] {
         let t = t.clamp(0.0, 1.0) as f32;
         std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
     };
-    let ground = mix(COVER[0], COVER[1], (altitude - 500.0) / 900.0);
-    let ground = mix(COVER[1], ground, (level - 0.75) / 0.15);
+    // Borders follow no contour line.
+    let rough: f64 = [(900.0, 0.5), (210.0, 0.4), (47.0, 0.3), (13.0, 0.2)]
+        .map(|(size, share)| share * noise(x / size, y / size))
+        .iter()
+        .sum();
+    let (altitude, level) = (altitude + 250.0 * rough, level + 0.03 * rough);
+    let is_wood = ((0.985 - level) / 0.01).min((1400.0 - altitude) / 60.0);
+    let ground = mix(MEADOW, WOOD, is_wood);
+    let ground = mix(
+        ground,
+        ROCK,
+        ((0.82 - level) / 0.08).max((altitude - 1800.0) / 300.0),
+    );
     mix(
         ground,
-        COVER[2],
-        ((altitude - 1500.0) / 400.0).min((level - 0.7) / 0.1),
+        SNOW,
+        ((altitude - 2050.0) / 40.0).min((level - 0.75) / 0.04),
     )
 }
 

@@ -8,6 +8,7 @@ mod animate;
 mod camera;
 mod difference;
 mod disc;
+mod edges;
 mod exposure;
 mod failure;
 mod froxels;

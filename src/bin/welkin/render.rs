@@ -152,7 +152,8 @@ impl Options {
             return Err(Failure::message(text));
         }
         let height = usize::from(self.size);
-        let size = [(height as f64 * landscape::ASPECT) as usize, height];
+        let width = (height as f64 * landscape::ASPECT).round();
+        let size = [width as usize, height];
         let pixels = landscape.pixels(size)?;
         landscape.describe(&self.landscape, &mut wanted.about);
         let picture = Picture::of_pixels(size, &pixels, wanted)?;

@@ -122,9 +122,16 @@ fn checked(
 impl Terrain {
     /// Height above the ground, m.
     pub fn height(&self, x: f64, y: f64) -> f64 {
+        self.height_under(x, y, 0.0)
+    }
+
+    /// The same, or what is not lower than that where it is well below an altitude: who passes far above wants no detail.
+    fn height_under(&self, x: f64, y: f64, altitude: f64) -> f64 {
         match self {
             Terrain::Flat => 0.0,
-            Terrain::Hills(highest) => highest * hills(x / 30_000.0, y / 30_000.0),
+            Terrain::Hills(highest) => {
+                highest * hills([x, y].map(|v| v / 30_000.0), 0.7 * altitude / highest)
+            }
             Terrain::Field(field) => field.at(x, y),
         }
     }
@@ -143,7 +150,7 @@ impl Terrain {
         let above = |s: f64| {
             let [x, y, z]: [f64; 3] = std::array::from_fn(|k| origin[k] + s * direction[k]);
             let altitude = altitude(radius, [x, y, z]);
-            (altitude, altitude - self.height(x, y))
+            (altitude, altitude - self.height_under(x, y, altitude))
         };
         let highest = self.highest();
         let mut s: f64 = 0.0;
@@ -153,7 +160,7 @@ impl Terrain {
                 return Some(s);
             }
             // Slopes are rarely steeper than 45°; far away the step is the size of a pixel.
-            let step = (0.4 * clearance.max(altitude - highest)).max(1.0 + 4e-4 * s);
+            let step = (0.4 * clearance.max(altitude - highest)).max(2.0 + 8e-4 * s);
             if above(s + step).1 < 0.0 {
                 let (mut near, mut far) = (s, s + step);
                 for _ in 0..30 {
@@ -176,7 +183,7 @@ impl Terrain {
 
     /// Unit normal at a point of the surface, in the world frame; the curvature of the planet is included.
     pub fn normal(&self, radius: f64, [x, y, _]: [f64; 3]) -> [f64; 3] {
-        const STEP: f64 = 20.0;
+        const STEP: f64 = 8.0;
         let slope_x =
             (self.height(x + STEP, y) - self.height(x - STEP, y)) / (2.0 * STEP) - x / radius;
         let slope_y =
@@ -197,24 +204,31 @@ fn direction_rises(radius: f64, origin: [f64; 3], direction: [f64; 3], s: f64) -
     place[0] * direction[0] + place[1] * direction[1] + (place[2] + radius) * direction[2] > 0.0
 }
 
-/// Mountain ranges of 0 to 1 with plains between.
-fn hills(x: f64, y: f64) -> f64 {
+/// Mountain ranges of 0 to 1 with plains between, or something higher that is less than `enough`.
+fn hills([x, y]: [f64; 2], enough: f64) -> f64 {
+    let range = (0.5 + noise(1.1 * x + 5.3, 1.1 * y - 1.9)).clamp(0.08, 1.0);
+    if range < enough {
+        return range;
+    }
     // Ridges wind.
     let bent = [
         x + 0.12 * noise(3.0 * x + 7.1, 3.0 * y),
         y + 0.12 * noise(3.0 * x - 4.4, 3.0 * y + 2.2),
     ];
-    let range = (0.5 + noise(1.1 * x + 5.3, 1.1 * y - 1.9)).clamp(0.08, 1.0);
-    range * ridges(bent.map(|v| 1.6 * v)).min(1.0)
+    range * ridges(bent.map(|v| 1.6 * v), enough / range)
 }
 
-/// A ridged multifractal, 0 to 1 and a little: rough where it is high, smooth in valleys. After Musgrave, in Ebert et al. 2003, Texturing
-/// and Modeling.
-fn ridges([mut x, mut y]: [f64; 2]) -> f64 {
+/// A ridged multifractal of 0 to 1: rough where it is high, smooth in valleys. After Musgrave, in Ebert et al. 2003, Texturing and
+/// Modeling. Or something higher that is less than `enough`.
+fn ridges([mut x, mut y]: [f64; 2], enough: f64) -> f64 {
     let (mut sum, mut amplitude, mut weight) = (0.0, 0.5, 1.0);
-    for _ in 0..10 {
+    for _ in 0..12 {
         let ridge = (1.0 - noise(x, y).abs()).max(0.0).powi(2) * weight;
         sum += amplitude * ridge;
+        // All that can come.
+        if sum + amplitude < enough {
+            return sum + amplitude;
+        }
         weight = (2.0 * ridge).min(1.0);
         amplitude *= 0.5;
         // Turned, so that no grid shows.
@@ -224,7 +238,7 @@ fn ridges([mut x, mut y]: [f64; 2]) -> f64 {
 }
 
 /// Gradient noise of −1 to 1 with features of size 1: Perlin 2002, Improving Noise.
-fn noise(x: f64, y: f64) -> f64 {
+pub fn noise(x: f64, y: f64) -> f64 {
     let (i, j) = (x.floor(), y.floor());
     let (s, t) = (x - i, y - j);
     let smooth = |t: f64| t * t * t * (t * (6.0 * t - 15.0) + 10.0);
@@ -317,8 +331,17 @@ mod tests {
     #[test]
     fn hills_stay_within_their_height() {
         for i in 0..2000 {
-            let h = hills(f64::from(i) * 0.37 - 300.0, f64::from(i % 77) * 0.91 - 30.0);
+            let place = [f64::from(i) * 0.37 - 300.0, f64::from(i % 77) * 0.91 - 30.0];
+            let h = hills(place, 0.0);
             assert!((0.0..=1.0).contains(&h), "{h}");
+            // Detail is left out above the ground only.
+            for enough in [0.3 * h, 0.99 * h, 1.01 * h, 0.5, 2.0] {
+                let rough = hills(place, enough);
+                assert!(
+                    rough == h || h <= rough && rough < enough,
+                    "{h} {rough} {enough}"
+                );
+            }
         }
     }
 }

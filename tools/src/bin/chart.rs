@@ -1,5 +1,5 @@
 //! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release -p welkin-tools --bin chart`
-//! writes `docs/settings.csv` and `docs/settings.svg`.
+//! writes `docs/figures/settings.csv` and `.svg`.
 //!
 //! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of point queries over
 //! the whole model; times are the least of many repetitions.
@@ -39,13 +39,15 @@ fn main() -> Result<()> {
     }
     points.push(exact(&skies[0]));
     for (name, interpolation) in [
-        ("general, 4 chunks", Interpolation::Linear),
-        ("general, 6 chunks", Interpolation::Lean),
-        ("general, 16 chunks", Interpolation::Full),
+        ("point query of 4 chunks", Interpolation::Linear),
+        ("point query of 6 chunks", Interpolation::Lean),
+        ("point query of 16 chunks", Interpolation::Full),
     ] {
         points.push(general(&model, name, interpolation)?);
     }
-    let mut csv = String::from("channels,tolerance,p95_error,bytes,ns\n");
+    let mut csv = String::from(
+        "# cargo run --release -p welkin-tools --bin chart\nchannels,tolerance,p95_error,bytes,ns\n",
+    );
     for p in &points {
         let _ = writeln!(
             csv,
@@ -55,8 +57,11 @@ fn main() -> Result<()> {
     }
     print!("{csv}");
     welkin::output::replace_files(&[
-        ("docs/settings.csv".as_ref(), csv.as_bytes()),
-        ("docs/settings.svg".as_ref(), svg(&points).as_bytes()),
+        ("docs/figures/settings.csv".as_ref(), csv.as_bytes()),
+        (
+            "docs/figures/settings.svg".as_ref(),
+            svg(&points).as_bytes(),
+        ),
     ])
 }
 
@@ -224,7 +229,7 @@ fn svg(points: &[Point]) -> String {
         let (label, above) = match p.channels {
             "spectral" => (kilobytes, true),
             "RGB" => (kilobytes, false),
-            name => (name.to_owned(), name != "general, 4 chunks"),
+            name => (name.to_owned(), name != "point query of 4 chunks"),
         };
         let known = points.iter().take_while(|other| !std::ptr::eq(*other, p));
         let repeated = p.tolerance > 0.0

@@ -1,4 +1,4 @@
-//! Memory that a process holds: `cargo run --release -p welkin-tools --bin resident -- MODEL [LOW HIGH]` evaluates one sky on the
+//! Memory that a process holds, as CSV: `cargo run --release -p welkin-tools --bin resident -- MODEL [LOW HIGH]` evaluates one sky on the
 //! ground, or skies at altitudes between two (m), and prints what that added to an empty process (Linux).
 
 use std::hint::black_box;
@@ -32,16 +32,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     black_box(luminance);
     let after = resident()?;
     let kilobytes = |part: usize| after[part].saturating_sub(before[part]);
-    println!(
-        "anonymous {} kB, file-backed {} kB",
-        kilobytes(0),
-        kilobytes(1)
-    );
-    println!(
-        "read from the model {} of {} bytes",
-        model.touched_bytes(),
-        model.file_bytes()
-    );
+    println!("what,bytes");
+    println!("anonymous,{}", 1024 * kilobytes(0));
+    println!("file-backed,{}", 1024 * kilobytes(1));
+    println!("both,{}", 1024 * (kilobytes(0) + kilobytes(1)));
+    println!("read from the model,{}", model.touched_bytes());
+    println!("the model,{}", model.file_bytes());
     Ok(())
 }
 

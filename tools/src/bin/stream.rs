@@ -1,4 +1,6 @@
-//! What scenes cost over a network: serves the default model on the loopback and counts requests and bytes.
+//! What scenes cost over a network: serves the default model on the loopback and counts requests and bytes, as CSV.
+//!
+//! `cargo run --release -p welkin-tools --bin stream`
 
 #[path = "../../../tests/common/server.rs"]
 #[allow(dead_code, reason = "tests need more of it")]
@@ -14,11 +16,11 @@ fn main() -> Result<()> {
     let server = Server::start(DEFAULT_MODEL.to_vec());
     let file = || HttpFile::new(server.url(), Duration::from_secs(10));
     let scenes = [
-        ("ground, visibility at a node", 0.0, 59.4e3),
-        ("ground, visibility between nodes", 0.0, 50e3),
-        ("altitude and visibility between nodes", 1234.0, 50e3),
+        ("on the ground at a node of visibility", 0.0, 59.4e3),
+        ("on the ground between two", 0.0, 50e3),
+        ("between all nodes", 1234.0, 50e3),
     ];
-    println!("the file has {} bytes", DEFAULT_MODEL.len());
+    println!("scene,requests to open,bytes to open,requests,bytes");
     for (name, altitude, visibility) in scenes {
         let model = Model::stream(file())?;
         let head = model.traffic();
@@ -35,14 +37,14 @@ fn main() -> Result<()> {
         visibility: 50e3,
         ..Conditions::default()
     })?;
-    tell("haze, visibility between nodes", &model, head);
+    tell("aerial perspective", &model, head);
     Ok(())
 }
 
 fn tell(name: &str, model: &Model, head: Traffic) {
     let total = model.traffic();
     println!(
-        "{name}: open {} request, {} bytes; scene {} requests, {} bytes",
+        "{name},{},{},{},{}",
         head.requests,
         head.bytes,
         total.requests - head.requests,

@@ -6,7 +6,7 @@ use welkin::{AerialPerspective, Conditions, Result};
 
 use crate::clock;
 use crate::report::Row;
-use crate::{QUERIES, SLOW, Scene, cell, span, unwrapped};
+use crate::scene::{QUERIES, SLOW, Scene, cell, span, unwrapped};
 use welkin_tools::paper::Paper;
 use welkin_tools::random::Sequence;
 
@@ -89,7 +89,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
             aerial.bytes(),
         ),
         row(
-            "segment",
+            "segment_all_random",
             "paper's Eq. 2, all random",
             random,
             aerial.bytes(),
@@ -135,7 +135,7 @@ fn low_sun(scene: &Scene, day: &AerialPerspective, segments: &[Ends]) -> Result<
 }
 
 /// Up to 100 km long, all between 0 and 14 km.
-fn segments() -> Vec<Ends> {
+pub fn segments() -> Vec<Ends> {
     let mut sequence = Sequence::<4>::default();
     let mut segment = || {
         let [a, b, c, d] = sequence.draw();

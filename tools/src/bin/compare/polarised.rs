@@ -8,7 +8,7 @@ use welkin::{
 
 use crate::clock;
 use crate::report::Row;
-use crate::{ROUND, Scene, span, unwrapped};
+use crate::scene::{ROUND, Scene, span, unwrapped};
 
 /// The frame that costs most.
 const FRAME: PolarisationFrame = PolarisationFrame::Axis([0.2, 0.3, 0.9]);

@@ -1,0 +1,188 @@
+//! The types that no other row times, each next to the one that it is taken for or prepared with.
+
+use std::hint::black_box;
+
+use welkin::{BakedSky, Conditions, Result};
+use welkin_tools::random::{self, Sequence};
+
+use crate::clock;
+use crate::finite::segments;
+use crate::report::Row;
+use crate::scene::{QUERIES, ROUND, SLOW, Scene, span, unwrapped};
+
+/// Queries, then preparations.
+pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
+    let mut rows = vec![sky(scene)?, sample(scene)?, disc(scene)?, joined(scene)?];
+    rows.push(query(scene)?);
+    rows.extend(preparation(scene)?);
+    Ok(rows)
+}
+
+fn row(name: &'static str, peer: &'static str, ns: [f64; 2], bytes: [usize; 2]) -> Row {
+    Row {
+        name,
+        peer,
+        ns,
+        p95_error: [None, None],
+        bytes,
+    }
+}
+
+fn sky(scene: &Scene) -> Result<Row> {
+    let [mut out, mut peer] = [(); 2].map(|()| vec![0.0; scene.sky.wavelengths().len()]);
+    let ours = |round| {
+        let mut directions = scene.directions[span(round, ROUND)].iter();
+        directions.try_for_each(|&d| scene.sky.radiance(black_box(d), &mut out))
+    };
+    let theirs = |round| {
+        let mut directions = scene.directions[span(round, ROUND)].iter();
+        directions.try_for_each(|&d| scene.spectral.radiance(black_box(d), &mut peer))
+    };
+    let ns = clock::duel([ROUND; 2], unwrapped(ours), unwrapped(theirs));
+    let bytes = [scene.sky.bytes(), scene.spectral.bytes()];
+    Ok(row("sky_single", "the same, baked", ns, bytes))
+}
+
+fn sample(scene: &Scene) -> Result<Row> {
+    let disc = scene.model.solar_disc(&scene.conditions)?;
+    let sampler = scene.colour.sampler().with_sun(&disc);
+    let mut sequence = Sequence::<2>::default();
+    let numbers: Vec<_> = (0..QUERIES)
+        .map(|_| sequence.draw().map(|v| v as f32))
+        .collect();
+    let ours = |round| {
+        for &pair in &numbers[span(round, ROUND)] {
+            black_box(sampler.sample(black_box(pair)));
+        }
+    };
+    let theirs = |round| {
+        let mut directions = scene.directions[span(round, ROUND)].iter();
+        directions.try_for_each(|&d| scene.colour.xyz(black_box(d)).map(|c| _ = black_box(c)))
+    };
+    let ns = clock::duel([ROUND; 2], ours, unwrapped(theirs));
+    let bytes = [sampler.bytes(), scene.colour.bytes()];
+    Ok(row("sample", "colour of one direction", ns, bytes))
+}
+
+fn disc(scene: &Scene) -> Result<Row> {
+    let disc = scene.model.solar_disc(&scene.conditions)?;
+    let [mut out, mut peer] = [(); 2].map(|()| vec![0.0; disc.wavelengths().len()]);
+    let direction = disc.direction();
+    let ours = |_| (0..ROUND).try_for_each(|_| disc.radiance(black_box(direction), &mut out));
+    let theirs =
+        |_| (0..ROUND).try_for_each(|_| scene.spectral.radiance(black_box(direction), &mut peer));
+    let ns = clock::duel([ROUND; 2], unwrapped(ours), unwrapped(theirs));
+    let bytes = [size_of_val(&disc), scene.spectral.bytes()];
+    Ok(row("solar_disc", "baked sky in front of it", ns, bytes))
+}
+
+fn joined(scene: &Scene) -> Result<Row> {
+    let aerial = scene.model.aerial_perspective(&scene.conditions)?;
+    let joined = aerial.joined_to(&scene.sky)?;
+    let (camera, segments) = (joined.camera(), segments());
+    let n = aerial.wavelengths().len();
+    let [mut light, mut through] = [(); 2].map(|()| vec![0.0; n]);
+    let [mut peer, mut peer_through] = [(); 2].map(|()| vec![0.0; n]);
+    let ours = |round| {
+        let mut ends = segments[span(round, SLOW)].iter();
+        ends.try_for_each(|&[_, to]| joined.in_scattering(black_box(to), &mut light, &mut through))
+    };
+    let theirs = |round| {
+        let mut ends = segments[span(round, SLOW)].iter();
+        ends.try_for_each(|&[_, to]| {
+            aerial.in_scattering(camera, black_box(to), &mut peer, &mut peer_through)
+        })
+    };
+    let ns = clock::duel([SLOW; 2], unwrapped(ours), unwrapped(theirs));
+    Ok(row(
+        "segment_joined",
+        "the same alone",
+        ns,
+        [aerial.bytes(); 2],
+    ))
+}
+
+/// Segments each under conditions of their own.
+fn query(scene: &Scene) -> Result<Row> {
+    let aerial = scene.model.aerial_perspective(&scene.conditions)?;
+    let mut query = scene.model.aerial_perspective_query()?;
+    let (mut sequence, segments) = (Sequence::<4>::default(), segments());
+    let anywhere: Vec<_> = (0..QUERIES)
+        .map(|_| random::conditions(&scene.model, sequence.draw()))
+        .collect();
+    let n = aerial.wavelengths().len();
+    let [mut light, mut through] = [(); 2].map(|()| vec![0.0; n]);
+    let [mut peer, mut peer_through] = [(); 2].map(|()| vec![0.0; n]);
+    let ours = |round| {
+        span(round, SLOW).try_for_each(|i| {
+            let [from, to] = black_box(segments[i]);
+            query.in_scattering(&anywhere[i], from, to, &mut light, &mut through)
+        })
+    };
+    let theirs = |round| {
+        span(round, SLOW).try_for_each(|i| {
+            let [from, to] = black_box(segments[i]);
+            aerial.in_scattering(from, to, &mut peer, &mut peer_through)
+        })
+    };
+    let ns = clock::duel([SLOW; 2], unwrapped(ours), unwrapped(theirs));
+    let bytes = [welkin::DEFAULT_MODEL.len(), aerial.bytes()];
+    Ok(row(
+        "segment_query",
+        "prepared, fixed conditions",
+        ns,
+        bytes,
+    ))
+}
+
+/// What each takes before the first query, next to the sky alone.
+fn preparation(scene: &Scene) -> Result<Vec<Row>> {
+    let (model, conditions) = (&scene.model, &scene.conditions);
+    let time = |name, bytes, work: &dyn Fn(&Conditions) -> Result<()>| {
+        let ours = |_| work(black_box(conditions));
+        let theirs = |_| model.sky(black_box(conditions)).map(drop);
+        let ns = clock::duel([1; 2], unwrapped(ours), unwrapped(theirs));
+        row(name, "Sky", ns, [bytes, scene.sky.bytes()])
+    };
+    let polarised = model.polarised_sky(conditions)?;
+    let aerial = model.aerial_perspective(conditions)?;
+    let disc = model.solar_disc(conditions)?;
+    Ok(vec![
+        time("prepare_sky", scene.sky.bytes(), &|c| {
+            model.sky(c).map(drop)
+        }),
+        time("bake", scene.spectral.bytes(), &|_| {
+            scene.sky.bake(BakedSky::TOLERANCE).map(drop)
+        }),
+        time("bake_colour", scene.colour.bytes(), &|_| {
+            scene.sky.bake_colour(BakedSky::TOLERANCE).map(drop)
+        }),
+        time("prepare_polarised", polarised.bytes(), &|c| {
+            model.polarised_sky(c).map(drop)
+        }),
+        time(
+            "bake_polarised",
+            polarised.bake(BakedSky::TOLERANCE)?.bytes(),
+            &|_| polarised.bake(BakedSky::TOLERANCE).map(drop),
+        ),
+        time("prepare_aerial_perspective", aerial.bytes(), &|c| {
+            model.aerial_perspective(c).map(drop)
+        }),
+        time(
+            "prepare_transmittance",
+            aerial.transmittance().bytes(),
+            &|c| model.transmittance(c.visibility).map(drop),
+        ),
+        time("prepare_solar_disc", size_of_val(&disc), &|c| {
+            model.solar_disc(c).map(drop)
+        }),
+        time(
+            "sampler",
+            scene.colour.sampler().with_sun(&disc).bytes(),
+            &|_| {
+                black_box(scene.colour.sampler());
+                Ok(())
+            },
+        ),
+    ])
+}

@@ -1,0 +1,31 @@
+//! Where README.md and the book are.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    let tools = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tools.parent().expect("a workspace around the tools")
+}
+
+/// README.md and the pages of the book.
+///
+/// # Errors
+/// Where the folder cannot be read.
+pub fn pages() -> io::Result<Vec<PathBuf>> {
+    let mut pages = vec![root().join("README.md")];
+    for entry in fs::read_dir(root().join("docs"))? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|e| e == "md") {
+            pages.push(path);
+        }
+    }
+    pages.sort();
+    Ok(pages)
+}
+
+/// The folder of what was measured.
+pub fn figures() -> PathBuf {
+    root().join("docs/figures")
+}
