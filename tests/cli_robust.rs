@@ -351,13 +351,15 @@ fn truncated_meanwhile(arguments: &[&str]) -> std::process::ExitStatus {
 #[cfg(unix)]
 #[test]
 fn a_model_that_is_read_survives_its_truncation() {
-    use std::os::unix::process::ExitStatusExt;
-    const SIGBUS: i32 = 7;
     assert!(truncated_meanwhile(&["--no-map", "query"]).success());
     assert!(truncated_meanwhile(&["query", "--no-map"]).success());
     // As the help says; without this the test would not show anything.
     #[cfg(target_os = "linux")]
-    assert_eq!(truncated_meanwhile(&["query"]).signal(), Some(SIGBUS));
+    {
+        use std::os::unix::process::ExitStatusExt;
+        const SIGBUS: i32 = 7;
+        assert_eq!(truncated_meanwhile(&["query"]).signal(), Some(SIGBUS));
+    }
 }
 
 #[test]

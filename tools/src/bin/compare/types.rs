@@ -2,7 +2,10 @@
 
 use std::hint::black_box;
 
-use welkin::{BakedSky, Conditions, Result};
+use welkin::{
+    BakedSky, Budget, Channels, Conditions, PointQuery, PolarisationFrame, PolarisedPointQuery,
+    Result, Stokes,
+};
 use welkin_tools::random::{self, Sequence};
 
 use crate::clock;
@@ -14,6 +17,7 @@ use crate::scene::{QUERIES, ROUND, SLOW, Scene, span, unwrapped};
 pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     let mut rows = vec![sky(scene)?, sample(scene)?, disc(scene)?, joined(scene)?];
     rows.push(query(scene)?);
+    rows.push(polarised_query(scene)?);
     rows.extend(preparation(scene)?);
     Ok(rows)
 }
@@ -72,6 +76,7 @@ fn disc(scene: &Scene) -> Result<Row> {
     let theirs =
         |_| (0..ROUND).try_for_each(|_| scene.spectral.radiance(black_box(direction), &mut peer));
     let ns = clock::duel([ROUND; 2], unwrapped(ours), unwrapped(theirs));
+    // The disc does not say what it holds on the heap.
     let bytes = [size_of_val(&disc), scene.spectral.bytes()];
     Ok(row("solar_disc", "baked sky in front of it", ns, bytes))
 }
@@ -133,6 +138,40 @@ fn query(scene: &Scene) -> Result<Row> {
         ns,
         bytes,
     ))
+}
+
+/// Stokes vectors each under conditions of their own.
+fn polarised_query(scene: &Scene) -> Result<Row> {
+    let model = &scene.model;
+    let plan = model.plan(&Budget {
+        altitude: model.altitude_range(),
+        visibility: model.visibility_range(),
+        solar_elevation: model.solar_elevation_range(),
+        tolerance: BakedSky::TOLERANCE,
+        channels: Channels::Stokes,
+    })?;
+    let query = model.polarised_point_query(&plan)?;
+    let mut sequence = Sequence::<4>::default();
+    let anywhere: Vec<_> = (0..QUERIES)
+        .map(|_| random::conditions(model, sequence.draw()))
+        .collect();
+    let n = query.wavelengths().len();
+    let (mut out, mut peer) = (vec![Stokes::default(); n], vec![0.0; n]);
+    let ours = |round| {
+        span(round, ROUND).try_for_each(|i| {
+            let frame = PolarisationFrame::Vertical;
+            query.stokes(&anywhere[i], scene.directions[i], frame, &mut out)
+        })
+    };
+    let theirs = |round| {
+        span(round, ROUND).try_for_each(|i| {
+            let query = query.point_query();
+            query.radiance(&anywhere[i], scene.directions[i], &mut peer)
+        })
+    };
+    let ns = clock::duel([ROUND; 2], unwrapped(ours), unwrapped(theirs));
+    let bytes = [size_of::<PolarisedPointQuery>(), size_of::<PointQuery>()];
+    Ok(row("polarised_point_query", "radiance alone", ns, bytes))
 }
 
 /// What each takes before the first query, next to the sky alone.
