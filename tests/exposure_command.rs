@@ -99,6 +99,34 @@ fn the_automatic_exposure_is_as_documented() {
     }
 }
 
+/// A landscape towards the sun and one away from it: the mean of what the picture shows is half a stop above middle grey.
+#[test]
+fn landscapes_are_exposed_for_what_they_show() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let mut values = Vec::new();
+    for azimuth in [0, 180] {
+        let line = format!(
+            "render --terrain hills --altitude 2000 --sun-elevation 5 --view-azimuth {azimuth} --size 24 --out l"
+        );
+        works(folder, &line);
+        let value: f64 = text(&folder.join("l.png"), "exposureValue")
+            .parse()
+            .unwrap();
+        let light = exr(&folder.join("l.exr"));
+        let logarithms = light.iter().map(|&[r, g, b]| {
+            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)).ln()
+        });
+        let mean = (logarithms.sum::<f64>() / light.len() as f64).exp();
+        assert!(
+            (mean / (1.2 * value.exp2()) / 0.25 - 1.0).abs() < 1e-3,
+            "{mean} {value}"
+        );
+        values.push(value);
+    }
+    assert!(values[0] > values[1] + 0.5, "{values:?}");
+}
+
 #[test]
 fn curves_and_white_balance_change_the_png_alone() {
     let folder = tempfile::tempdir().unwrap();

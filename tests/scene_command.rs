@@ -11,7 +11,7 @@ fn run(line: &str) -> Output {
 fn run_in(folder: &Path, line: &str, input: &str) -> Output {
     use std::io::Write;
     let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
+        .args(line.split_whitespace())
         .current_dir(folder)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -228,4 +228,38 @@ fn shells_and_man_pages() {
     let text = std::fs::read_to_string(folder.path().join("welkin-render.1")).unwrap();
     assert!(text.contains("turbidity") && text.contains("Preetham"));
     assert!(refusal("man --out missing").contains("is no folder"));
+}
+
+/// What is given is the same in all skies of a sheet, the rest varies.
+#[test]
+fn sheets_are_of_the_model_or_of_a_day() {
+    let folder = tempfile::tempdir().unwrap();
+    let size = |line: &str| {
+        let output = run_in(
+            folder.path(),
+            &format!("contact-sheet --size 16 --out s.png {line}"),
+            "",
+        );
+        assert!(output.status.success(), "{line}: {output:?}");
+        let file = std::fs::File::open(folder.path().join("s.png")).unwrap();
+        let reader = png::Decoder::new(std::io::BufReader::new(file))
+            .read_info()
+            .unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        ([reader.info().width, reader.info().height], said)
+    };
+    assert_eq!(size("").0, [7 * 16, 8 * 16 + 28]);
+    let (day, said) =
+        size("--sun-elevation -4..60 --columns 9 --altitude 0 --visibility 90 --projection up");
+    assert_eq!(day, [9 * 16, 16]);
+    assert!(
+        said.contains("sun at -4, 4, 12, 20, 28, 36, 44, 52, 60 degrees"),
+        "{said}"
+    );
+    assert!(said.contains("visibility 90 km, altitude 0 m"), "{said}");
+    assert_eq!(size("--turbidity 2").0, [7 * 16, 4 * 16]);
+    assert!(refusal("contact-sheet --projection cube").contains("up or side"));
+    assert!(
+        refusal("contact-sheet --sun-elevation -40..60").contains("solar elevation must be in")
+    );
 }

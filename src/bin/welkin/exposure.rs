@@ -1,5 +1,7 @@
 //! How a picture is exposed and developed, as arguments. The EXR is the light itself.
 
+use std::f64::consts::TAU;
+
 use clap::ValueEnum;
 use welkin::Sky;
 
@@ -7,16 +9,18 @@ use crate::about::About;
 use crate::failure::Result;
 use crate::tone::{Film, Tone, WhiteBalance};
 
-/// Luminance of scene white over that of the mean sky (a geometric mean), for the automatic exposure: photographers put a clear sky one
-/// stop above middle grey, which is 0.18 of white.
-const WHITE_OVER_SKY: f64 = 1.0 / 0.36;
+/// Middle grey is 0.18 of white. Photographers put a clear sky one stop above it …
+const SKY: f64 = 0.36;
+/// … and a landscape with its sky half a stop.
+const LANDSCAPE: f64 = 0.25;
 /// Luminance of scene white at exposure value 0 (ISO 100), cd m⁻².
 const WHITE_AT_EV_0: f64 = 1.2;
 
 #[derive(clap::Args)]
 pub struct Exposure {
     /// Exposure value of the PNG at ISO 100. Automatic if absent: the mean of the sky (a geometric mean over the upper hemisphere,
-    /// without the disc of the sun) is one stop above middle grey, 0.36 of white. It changes as smoothly as the sun moves.
+    /// without the disc of the sun) is 0.36 of white, one stop above middle grey; the mean of a landscape (of all its pixels) 0.25.
+    /// It changes as smoothly as the sun moves.
     #[arg(long, value_name = "EV", value_parser = value)]
     exposure: Option<f64>,
     /// Tone curve of the PNG.
@@ -35,17 +39,36 @@ fn value(text: &str) -> std::result::Result<f64, String> {
 }
 
 impl Exposure {
-    /// For a sky of which so much (1 = all) reaches the film where the exposure is automatic.
-    pub fn film(&self, sky: &Sky, share: f64) -> Result<Film> {
-        let white = match self.exposure {
-            Some(value) => WHITE_AT_EV_0 * value.exp2(),
-            None => share * WHITE_OVER_SKY * mean_luminance(sky)?,
+    /// For a sky.
+    pub fn of_sky(&self, sky: &Sky) -> Result<Film> {
+        let white = match self.white() {
+            Some(white) => white,
+            None => mean_luminance(sky)? / SKY,
         };
-        Ok(Film {
+        Ok(self.film(white))
+    }
+
+    /// For the pixels of a landscape: linear sRGB, cd m⁻².
+    pub fn of_landscape(&self, pixels: &[[f32; 3]]) -> Film {
+        let white = self.white().unwrap_or_else(|| {
+            let luminance = |&[r, g, b]: &[f32; 3]| {
+                0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
+            };
+            geometric_mean(pixels.iter().map(luminance)) / LANDSCAPE
+        });
+        self.film(white)
+    }
+
+    fn white(&self) -> Option<f64> {
+        self.exposure.map(|value| WHITE_AT_EV_0 * value.exp2())
+    }
+
+    fn film(&self, white: f64) -> Film {
+        Film {
             white: white as f32,
             tone: self.tone,
             balance: self.white_balance,
-        })
+        }
     }
 }
 
@@ -68,19 +91,24 @@ impl Film {
 
 /// Geometric mean over the upper hemisphere, cd m⁻².
 fn mean_luminance(sky: &Sky) -> Result<f64> {
-    let rings = 16;
-    let spokes = 32;
+    const RINGS: usize = 16;
+    const SPOKES: usize = 32;
     let sun = sky.conditions().solar_azimuth;
-    let (mut sum, mut count) = (0.0, 0.0);
-    for ring in 0..rings {
-        let z = (f64::from(ring) + 0.5) / f64::from(rings);
-        for spoke in 0..spokes {
-            let phi = sun + f64::from(spoke) / f64::from(spokes) * std::f64::consts::TAU;
-            let r = (1.0 - z * z).sqrt();
-            let direction = [r * phi.cos(), r * phi.sin(), z].map(|v| v as f32);
-            sum += f64::from(sky.xyz(direction)?[1]).max(1e-12).ln();
-            count += 1.0;
-        }
-    }
-    Ok((sum / count).exp())
+    let places = (0..RINGS * SPOKES).map(|k| {
+        let z = ((k / SPOKES) as f64 + 0.5) / RINGS as f64;
+        let level = (1.0 - z * z).sqrt();
+        let (y, x) = (sun + TAU * (k % SPOKES) as f64 / SPOKES as f64).sin_cos();
+        [level * x, level * y, z].map(|v| v as f32)
+    });
+    let luminances: welkin::Result<Vec<f64>> = places
+        .map(|direction| Ok(f64::from(sky.xyz(direction)?[1])))
+        .collect();
+    Ok(geometric_mean(luminances?.into_iter()))
+}
+
+/// Of luminances; black counts as next to nothing.
+fn geometric_mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    let sum: f64 = values.map(|v| v.max(1e-12).ln()).sum();
+    (sum / count).exp()
 }

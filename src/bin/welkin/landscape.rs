@@ -84,14 +84,6 @@ struct Polariser {
 const HALF: f32 = 0.5;
 
 impl Options {
-    /// Share of the light that reaches the film.
-    pub fn share(&self) -> f64 {
-        match self.polariser {
-            Some(_) => HALF.into(),
-            None => 1.0,
-        }
-    }
-
     /// The height field, if one is wanted.
     pub fn file(&self) -> Option<&Path> {
         let name = self.terrain.as_deref();

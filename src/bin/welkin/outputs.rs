@@ -94,7 +94,9 @@ fn before_extension(path: &Path, number: &str) -> PathBuf {
 }
 
 impl Outputs {
-    pub fn wanted(&self, film: Film, about: About) -> Wanted {
+    /// What is wanted of a picture on a film.
+    pub fn wanted(&self, film: Film, mut about: About) -> Wanted {
+        film.describe(&mut about);
         let [exr, png] = [&self.exr, &self.png].map(Option::is_some);
         Wanted {
             exr,

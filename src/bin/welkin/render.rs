@@ -91,23 +91,22 @@ impl Options {
             None => model.sky(conditions)?,
         };
         let azimuth = self.heading.azimuth()?;
-        let film = self.exposure.film(&sky, self.landscape.share())?;
         let mut about = About::scene(sky.conditions(), azimuth).with(marks);
         about.text("model", self.source.name());
         if self.sun {
             about.text("sun", "disc");
         }
-        film.describe(&mut about);
-        let mut wanted = outputs.wanted(film, about);
         let landscape = self
             .landscape
             .prepare(model, conditions, azimuth, self.sun)?;
-        let (picture, pixels) = match landscape {
-            Some(landscape) => self.scenery(&landscape, &mut wanted)?,
+        let (picture, film, pixels) = match landscape {
+            Some(landscape) => self.scenery(&landscape, outputs, about)?,
             None => {
                 let view = self.view(model, conditions, azimuth)?;
+                let film = self.exposure.of_sky(&sky)?;
+                let mut wanted = outputs.wanted(film, about);
                 let picture = self.picture(&view, &sky, polarised.as_ref(), &mut wanted)?;
-                (picture, view.size[0] * view.size[1])
+                (picture, film, view.size[0] * view.size[1])
             }
         };
         Ok(Shot {
@@ -145,8 +144,13 @@ impl Options {
         })
     }
 
-    /// The picture of a landscape and the number of its pixels.
-    fn scenery(&self, landscape: &Landscape, wanted: &mut Wanted) -> Result<(Picture, usize)> {
+    /// The picture of a landscape, how it is exposed, and the number of its pixels.
+    fn scenery(
+        &self,
+        landscape: &Landscape,
+        outputs: &Outputs,
+        mut about: About,
+    ) -> Result<(Picture, Film, usize)> {
         if self.spectral || self.stokes || self.quantity != Quantity::Radiance {
             let text = "landscapes are in colour only, without --spectral, --stokes and --quantity";
             return Err(Failure::message(text));
@@ -155,9 +159,10 @@ impl Options {
         let width = (height as f64 * landscape::ASPECT).round();
         let size = [width as usize, height];
         let pixels = landscape.pixels(size)?;
-        landscape.describe(&self.landscape, &mut wanted.about);
-        let picture = Picture::of_pixels(size, &pixels, wanted)?;
-        Ok((picture, pixels.len()))
+        landscape.describe(&self.landscape, &mut about);
+        let film = self.exposure.of_landscape(&pixels);
+        let picture = Picture::of_pixels(size, &pixels, &outputs.wanted(film, about))?;
+        Ok((picture, film, pixels.len()))
     }
 
     fn picture(

@@ -14,6 +14,7 @@ use crate::failure::{Failure, Result, plain};
 use crate::image::png_of_display;
 use crate::naming::{self, Named};
 use crate::parallel::bar;
+use crate::position::Position;
 use crate::projection::Projection;
 use crate::scene::{Scene, move_into};
 use crate::view::View;
@@ -67,11 +68,63 @@ struct Tile {
 }
 
 impl Options {
-    fn suns(&self) -> usize {
-        match self.scene.sun.is_course() {
-            true => self.columns.into(),
-            false => 1,
+    /// Whether nothing is given, so that the sheet is of all the model.
+    fn shows_all(&self) -> bool {
+        let scene = &self.scene;
+        !(scene.sun.is_given() || scene.has_visibility() || scene.altitude.is_some())
+    }
+
+    /// Rows over visibilities and altitudes, columns over suns, as far as they are not given; and how many columns.
+    fn grid(&self, model: &Model) -> Result<(Vec<Tile>, usize)> {
+        let (scene, size) = (&self.scene, usize::from(self.size));
+        let air = scene.air(model)?;
+        let suns = match (scene.sun.is_given(), scene.sun.is_course()) {
+            (false, _) => scene.sun.at_elevations(&ELEVATIONS),
+            (true, false) => scene.sun.positions(1)?,
+            (true, true) => scene.sun.positions(self.columns.into())?,
+        };
+        let visibilities = match scene.has_visibility() {
+            true => vec![air.visibility],
+            false => VISIBILITIES.map(|km| 1e3 * km).to_vec(),
+        };
+        let altitudes = scene.altitude.map_or(ALTITUDES.to_vec(), |h| vec![h]);
+        let places = visibilities.iter().flat_map(|&visibility| {
+            altitudes
+                .iter()
+                .map(move |&altitude| [visibility, altitude])
+        });
+        let mut tiles = Vec::new();
+        for (row, [visibility, altitude]) in places.enumerate() {
+            let air = Conditions {
+                visibility,
+                altitude,
+                ..air
+            };
+            tiles.extend(suns.iter().enumerate().map(|(column, sun)| Tile {
+                conditions: sun.over(&air),
+                projection: self.projection,
+                size,
+                corner: [column * size, row * size],
+            }));
         }
+        Ok((tiles, suns.len()))
+    }
+
+    /// The row below a grid of this size.
+    fn between(&self, model: &Model, [width, height]: [usize; 2]) -> Result<Vec<Tile>> {
+        let size = width / BETWEEN.len();
+        let air = Conditions {
+            visibility: 1e3 * BETWEEN_VISIBILITY,
+            ..self.scene.air(model)?
+        };
+        let suns = self.scene.sun.at_elevations(&BETWEEN);
+        let tile = |(column, sun): (usize, &Position)| Tile {
+            conditions: sun.over(&air),
+            projection: Projection::Up,
+            size,
+            corner: [column * size, height],
+        };
+        Ok(suns.iter().enumerate().map(tile).collect())
     }
 }
 
@@ -86,7 +139,7 @@ impl Tile {
             ground: None,
             disc: None,
         };
-        let film = exposure.film(&sky, 1.0)?;
+        let film = exposure.of_sky(&sky)?;
         let pixel = |k: usize| {
             let direction = view.direction([k % self.size, k / self.size]);
             let rgb = direction.map(|d| sky.linear_srgb(d)).transpose()?;
@@ -154,67 +207,24 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// Rows over visibilities and altitudes, columns over suns, as far as they are not given.
     fn new(options: &Options, model: &Model) -> Result<Self> {
         if ![Projection::Up, Projection::Side].contains(&options.projection) {
             let text = "a sheet has squares: --projection up or side";
             return Err(Failure::message(text));
         }
-        let (scene, size) = (&options.scene, usize::from(options.size));
-        let air = scene.air(model)?;
-        let suns = match scene.sun.is_given() {
-            true => scene.sun.positions(options.suns())?,
-            false => scene.sun.at_elevations(&ELEVATIONS),
-        };
-        let visibilities = match scene.has_visibility() {
-            true => vec![air.visibility],
-            false => VISIBILITIES.map(|km| 1e3 * km).to_vec(),
-        };
-        let altitudes = scene.altitude.map_or(ALTITUDES.to_vec(), |h| vec![h]);
-        let columns = suns.len();
-        let rows = visibilities.iter().flat_map(|&visibility| {
-            altitudes.iter().map(move |&altitude| Conditions {
-                visibility,
-                altitude,
-                ..air
-            })
-        });
-        let mut tiles = Vec::new();
-        for (row, air) in rows.enumerate() {
-            for (column, sun) in suns.iter().enumerate() {
-                tiles.push(Tile {
-                    conditions: sun.over(&air),
-                    projection: options.projection,
-                    size,
-                    corner: [column * size, row * size],
-                });
-            }
-        }
-        let width = columns * size;
+        let (mut tiles, columns) = options.grid(model)?;
         let grid = tiles.len();
-        let mut height = grid / columns * size;
-        let shows_all =
-            !(scene.sun.is_given() || scene.has_visibility() || scene.altitude.is_some());
-        if shows_all {
-            let large = width / BETWEEN.len();
-            let between = Conditions {
-                visibility: 1e3 * BETWEEN_VISIBILITY,
-                ..air
-            };
-            let suns = scene.sun.at_elevations(&BETWEEN);
-            tiles.extend(suns.iter().enumerate().map(|(column, sun)| Tile {
-                conditions: sun.over(&between),
-                projection: Projection::Up,
-                size: large,
-                corner: [column * large, height],
-            }));
-            height += large;
-        }
+        let size = usize::from(options.size);
+        let [width, mut height] = [columns * size, grid / columns * size];
         let mut conditions: Vec<_> = tiles.iter().map(|tile| tile.conditions).collect();
-        match shows_all {
+        if options.shows_all() {
+            tiles.extend(options.between(model, [width, height])?);
+            height += width / BETWEEN.len();
+            conditions = tiles.iter().map(|tile| tile.conditions).collect();
             // A small model shows what it has.
-            true => move_into(model, &mut conditions)?,
-            false => conditions = scene.reached(model, conditions)?,
+            move_into(model, &mut conditions)?;
+        } else {
+            conditions = options.scene.reached(model, conditions)?;
         }
         let all = tiles.iter_mut().zip(conditions);
         all.for_each(|(tile, reached)| tile.conditions = reached);
