@@ -93,8 +93,8 @@ fn conditions(model: &Model) -> Conditions {
     }
 }
 
-/// Nanoseconds per direction in the shortest of many passes. A pass is short against the time slices of the system: the C bench
-/// counts time of the processor, which an interrupted pass would not be.
+/// Nanoseconds per direction in the shortest of many passes. A pass is short against the time slices of the system: the
+/// C bench counts time of the processor, which an interrupted pass would not be.
 fn time(directions: &[[f32; 3]], mut ask: impl FnMut([f32; 3]) -> Result<()>) -> Result<f64> {
     const PASSES: usize = 100;
     let mut least = f64::INFINITY;

@@ -1,6 +1,6 @@
-//! Rows per second of `welkin query`, one core, every row with conditions of its own, as CSV: `cargo bench --features cli --bench rows`.
-//! Where the system says so, by processor time, so that other programs do not count.
-//! Paths of other `welkin` commands after `--` are timed beside it, table by table.
+//! Rows per second of `welkin query`, one core, every row with conditions of its own, as CSV: `cargo bench --features
+//! cli --bench rows`. Where the system says so, by processor time, so that other programs do not count. Paths of other
+//! `welkin` commands after `--` are timed beside it, table by table.
 
 use std::process::{Command, Stdio};
 use std::time::Instant;

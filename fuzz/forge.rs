@@ -94,7 +94,8 @@ fn check_polarised(light: &[Stokes]) {
     }
 }
 
-/// Skies, Stokes vectors and haze at the ends and in the middle of the model: errors, or finite numbers in their ranges.
+/// Skies, Stokes vectors and haze at the ends and in the middle of the model: errors, or finite numbers in their
+/// ranges.
 pub fn interrogate(model: &Model) {
     let _ = model.verify();
     let [altitudes, visibilities, elevations] = [

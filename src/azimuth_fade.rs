@@ -1,4 +1,5 @@
-//! How what depends on the azimuth of the sun fades where the sun comes to the zenith and has none. Format specification, section 7.1.
+//! How what depends on the azimuth of the sun fades where the sun comes to the zenith and has none. Format
+//! specification, section 7.1.
 
 /// Inverse of the sine of the sun's zenith angle within which azimuths fade: 2.9°.
 const PER_SINE: f64 = 20.0;

@@ -56,7 +56,8 @@ pub struct Budget {
     pub altitude: [f64; 2],
     /// Lowest and highest visibility, m.
     pub visibility: [f64; 2],
-    /// Lowest and highest elevation of the sun, rad. A narrow range saves nothing, as every chunk holds the whole of it.
+    /// Lowest and highest elevation of the sun, rad. A narrow range saves nothing, as every chunk holds the whole of
+    /// it.
     pub solar_elevation: [f64; 2],
     /// Relative error that baking may add at 95 % of directions and channels.
     pub tolerance: f64,
@@ -98,10 +99,11 @@ pub struct Plan {
     /// Largest 99th percentile of the relative error of a chunk against its traced data. Between altitudes and
     /// visibilities of the model errors are larger; the documentation of the model says how much.
     pub error_p99: f32,
-    /// Where Stokes vectors are asked for: largest median and largest 99th percentile of the error of the degree of linear
-    /// polarisation of a chunk against its traced data.
+    /// Where Stokes vectors are asked for: largest median and largest 99th percentile of the error of the degree of
+    /// linear polarisation of a chunk against its traced data.
     pub degree_error: Option<[f32; 2]>,
-    /// Relative error that baking adds at most at 95 % of directions and channels: to the radiance, and to (Q, U) relative to it.
+    /// Relative error that baking adds at most at 95 % of directions and channels: to the radiance, and to (Q, U)
+    /// relative to it.
     pub bake_p95: f64,
 }
 
@@ -117,7 +119,8 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that baking refuses for every sky (whether
-    /// a hard sky keeps it shows when that is baked), [`Error::MissingChunk`] if the file lacks a chunk, such as those of the polarisation.
+    /// a hard sky keeps it shows when that is baked), [`Error::MissingChunk`] if the file lacks a chunk, such as those
+    /// of the polarisation.
     pub fn plan(&self, budget: &Budget) -> Result<Plan> {
         let head = self.head();
         check("altitude", budget.altitude, self.altitude_range())?;
@@ -195,7 +198,8 @@ impl Model {
 }
 
 impl Model {
-    /// Prepares point queries with Stokes vectors within a plan of this model for [`Channels::Stokes`], and reads what it asks for.
+    /// Prepares point queries with Stokes vectors within a plan of this model for [`Channels::Stokes`], and reads what
+    /// it asks for.
     ///
     /// # Errors
     /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.

@@ -31,8 +31,9 @@ pub struct Conditions {
     pub visibility: f64,
     /// Albedo of the ground, 0..=1, the same at all wavelengths.
     pub albedo: f64,
-    /// Altitude of the observer above the ground, m. Down to [`Conditions::LOWEST_ALTITUDE`] an observer under the sphere, in a polder or
-    /// by rounding, stands on the ground: the altitude counts as 0, and so does that of the checked conditions.
+    /// Altitude of the observer above the ground, m. Down to [`Conditions::LOWEST_ALTITUDE`] an observer under the
+    /// sphere, in a polder or by rounding, stands on the ground: the altitude counts as 0, and so does that of the
+    /// checked conditions.
     pub altitude: f64,
 }
 

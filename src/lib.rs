@@ -1,12 +1,12 @@
-//! The clear sky for any renderer: spectral radiance, polarisation, transmittance and aerial perspective for any direction,
-//! observer altitude, visibility, solar elevation and ground albedo, from one small memory-mapped file. After Wilkie et al.
-//! 2021, *A Fitted Radiance and Attenuation Model for Realistic Atmospheres*.
+//! The clear sky for any renderer: spectral radiance, polarisation, transmittance and aerial perspective for any
+//! direction, observer altitude, visibility, solar elevation and ground albedo, from one small memory-mapped file.
+//! After Wilkie et al. 2021, *A Fitted Radiance and Attenuation Model for Realistic Atmospheres*.
 //!
 //! # A sky
 //!
-//! A [`Model`] is a file: open it, prepare a [`Sky`] for the [`Conditions`] of a scene, and ask the sky for the radiance of
-//! directions. Opening reads the head of the file, preparing touches only the parts that the conditions need, and queries
-//! neither allocate nor call the system.
+//! A [`Model`] is a file: open it, prepare a [`Sky`] for the [`Conditions`] of a scene, and ask the sky for the
+//! radiance of directions. Opening reads the head of the file, preparing touches only the parts that the conditions
+//! need, and queries neither allocate nor call the system.
 //!
 //! ```
 //! # #[cfg(feature = "default-model")]
@@ -31,8 +31,9 @@
 //!
 //! # Many directions, and draws of them
 //!
-//! A sky that is asked often is baked into tables of some kilobytes: [`BakedSky`] for spectra, [`BakedColourSky`] for XYZ and
-//! linear sRGB, [`BakedPolarisedSky`] for Stokes vectors. A [`SkySampler`] draws directions by luminance, the sun among them.
+//! A sky that is asked often is baked into tables of some kilobytes: [`BakedSky`] for spectra, [`BakedColourSky`] for
+//! XYZ and linear sRGB, [`BakedPolarisedSky`] for Stokes vectors. A [`SkySampler`] draws directions by luminance, the
+//! sun among them.
 //!
 //! ```
 //! # #[cfg(feature = "default-model")]
@@ -81,10 +82,10 @@
 //!
 //! # Conventions
 //!
-//! Units are SI, angles radians, wavelengths nanometres. +z is the zenith, azimuths count counter-clockwise from +x seen from
-//! above, directions point away from the observer and need not be normalised. Every input is checked: what cannot be answered
-//! is an [`Error`] that names the parameter, its value and its range. The file format is specified in `format-spec/SPEC.md` and
-//! implemented in [`mod@format`].
+//! Units are SI, angles radians, wavelengths nanometres. +z is the zenith, azimuths count counter-clockwise from +x
+//! seen from above, directions point away from the observer and need not be normalised. Every input is checked: what
+//! cannot be answered is an [`Error`] that names the parameter, its value and its range. The file format is specified
+//! in `format-spec/SPEC.md` and implemented in [`mod@format`].
 //!
 //! # Features
 //!

@@ -82,8 +82,8 @@ impl PhaseTable {
         }
     }
 
-    /// How much of the field is polarised by sin² γ, for one block of wavelengths; `None` for phase functions that do not
-    /// polarise.
+    /// How much of the field is polarised by sin² γ, for one block of wavelengths; `None` for phase functions that do
+    /// not polarise.
     #[inline(always)]
     pub fn polarising(&self, block: usize) -> Option<[f32; LANES]> {
         match self {

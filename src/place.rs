@@ -11,10 +11,10 @@ use crate::polarisation::PolarisationFrame;
 /// A place on or above the planet, with its local frame: the one that [`Conditions`], directions of skies and of
 /// [`PointQuery`](crate::PointQuery), points of [`Transmittance`](crate::Transmittance) and [`AerialPerspective`](crate::AerialPerspective), and [`PolarisationFrame::Axis`] are meant in.
 ///
-/// The world frame is the caller's: any axes, any origin, metres, the planet's centre where the caller says. The local frame has +z
-/// away from the centre and its origin on the ground below the place; +x and +y are those of the world carried along the great circle
-/// from where +z of the world is up, so that they turn smoothly everywhere but opposite to that. The local frame of a place with
-/// the up of the world is the world's, but for the origin.
+/// The world frame is the caller's: any axes, any origin, metres, the planet's centre where the caller says. The local
+/// frame has +z away from the centre and its origin on the ground below the place; +x and +y are those of the world
+/// carried along the great circle from where +z of the world is up, so that they turn smoothly everywhere but opposite
+/// to that. The local frame of a place with the up of the world is the world's, but for the origin.
 ///
 /// ```
 /// use welkin::{Conditions, Place};
@@ -92,8 +92,9 @@ impl Place {
         self.to_local(world).map(|v| v as f32)
     }
 
-    /// A point of the world (m) in the local frame, as [`Transmittance`](crate::Transmittance) and a [`AerialPerspective`](crate::AerialPerspective) that is prepared here take
-    /// points: relative to the ground below the place.
+    /// A point of the world (m) in the local frame, as [`Transmittance`](crate::Transmittance) and a
+    /// [`AerialPerspective`](crate::AerialPerspective) that is prepared here take points: relative to the ground below
+    /// the place.
     pub fn point_to_local(&self, world: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = self.to_local(core::array::from_fn(|i| world[i] - self.centre[i]));
         [x, y, z - self.radius]
@@ -106,9 +107,9 @@ impl Place {
         core::array::from_fn(|i| self.centre[i] + from_centre[i])
     }
 
-    /// The conditions here: those of `elsewhere` with the altitude of the place and the local elevation and azimuth of a sun in this
-    /// direction of the world (need not be normalised). The azimuth of a vertical sun is 0. Whether a model reaches that far is said
-    /// by whoever is asked.
+    /// The conditions here: those of `elsewhere` with the altitude of the place and the local elevation and azimuth of
+    /// a sun in this direction of the world (need not be normalised). The azimuth of a vertical sun is 0. Whether a
+    /// model reaches that far is said by whoever is asked.
     ///
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.

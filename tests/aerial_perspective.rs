@@ -484,7 +484,8 @@ fn chunks_are_added_replaced_and_cropped() {
     }
 }
 
-/// Rays through all of the air by the source and by the fitted sky: two ways to the same light, with errors of their own.
+/// Rays through all of the air by the source and by the fitted sky: two ways to the same light, with errors of their
+/// own.
 #[test]
 fn to_the_limb_the_haze_is_the_sky() {
     let model = Model::default_model().unwrap();
@@ -599,7 +600,8 @@ fn before_its_sky_every_way_ends_in_it_without_a_step() {
             before = Some([joined, own]);
         }
     }
-    // A step of 2 % of the way, or of 4 % of the rest, goes no farther than the aerial perspective does and a part of what is left to the sky.
+    // A step of 2 % of the way, or of 4 % of the rest, goes no farther than the aerial perspective does and a part of
+    // what is left to the sky.
     println!("steps towards the sky: {worst_step}; the end from the sky: {worst_end}");
     assert!(worst_step < 0.17 && worst_end < 1e-5);
 }

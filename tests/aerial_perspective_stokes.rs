@@ -231,8 +231,8 @@ fn frames_turn_and_bad_input_is_refused() {
     assert!(matches!(error, Err(Error::Length { got: 11, .. })));
 }
 
-/// 90° from the sun a polariser across the plane of the sun takes most of the aerial perspective away, and turned by 90° it keeps it; what is behind
-/// is dimmed alike.
+/// 90° from the sun a polariser across the plane of the sun takes most of the aerial perspective away, and turned by
+/// 90° it keeps it; what is behind is dimmed alike.
 #[test]
 fn a_polariser_lifts_haze() {
     let conditions = Conditions {

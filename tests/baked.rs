@@ -175,8 +175,8 @@ proptest! {
     }
 }
 
-/// Largest errors at many directions that are dense at the horizon and beside the sun, against what was measured at few: near the
-/// ground and high up, without the skies in which no table holds the fit (below zero at dusk).
+/// Largest errors at many directions that are dense at the horizon and beside the sun, against what was measured at
+/// few: near the ground and high up, without the skies in which no table holds the fit (below zero at dusk).
 #[test]
 fn largest_errors_are_honest() {
     let mut places = random::Sequence::<4>::default();

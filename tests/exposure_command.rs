@@ -99,7 +99,8 @@ fn the_automatic_exposure_is_as_documented() {
     }
 }
 
-/// A landscape towards the sun and one away from it: the mean of what the picture shows is half a stop above middle grey.
+/// A landscape towards the sun and one away from it: the mean of what the picture shows is half a stop above middle
+/// grey.
 #[test]
 fn landscapes_are_exposed_for_what_they_show() {
     let folder = tempfile::tempdir().unwrap();

@@ -105,7 +105,8 @@ proptest! {
             true => exact.map(|v| f64::from(v as f32)),
             false => exact,
         };
-        // How far the point may stand above the sphere, and how deep under its horizon the ray must go not to pass that.
+        // How far the point may stand above the sphere, and how deep under its horizon the ray must go not to pass
+        // that.
         let height = if single { 1.0 } else { 1e-8 } + lift.abs();
         let dip = (2.0 * height / radius).sqrt();
         let space = to_space(point, direction);

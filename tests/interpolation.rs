@@ -1,4 +1,5 @@
-//! Between its samples the embedded model bends no more than the sky does: every parameter is walked across all of its nodes.
+//! Between its samples the embedded model bends no more than the sky does: every parameter is walked across all of its
+//! nodes.
 
 use welkin::{Conditions, Model};
 
@@ -16,9 +17,11 @@ const STEPS: usize = 6;
 /// Where second differences are taken, in parts of an interval to either side.
 const REACH: f64 = 1.0 / 48.0;
 
-/// The sharpest kink of ln L and where it is: by how much the slope jumps, times the interval, for every direction and wavelength.
+/// The sharpest kink of ln L and where it is: by how much the slope jumps, times the interval, for every direction and
+/// wavelength.
 ///
-/// A jump shows in second differences over any reach alike, curvature in proportion to the reach; of two reaches it drops out.
+/// A jump shows in second differences over any reach alike, curvature in proportion to the reach; of two reaches it
+/// drops out.
 fn sharpest(nodes: &[f64], logarithms: impl Fn(f64) -> Vec<f64>) -> (f64, f64) {
     let mut worst = (0.0, f64::NAN);
     for pair in nodes.windows(2) {
@@ -165,7 +168,8 @@ fn wavelength_has_no_kinks() {
     }
 }
 
-/// What the measure says of linear interpolation: the same sky read linearly between two visibilities has a kink that would not pass.
+/// What the measure says of linear interpolation: the same sky read linearly between two visibilities has a kink that
+/// would not pass.
 #[test]
 fn linear_interpolation_would_be_noticed() {
     let model = Model::default_model().unwrap();

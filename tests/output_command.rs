@@ -191,7 +191,8 @@ fn pipes_devices_and_links_stay_what_they_are() {
     );
 }
 
-/// Ordinary users meet folders that they may write to but not read. The superuser may read all, unless a tool takes that away.
+/// Ordinary users meet folders that they may write to but not read. The superuser may read all, unless a tool takes
+/// that away.
 #[test]
 fn folders_may_be_unreadable() {
     use std::os::unix::fs::PermissionsExt;

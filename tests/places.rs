@@ -1,4 +1,5 @@
-//! Places anywhere on the planet: their skies and segments are those of the origin under a sun that is turned with them.
+//! Places anywhere on the planet: their skies and segments are those of the origin under a sun that is turned with
+//! them.
 #![cfg(feature = "default-model")]
 
 mod common;
@@ -151,7 +152,8 @@ proptest! {
     }
 }
 
-/// Spectrum of the zenith from the ground at a place, away from the sun from where the aerial perspective was prepared, in this many pieces.
+/// Spectrum of the zenith from the ground at a place, away from the sun from where the aerial perspective was prepared,
+/// in this many pieces.
 fn zenith(aerial: &AerialPerspective, away: f64, pieces: u32) -> Vec<f64> {
     let radius = aerial.transmittance().planet().radius;
     let up = unit(FRAC_PI_2 - away, std::f64::consts::PI);

@@ -103,7 +103,8 @@ impl Row {
         }
     }
 
-    /// What a sky or an aerial perspective that is prepared for this row alone says, and what an error of it is relative to.
+    /// What a sky or an aerial perspective that is prepared for this row alone says, and what an error of it is
+    /// relative to.
     fn expected(&self, model: &Model) -> (f32, f32) {
         let [_, _, altitude, _, zenith, azimuth, distance, wavelength] = self.numbers;
         let (r, z) = zenith.to_radians().sin_cos();

@@ -79,8 +79,9 @@ fn turbidity_is_that_of_the_air_of_the_model() {
     );
 }
 
-/// 17 October 2003 in Golden, Colorado: the example of NREL/TP-560-34302 (39.872046° without refraction, azimuth 194.34024° from the
-/// north to the east). 21 June 2026 on the Tropic of Cancer: the sun passes within 0.01° of the zenith.
+/// 17 October 2003 in Golden, Colorado: the example of NREL/TP-560-34302 (39.872046° without refraction, azimuth
+/// 194.34024° from the north to the east). 21 June 2026 on the Tropic of Cancer: the sun passes within 0.01° of the
+/// zenith.
 #[test]
 fn dates_and_places_give_the_sun() {
     let golden = "--latitude 39.742476 --longitude -105.1786";

@@ -68,7 +68,8 @@ fn in_scattering(aerial: &AerialPerspective, from: [f64; 3], to: [f64; 3]) -> Ve
 proptest! {
     #![proptest_config(common::cases(48))]
 
-    /// Sun and direction at right angles: the angle between them stays what it is, so only what has to fade could change.
+    /// Sun and direction at right angles: the angle between them stays what it is, so only what has to fade could
+    /// change.
     #[test]
     fn skies_do_not_know_the_azimuth_of_a_vertical_sun(
         zenith in near(),

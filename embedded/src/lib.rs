@@ -11,7 +11,8 @@ use welkin::{Conditions, PointQuery};
 /// something is wrong. `conditions`: solar elevation, solar azimuth (rad), visibility (m), albedo, altitude (m).
 ///
 /// # Safety
-/// `model` points to `model_length` bytes, `conditions` to five, `direction` to three and `out` to `out_length` numbers.
+/// `model` points to `model_length` bytes, `conditions` to five, `direction` to three and `out` to `out_length`
+/// numbers.
 #[allow(unsafe_code, reason = "callers in C hand over pointers and look for the name")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_radiance(

@@ -63,8 +63,8 @@ impl Quantiles {
     }
 }
 
-/// Errors of `model` at `samples` for all wavelengths. Directions in which the truth is exactly zero must be zero in the model and
-/// do not count.
+/// Errors of `model` at `samples` for all wavelengths. Directions in which the truth is exactly zero must be zero in
+/// the model and do not count.
 pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<Error>> {
     let mut out = vec![];
     let mut row = vec![];

@@ -56,7 +56,8 @@ impl<'a> ColumnIntegrator<'a> {
         sum
     }
 
-    /// Adds the columns between distances `from < to` from the tangent point of a line with squared impact parameter `p2`.
+    /// Adds the columns between distances `from < to` from the tangent point of a line with squared impact parameter
+    /// `p2`.
     fn add(&self, p2: f64, from: f64, to: f64, sum: &mut Columns) {
         let radius = self.atmosphere.planet_radius;
         let nodes = &self.atmosphere.altitudes;

@@ -1,4 +1,5 @@
-//! The successive-orders solver before the reference tracer: traced data against the unbiased Monte Carlo tracer at held-out points.
+//! The successive-orders solver before the reference tracer: traced data against the unbiased Monte Carlo tracer at
+//! held-out points.
 
 use crate::atmosphere::Atmosphere;
 use crate::dataset::Sample;

@@ -104,8 +104,8 @@ fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Fiel
     ]
 }
 
-/// XYZ per unit of relative radiance at each wavelength node: sunlight times colour matching functions times the interpolation weight
-/// of the node, over the range of the model.
+/// XYZ per unit of relative radiance at each wavelength node: sunlight times colour matching functions times the
+/// interpolation weight of the node, over the range of the model.
 fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
     let observer = Table::parse(
         "cie1931_2deg_1nm.csv",
@@ -128,7 +128,8 @@ fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
     Ok(out)
 }
 
-/// The shared factor matrices as splines, every column scaled to a largest magnitude of 1; the scales go into the chunks.
+/// The shared factor matrices as splines, every column scaled to a largest magnitude of 1; the scales go into the
+/// chunks.
 pub struct PackedBasis {
     rank: usize,
     phi: Vec<f32>,

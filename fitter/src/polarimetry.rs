@@ -1,4 +1,5 @@
-//! How far the polarisation of a model is from held-out traced light, and what it would cost to drop the third Stokes component.
+//! How far the polarisation of a model is from held-out traced light, and what it would cost to drop the third Stokes
+//! component.
 
 use crate::assess::Quantiles;
 use crate::dataset::Sample;

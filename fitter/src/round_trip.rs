@@ -171,7 +171,8 @@ mod tests {
     #[test]
     fn components_that_cancel_are_refused() {
         let (mut own, basis) = factors(&grid());
-        // The last two components become equal and opposite up to a part in a thousand, a thousand times as large as the rest.
+        // The last two components become equal and opposite up to a part in a thousand, a thousand times as large as
+        // the rest.
         for row in own.view.chunks_exact_mut(RANK) {
             row[7] = -row[6] * (1.0 + 1e-3 * row[5]);
         }
@@ -205,7 +206,8 @@ mod tests {
         outcome(&own, &basis, 0.01).unwrap();
     }
 
-    /// A factor that falls to the subnormals of half precision, as on the night side: what is lost there is not seen in the sum.
+    /// A factor that falls to the subnormals of half precision, as on the night side: what is lost there is not seen in
+    /// the sum.
     #[test]
     fn subnormals_pass_as_long_as_others_outweigh_them() {
         let (mut own, basis) = factors(&grid());

@@ -185,8 +185,8 @@ impl Classes {
 }
 
 /// The air and the sun's disc of the embedded model against exact columns: observers at 0 to 15 km, suns from the
-/// geometric horizon, which is below the horizontal for all but the lowest, to the zenith. Transmittances below 1e-9 do not
-/// count. Run with --nocapture for the table.
+/// geometric horizon, which is below the horizontal for all but the lowest, to the zenith. Transmittances below 1e-9 do
+/// not count. Run with --nocapture for the table.
 #[test]
 fn the_way_to_the_sun_agrees_with_exact_columns() {
     let model = Model::default_model().unwrap();

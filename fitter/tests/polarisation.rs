@@ -105,8 +105,8 @@ fn a_small_model_follows_the_traced_polarisation() {
     }
 }
 
-/// Signed degree of polarisation in the vertical plane of the sun at an angle (degrees) from it, upwards over the zenith: of the
-/// model and as traced.
+/// Signed degree of polarisation in the vertical plane of the sun at an angle (degrees) from it, upwards over the
+/// zenith: of the model and as traced.
 struct Plane {
     sky: PolarisedSky,
     visibility: f64,

@@ -1,7 +1,8 @@
 //! Helmholtz reciprocity: swapping the sun and the observer leaves the reflection function of a slab unchanged.
 //!
-//! For light scattered back by a plane-parallel slab, I(view zenith v, sun zenith s) / cos s = I(s, v) / cos v. The walks of the two
-//! sides have nothing in common, so that an error in phase functions, path lengths or densities breaks it.
+//! For light scattered back by a plane-parallel slab, I(view zenith v, sun zenith s) / cos s = I(s, v) / cos v. The
+//! walks of the two sides have nothing in common, so that an error in phase functions, path lengths or densities breaks
+//! it.
 
 use welkin_fitter::atmosphere::{Atmosphere, Constituent, Phase, Scatterer};
 use welkin_fitter::tracer::{Options, Query, Radiance, Tracer, VisibleGround};

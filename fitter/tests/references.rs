@@ -1,10 +1,10 @@
-//! The tracer against outside references: the part of `welkin-fit validate` that fits into a minute on one core, and proof that
-//! this check can fail.
+//! The tracer against outside references: the part of `welkin-fit validate` that fits into a minute on one core, and
+//! proof that this check can fail.
 //!
-//! The walks depend on the seed alone, so that every run and every machine judges the same sample (but for a walk in which a last
-//! bit decides). The limits are those of the references; samples as small as these lean low, as few walks find most of the light,
-//! and break one of the limits for two seeds in five. A change that draws other walks may need another seed; whether it broke
-//! something, `welkin-fit validate` tells.
+//! The walks depend on the seed alone, so that every run and every machine judges the same sample (but for a walk in
+//! which a last bit decides). The limits are those of the references; samples as small as these lean low, as few walks
+//! find most of the light, and break one of the limits for two seeds in five. A change that draws other walks may need
+//! another seed; whether it broke something, `welkin-fit validate` tells.
 
 use std::path::{Path, PathBuf};
 use welkin_fitter::atmosphere::Phase;
@@ -75,8 +75,8 @@ fn slabs() {
     assert!(report(&henyey));
 }
 
-/// A high sun without, and a middle sun with aerosol. The right answer passes; a Q of the wrong sign does not, nor does the
-/// answer for another phase function.
+/// A high sun without, and a middle sun with aerosol. The right answer passes; a Q of the wrong sign does not, nor does
+/// the answer for another phase function.
 #[test]
 fn skies_pass_and_errors_are_caught() {
     for id in ["O1", "O2"] {

@@ -1,6 +1,7 @@
 //! The noise-free successive-orders solver against the unbiased tracer, and the embedded model against both.
 //!
-//! The solver runs at a resolution that fits a test; `welkin-fit cross-check` and `welkin-fit assess` do the same at production resolution.
+//! The solver runs at a resolution that fits a test; `welkin-fit cross-check` and `welkin-fit assess` do the same at
+//! production resolution.
 
 use std::sync::OnceLock;
 use welkin::{Conditions, Model};
@@ -129,8 +130,8 @@ fn no_solar_elevation_stands_out() {
     }
 }
 
-/// The successive-orders solver before an outside code: I, Q and U of reference case O2 (Rayleigh, ozone and three aerosols, sun at 20°).
-/// `welkin-fit validate --successive-orders` runs all cases at production resolution.
+/// The successive-orders solver before an outside code: I, Q and U of reference case O2 (Rayleigh, ozone and three
+/// aerosols, sun at 20°). `welkin-fit validate --successive-orders` runs all cases at production resolution.
 #[test]
 fn outside_references_confirm_the_data_maker() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/sky_O2.json");

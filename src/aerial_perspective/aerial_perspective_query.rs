@@ -1,5 +1,5 @@
-//! In-scattered light where every segment has its own conditions: of the tables of a [`AerialPerspective`] only the nodes that a segment needs
-//! are computed, by the same rules.
+//! In-scattered light where every segment has its own conditions: of the tables of a [`AerialPerspective`] only the
+//! nodes that a segment needs are computed, by the same rules.
 
 use std::sync::Arc;
 
@@ -18,9 +18,10 @@ use crate::transmittance::{Extinction, Segment};
 
 /// Transmittance and in-scattered light of segments that share no conditions, like the rows of a table.
 ///
-/// It answers as the [`AerialPerspective`] of the conditions does, but for rounding, and takes some tens of microseconds for a segment with new
-/// conditions where preparing an aerial perspective takes milliseconds; segments that follow each other under the same sun, visibility and albedo
-/// share what they need. Holds the source of all visibilities; clones, one per thread, share that.
+/// It answers as the [`AerialPerspective`] of the conditions does, but for rounding, and takes some tens of
+/// microseconds for a segment with new conditions where preparing an aerial perspective takes milliseconds; segments
+/// that follow each other under the same sun, visibility and albedo share what they need. Holds the source of all
+/// visibilities; clones, one per thread, share that.
 ///
 /// Where the conditions change, a few small tables are allocated. `Send + Sync`.
 ///
@@ -57,7 +58,8 @@ pub struct AerialPerspectiveQuery<'a> {
 }
 
 impl Model {
-    /// Prepares in-scattering for segments that share no conditions. Reads and verifies the sources of all visibilities.
+    /// Prepares in-scattering for segments that share no conditions. Reads and verifies the sources of all
+    /// visibilities.
     ///
     /// # Errors
     /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged.

@@ -24,7 +24,8 @@ pub(crate) type Components = [Lanes<WIDE>; MOST_VECTORS];
 pub(crate) struct Sightline {
     /// How near it comes to the planet's centre, m.
     pub nearest: f64,
-    /// The sun's direction along the line, across it in the vertical plane (away from the centre), and to the right of that.
+    /// The sun's direction along the line, across it in the vertical plane (away from the centre), and to the right of
+    /// that.
     sun: [f32; 3],
 }
 
@@ -57,7 +58,8 @@ impl Sightline {
     #[inline(always)]
     pub fn local(&self, view: f32, slope: f32) -> Local {
         let [along, across, right] = self.sun;
-        // The sun's horizontal direction from its components: zenith angles of next to nothing have no digits in their cosine.
+        // The sun's horizontal direction from its components: zenith angles of next to nothing have no digits in their
+        // cosine.
         let ahead = slope * along - view * across;
         let gain = azimuthal_per_sine((ahead * ahead + right * right).sqrt());
         Local {

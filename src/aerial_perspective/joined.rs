@@ -1,7 +1,8 @@
 //! Segments that end in the observer's sky.
 //!
-//! The source of a segment and the sky are two fits of the same light. The sky's is the better one, and what is farther than the air
-//! should vanish in it without a seam: so where hardly any light can come from beyond a segment, the sky takes over.
+//! The source of a segment and the sky are two fits of the same light. The sky's is the better one, and what is farther
+//! than the air should vanish in it without a seam: so where hardly any light can come from beyond a segment, the sky
+//! takes over.
 
 use super::AerialPerspective;
 use super::local_scattering::UNPOLARISED;
@@ -20,11 +21,13 @@ const REST: f32 = 0.04;
 
 /// The air between an observer and things before the observer's sky; see [`AerialPerspective::joined_to`].
 ///
-/// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that of
+/// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that
+/// of
 /// [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air, be it before the sky or
-/// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond; shorter segments,
-/// and those that end on ground that is seen, are those of the aerial perspective. Points that the planet hides are not seen: from there on the way
-/// into the ground the light goes over into that of the air before it, which a volume of such points does not want.
+/// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond;
+/// shorter segments, and those that end on ground that is seen, are those of the aerial perspective. Points that the
+/// planet hides are not seen: from there on the way into the ground the light goes over into that of the air before it,
+/// which a volume of such points does not want.
 ///
 /// ```
 /// use welkin::{Conditions, Model};

@@ -4,7 +4,8 @@ use super::AerialPerspective;
 use crate::error::Result;
 use crate::polarisation::{PolarisationFrame, PolarisedSky, Stokes, StokesSpectra};
 
-/// As [`JoinedAerialPerspective`](super::JoinedAerialPerspective), with Stokes vectors; see [`AerialPerspective::joined_to_polarised`].
+/// As [`JoinedAerialPerspective`](super::JoinedAerialPerspective), with Stokes vectors; see
+/// [`AerialPerspective::joined_to_polarised`].
 ///
 /// ```
 /// use welkin::{Conditions, Model, PolarisationFrame};

@@ -86,7 +86,8 @@ const SHARES: [f32; KINDS] = [0.7, 0.1, 0.2];
 /// As much of each kind, in all of a segment, as gets its full share: little light is all there is in deep twilight.
 const NOTICED: [f32; KINDS] = [1e-4, 0.01, 0.01];
 
-/// What has been seen of a segment up to some distances: its start and the ends of its pieces; after the last, the last once more.
+/// What has been seen of a segment up to some distances: its start and the ends of its pieces; after the last, the last
+/// once more.
 pub(crate) struct CumulativeLight {
     len: usize,
     /// From the tangent point, m.

@@ -69,7 +69,8 @@ impl Air {
         out
     }
 
-    /// `single` is what Q and U of scattering once are per dipole; `diffuse` the source of molecules, of particles and of Q and U.
+    /// `single` is what Q and U of scattering once are per dipole; `diffuse` the source of molecules, of particles and
+    /// of Q and U.
     #[inline(always)]
     pub fn scatter<const M: usize>(
         &self,

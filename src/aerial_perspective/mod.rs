@@ -1,4 +1,5 @@
-//! Aerial perspective: the light that the air between two points scatters towards the first. Format specification, section 7.7.
+//! Aerial perspective: the light that the air between two points scatters towards the first. Format specification,
+//! section 7.7.
 
 mod aerial_perspective_query;
 mod angular_basis;
@@ -46,19 +47,20 @@ use xyz_sum::XyzSum;
 
 /// Transmittance and in-scattered light of finite segments: aerial perspective.
 ///
-/// Points are in metres in the frame of [`Transmittance`]: the origin on the ground, +z up there. The conditions hold at the
-/// origin; the sun is so far away that its direction is the same everywhere, while its elevation above the local horizon is not.
-/// The altitude of the conditions plays no part: one aerial perspective serves all observers. Nothing blocks a segment. Points on the ground or under
-/// it, at any depth, are points like others: the air goes on down there, and its light, as they are at the ground. A ray to its end
-/// ([`AerialPerspective::to_end`]) that goes down from there ends at once.
+/// Points are in metres in the frame of [`Transmittance`]: the origin on the ground, +z up there. The conditions hold
+/// at the origin; the sun is so far away that its direction is the same everywhere, while its elevation above the local
+/// horizon is not. The altitude of the conditions plays no part: one aerial perspective serves all observers. Nothing
+/// blocks a segment. Points on the ground or under it, at any depth, are points like others: the air goes on down
+/// there, and its light, as they are at the ground. A ray to its end ([`AerialPerspective::to_end`]) that goes down
+/// from there ends at once.
 ///
-/// It holds for air up to [`AerialPerspective::reach`] from the origin; segments of which air lies farther are refused. Within that the sun may locally
-/// stand lower than in any conditions: light goes on to fall there, but long segments through the edge of the planet's shadow err by
-/// 10 % (median) up to 40 % at the zenith, by more towards the sun.
+/// It holds for air up to [`AerialPerspective::reach`] from the origin; segments of which air lies farther are refused.
+/// Within that the sun may locally stand lower than in any conditions: light goes on to fall there, but long segments
+/// through the edge of the planet's shadow err by 10 % (median) up to 40 % at the zenith, by more towards the sun.
 ///
-/// The light is integrated along the segment: sunlight scattered once, with the sun's disc setting behind the planet, and a stored
-/// source function of all other light. So it is never negative, vanishes with the length of the segment, adds up along
-/// a ray, and stays what it is beyond the atmosphere.
+/// The light is integrated along the segment: sunlight scattered once, with the sun's disc setting behind the planet,
+/// and a stored source function of all other light. So it is never negative, vanishes with the length of the segment,
+/// adds up along a ray, and stays what it is beyond the atmosphere.
 ///
 /// After [`Model::aerial_perspective`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
 ///
@@ -97,7 +99,8 @@ impl Model {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for conditions outside the model; [`Error::MissingChunk`] if the file has no transmittance
-    /// or no source; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if one is damaged.
+    /// or no source; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if one is
+    /// damaged.
     pub fn aerial_perspective(&self, conditions: &Conditions) -> Result<AerialPerspective> {
         let conditions = conditions.checked(self)?;
         let head = self.head();
@@ -152,8 +155,8 @@ impl AerialPerspective {
         self.sun
     }
 
-    /// Memory that the aerial perspective holds on the heap, bytes: mostly the source, 16 × altitudes × suns × blocks of four wavelengths ×
-    /// components.
+    /// Memory that the aerial perspective holds on the heap, bytes: mostly the source, 16 × altitudes × suns × blocks
+    /// of four wavelengths × components.
     pub fn bytes(&self) -> usize {
         let own = size_of_val(self.irradiance.as_slice()) + size_of_val(self.xyz.as_slice());
         self.air.bytes() + self.beam.bytes() + self.source.bytes() + self.species.bytes() + own
@@ -178,8 +181,8 @@ impl AerialPerspective {
         Ok(())
     }
 
-    /// Light that the air between `from` and `to` scatters to `from` (W m⁻² sr⁻¹ nm⁻¹), and the transmittance between them, at
-    /// each of [`AerialPerspective::wavelengths`].
+    /// Light that the air between `from` and `to` scatters to `from` (W m⁻² sr⁻¹ nm⁻¹), and the transmittance between
+    /// them, at each of [`AerialPerspective::wavelengths`].
     ///
     /// # Errors
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`AerialPerspective::reach`];
@@ -197,8 +200,9 @@ impl AerialPerspective {
         Ok(())
     }
 
-    /// As [`AerialPerspective::in_scattering`], from a point in a direction (need not be normalised) through all of the air, up to the ground where
-    /// that is in the way. From a point on the ground or under it, rays that go down end at once: no light, transmittance 1.
+    /// As [`AerialPerspective::in_scattering`], from a point in a direction (need not be normalised) through all of the
+    /// air, up to the ground where that is in the way. From a point on the ground or under it, rays that go down end at
+    /// once: no light, transmittance 1.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`] for a vector that is zero or not finite.
@@ -254,8 +258,8 @@ impl AerialPerspective {
         Ok(colours.finish(&self.white))
     }
 
-    /// In-scattered light in linear sRGB (cd m⁻², not clipped), and the factors by which the air changes red, green and blue
-    /// of white things in the colour of the sun.
+    /// In-scattered light in linear sRGB (cd m⁻², not clipped), and the factors by which the air changes red, green and
+    /// blue of white things in the colour of the sun.
     ///
     /// # Errors
     /// As [`AerialPerspective::xyz`].

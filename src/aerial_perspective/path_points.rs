@@ -32,7 +32,8 @@ impl Default for PathPoints {
 }
 
 impl PathPoints {
-    /// At these distances from the tangent point (m), which is `nearest` to the planet's centre; `sun` is the unit vector towards it.
+    /// At these distances from the tangent point (m), which is `nearest` to the planet's centre; `sun` is the unit
+    /// vector towards it.
     #[inline(always)]
     pub fn new(
         planet: &Planet,

@@ -1,8 +1,8 @@
 //! Where along a segment light is evaluated.
 //!
-//! The variable of integration is what can be seen of the segment: 1 − T at a typical wavelength, weighted by the light that
-//! is roughly there. Panels hold equal shares of it. Their columns are exact; sunlight is known at their ends, and the diffuse source
-//! at a few stations.
+//! The variable of integration is what can be seen of the segment: 1 − T at a typical wavelength, weighted by the light
+//! that is roughly there. Panels hold equal shares of it. Their columns are exact; sunlight is known at their ends, and
+//! the diffuse source at a few stations.
 
 use super::light_estimate::{CumulativeLight, SunEstimate};
 use super::quadrature_limits::{MOST_PANELS, MOST_PATH_POINTS};

@@ -63,9 +63,10 @@ impl Reach {
 }
 
 impl AerialPerspective {
-    /// How far the air of segments may be from the origin, as an angle at the planet's centre, rad: twice that of the horizon as seen from
-    /// the top of the air, so all that is seen from within the air above the origin; 0.35 rad (20°, 2200 km) for the Earth. Beyond, segments
-    /// are refused: prepare an aerial perspective nearer to them, see [`Place`](crate::Place). Transmittances ([`AerialPerspective::transmittance`]) hold everywhere.
+    /// How far the air of segments may be from the origin, as an angle at the planet's centre, rad: twice that of the
+    /// horizon as seen from the top of the air, so all that is seen from within the air above the origin; 0.35 rad
+    /// (20°, 2200 km) for the Earth. Beyond, segments are refused: prepare an aerial perspective nearer to them, see
+    /// [`Place`](crate::Place). Transmittances ([`AerialPerspective::transmittance`]) hold everywhere.
     pub fn reach(&self) -> f64 {
         self.reach.angle
     }

@@ -136,7 +136,8 @@ impl Scatterers {
         }
     }
 
-    /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths; `None` where there are none.
+    /// Scattering coefficients of molecules and of particles in constituent `k`, a block of wavelengths; `None` where
+    /// there are none.
     #[inline(always)]
     pub fn totals(&self, k: usize, block: usize) -> [Option<&[f32; LANES]>; 2] {
         let row = k * self.blocks + block;

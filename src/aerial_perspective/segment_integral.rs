@@ -1,8 +1,8 @@
 //! The integral along a segment. Format specification, section 7.7.
 //!
-//! In a panel the optical depths towards the observer and towards the sun are taken to grow linearly with what is seen, so that the
-//! sunlight scattered there is a closed integral at each wavelength: exact for an exponential atmosphere. The diffuse source is
-//! taken to be constant. Whatever happens, a panel sends no less than nothing.
+//! In a panel the optical depths towards the observer and towards the sun are taken to grow linearly with what is seen,
+//! so that the sunlight scattered there is a closed integral at each wavelength: exact for an exponential atmosphere.
+//! The diffuse source is taken to be constant. Whatever happens, a panel sends no less than nothing.
 
 use super::AerialPerspective;
 use super::angular_basis::{Components, MOST_VECTORS, Sightline};
@@ -32,8 +32,8 @@ pub(crate) struct Block {
     /// Q and U of that light in the vertical frame of the segment; zero unless they are asked for.
     pub linear: [[f32; LANES]; 2],
     pub depth: [f32; LANES],
-    /// Light that the air beyond the segment would send to its start if nothing stood between that air and the sun, and no ground in
-    /// the way; zero unless it is asked for.
+    /// Light that the air beyond the segment would send to its start if nothing stood between that air and the sun, and
+    /// no ground in the way; zero unless it is asked for.
     pub beyond: [f32; LANES],
 }
 

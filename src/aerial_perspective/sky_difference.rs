@@ -10,12 +10,13 @@ use crate::point_query::{Interpolation, PointQuery};
 use crate::sky::MOST_WAVELENGTHS;
 use crate::transmittance::Transmittance;
 
-/// In-scattered light of segments as Wilkie et al. 2021 compute it (Eq. 2): the sky that is seen from the start of a segment less
-/// the sky that is seen from its end, attenuated by the way between. For comparison with [`AerialPerspective`], whose frame and
-/// conditions it has: where both terms are nearly the same (short segments, horizon) what is left is mostly their errors.
+/// In-scattered light of segments as Wilkie et al. 2021 compute it (Eq. 2): the sky that is seen from the start of a
+/// segment less the sky that is seen from its end, attenuated by the way between. For comparison with
+/// [`AerialPerspective`], whose frame and conditions it has: where both terms are nearly the same (short segments,
+/// horizon) what is left is mostly their errors.
 ///
-/// Values are radiances per unit of solar irradiance at the wavelengths of the model, sr⁻¹, and can be negative. Nothing is allocated.
-/// `Send + Sync`.
+/// Values are radiances per unit of solar irradiance at the wavelengths of the model, sr⁻¹, and can be negative.
+/// Nothing is allocated. `Send + Sync`.
 ///
 /// ```
 /// # #[cfg(feature = "default-model")]
@@ -53,7 +54,8 @@ const TILTS: i32 = 3;
 const BLUR_TILT: f64 = 0.004_363;
 
 impl Model {
-    /// Prepares Eq. 2 of Wilkie et al. 2021 for a scene, with the same conditions and frame as [`Model::aerial_perspective`].
+    /// Prepares Eq. 2 of Wilkie et al. 2021 for a scene, with the same conditions and frame as
+    /// [`Model::aerial_perspective`].
     ///
     /// # Errors
     /// As [`Model::transmittance`], [`Model::plan`] and [`Model::point_query`]; [`Error::OutOfRange`].
@@ -96,8 +98,8 @@ impl SkyDifference<'_> {
         Ok(())
     }
 
-    /// The same as the paper's renderer shows it: up to 300 m, within 3° of the horizon, the mean of seven directions within ±0.25° of
-    /// elevation, each not below zero.
+    /// The same as the paper's renderer shows it: up to 300 m, within 3° of the horizon, the mean of seven directions
+    /// within ±0.25° of elevation, each not below zero.
     ///
     /// # Errors
     /// As [`SkyDifference::in_scattering`].

@@ -1,7 +1,8 @@
-//! The source at single nodes of its table: what queries need that share no conditions. Format specification, section 7.7.
+//! The source at single nodes of its table: what queries need that share no conditions. Format specification, section
+//! 7.7.
 //!
-//! The table of a scene contracts the core of each visibility at every sun and every altitude. Here the core is contracted once at
-//! the sun nodes of the file, so that a node of a table is a short sum, whatever the conditions are.
+//! The table of a scene contracts the core of each visibility at every sun and every altitude. Here the core is
+//! contracted once at the sun nodes of the file, so that a node of a table is a short sum, whatever the conditions are.
 
 use std::sync::OnceLock;
 
@@ -29,8 +30,8 @@ pub(super) struct Expansion<'a> {
     altitude: Vec<f32>,
     /// Factors of the channels, `[component][block]`.
     channel: [Vec<Quad>; SOURCE_FIELDS],
-    /// Cores at the sun nodes of the file, `[visibility][sun]` of `[altitude component][moment][channel]`; computed when they are
-    /// first needed.
+    /// Cores at the sun nodes of the file, `[visibility][sun]` of `[altitude component][moment][channel]`; computed
+    /// when they are first needed.
     rows: Vec<OnceLock<Box<[f32]>>>,
 }
 
@@ -161,7 +162,8 @@ impl Fill<'_, '_> {
         }
     }
 
-    /// What both fields make of the channels at the sun, in terms of the sky's level and times the share of the visibility; adds to the level.
+    /// What both fields make of the channels at the sun, in terms of the sky's level and times the share of the
+    /// visibility; adds to the level.
     #[inline(always)]
     fn light(&mut self, v: usize, taps: &Stencil, share: f64, level: &mut [f64]) {
         let expansion = self.expansion;

@@ -33,7 +33,8 @@ pub(crate) struct SourceTable {
     blocks: usize,
     /// Pairs of components.
     pairs: usize,
-    /// `[altitude][sun][block of wavelengths][pair of components]`, over the level: four wavelengths of the one, then of the other.
+    /// `[altitude][sun][block of wavelengths][pair of components]`, over the level: four wavelengths of the one, then
+    /// of the other.
     values: Vec<Lanes<8>>,
     /// Logarithm of the level, `[sun][block]`.
     level: Vec<[f32; LANES]>,
@@ -144,8 +145,8 @@ impl SourceTable {
         }
     }
 
-    /// What molecules and what particles scatter towards the observer, per unit of scattering coefficient, m⁻¹ sr⁻¹; then Q and U
-    /// of the former.
+    /// What molecules and what particles scatter towards the observer, per unit of scattering coefficient, m⁻¹ sr⁻¹;
+    /// then Q and U of the former.
     #[inline(always)]
     pub fn scattered<const M: usize>(
         &self,
@@ -214,8 +215,8 @@ pub(super) fn refine(basis: &SourceBasisView) -> Vec<f64> {
     out
 }
 
-/// How far from the origin the source holds, as an angle at the planet's centre, rad: to all air that can be seen from air above the
-/// origin.
+/// How far from the origin the source holds, as an angle at the planet's centre, rad: to all air that can be seen from
+/// air above the origin.
 pub(crate) fn reach(planet: &Planet) -> f64 {
     (2.0 * planet.dip(planet.top)).clamp(NEAR, FAR)
 }
@@ -351,7 +352,8 @@ impl Weights {
     }
 }
 
-/// `[row][component][wavelength]` as `[row][block][pair of components][component of the pair][wavelength of the block]`.
+/// `[row][component][wavelength]` as `[row][block][pair of components][component of the pair][wavelength of the
+/// block]`.
 fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<Lanes<8>> {
     let mut out = Vec::with_capacity(values.len().div_ceil(2 * nw * rank) * nw);
     for row in values.chunks_exact(nw * rank) {

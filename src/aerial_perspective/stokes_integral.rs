@@ -1,7 +1,7 @@
 //! Stokes vectors of in-scattered light. Format specification, sections 7.5 and 7.7.
 //!
-//! All points of a straight segment share its vertical plane, and with it the axes of polarisation: Q and U add up along it. Molecules
-//! polarise sunlight and, by the coherency tensor of the source, all other light; particles do not.
+//! All points of a straight segment share its vertical plane, and with it the axes of polarisation: Q and U add up
+//! along it. Molecules polarise sunlight and, by the coherency tensor of the source, all other light; particles do not.
 
 use super::AerialPerspective;
 use super::joined::sky_weights;
@@ -18,11 +18,13 @@ use crate::sky::xyz_to_linear_srgb;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 
 impl AerialPerspective {
-    /// Stokes vectors of the light that the air between `from` and `to` scatters to `from`, and the transmittance between them, at
-    /// each of [`AerialPerspective::wavelengths`]; the frame is that of the view from `from` to `to`. Q² + U² ≤ I².
+    /// Stokes vectors of the light that the air between `from` and `to` scatters to `from`, and the transmittance
+    /// between them, at each of [`AerialPerspective::wavelengths`]; the frame is that of the view from `from` to `to`.
+    /// Q² + U² ≤ I².
     ///
     /// # Errors
-    /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`](crate::Error::Direction) for an axis that is zero or not finite.
+    /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`](crate::Error::Direction) for an axis that is zero
+    /// or not finite.
     pub fn in_scattering_stokes(
         &self,
         from: [f64; 3],
@@ -81,7 +83,8 @@ impl AerialPerspective {
     /// [`AerialPerspective::in_scattering_stokes`] at any wavelength (nm) within the range of the model, per unit of solar spectral irradiance, sr⁻¹.
     ///
     /// # Errors
-    /// As [`AerialPerspective::in_scattering_stokes`]; [`Error::OutOfRange`](crate::Error::OutOfRange) for the wavelength.
+    /// As [`AerialPerspective::in_scattering_stokes`]; [`Error::OutOfRange`](crate::Error::OutOfRange) for the
+    /// wavelength.
     pub fn relative_stokes_at(
         &self,
         from: [f64; 3],
@@ -104,7 +107,8 @@ impl AerialPerspective {
         Ok(between(nodes, &lights[..nodes.len()], wavelength, total))
     }
 
-    /// As [`AerialPerspective::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the aerial perspective is
+    /// As [`AerialPerspective::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the aerial
+    /// perspective is
     /// [`Stokes::through_polariser`].
     ///
     /// # Errors
@@ -178,8 +182,8 @@ impl AerialPerspective {
         Ok((core::array::from_fn(stokes), self.srgb_factors(through)))
     }
 
-    /// Hands blocks of light per unit of solar irradiance, of Q and U over it in the frame of the caller, and of transmittance to
-    /// `emit`; before a sky if there is one.
+    /// Hands blocks of light per unit of solar irradiance, of Q and U over it in the frame of the caller, and of
+    /// transmittance to `emit`; before a sky if there is one.
     fn stokes(
         &self,
         sky: Option<&PolarisedSky>,

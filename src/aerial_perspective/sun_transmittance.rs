@@ -80,8 +80,9 @@ impl Beam {
         size_of_val(self.columns.as_slice())
     }
 
-    /// How many radii the sun's centre stands above the geometric horizon of each place; for the first `pairs` pairs of places, the
-    /// columns towards the centroid of the visible share of the disc, m; towards the horizon where none is visible.
+    /// How many radii the sun's centre stands above the geometric horizon of each place; for the first `pairs` pairs of
+    /// places, the columns towards the centroid of the visible share of the disc, m; towards the horizon where none is
+    /// visible.
     #[inline(always)]
     pub fn at(
         &self,
@@ -157,7 +158,8 @@ impl Beam {
     }
 }
 
-/// Dip of the horizon (rad), height of the sun's centre above it (radii), and that of the visible share of the disc (rad).
+/// Dip of the horizon (rad), height of the sun's centre above it (radii), and that of the visible share of the disc
+/// (rad).
 #[inline(always)]
 fn heights(planet: &Planet, places: &PathPoints) -> [Heights; 3] {
     let dip = dips(planet, places.altitude.max(Heights::splat(0.0)));

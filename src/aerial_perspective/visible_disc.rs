@@ -38,7 +38,8 @@ fn accumulated_share(x: f32) -> f32 {
     0.5 * x + (root - root * root * root * (1.0 / 3.0) + x * asin(x)) * FRAC_1_PI
 }
 
-/// Mean shares of the disc that are seen from the air between two places each, over which its density falls by e to these powers.
+/// Mean shares of the disc that are seen from the air between two places each, over which its density falls by e to
+/// these powers.
 #[inline(always)]
 pub(crate) fn mean_shares(a: Lanes<BATCH>, b: Lanes<BATCH>, falls: Lanes<BATCH>) -> Lanes<BATCH> {
     let mut out = Lanes::splat(1.0);

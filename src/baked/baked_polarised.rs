@@ -13,8 +13,8 @@ use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
 
 /// A [`BakedSky`] with its polarisation: as fast a way to all Stokes vectors of a direction.
 ///
-/// Single queries, batches, wide and narrow vectors give the same bits, and the radiance is that of [`BakedPolarisedSky::sky`].
-/// Q² + U² ≤ I². Nothing allocates. `Send + Sync`.
+/// Single queries, batches, wide and narrow vectors give the same bits, and the radiance is that of
+/// [`BakedPolarisedSky::sky`]. Q² + U² ≤ I². Nothing allocates. `Send + Sync`.
 ///
 /// ```
 /// use welkin::{BakedSky, Conditions, Model, PolarisationFrame, StokesSpectra};
@@ -68,8 +68,8 @@ impl BakedPolarisedSky {
         self.sky.set_solar_azimuth(azimuth)
     }
 
-    /// What baking added to the error of (Q, U) over I, as a distance: directions as in [`BakedSky::bake_error`], which is that
-    /// of I.
+    /// What baking added to the error of (Q, U) over I, as a distance: directions as in [`BakedSky::bake_error`], which
+    /// is that of I.
     pub fn polarisation_error(&self) -> BakeError {
         self.error
     }
@@ -145,7 +145,8 @@ impl Sink<LANES> for Rows<'_> {
             }
         }
         for block in 0..degrees.blocks {
-            // All directions up to here before any is turned: otherwise the compiler makes half vectors of the sums, too.
+            // All directions up to here before any is turned: otherwise the compiler makes half vectors of the sums,
+            // too.
             let mut values = [Lanes::splat(0.0); W];
             for (i, values) in values[..count].iter_mut().enumerate() {
                 *values = degrees.at(group.spots, i, block);

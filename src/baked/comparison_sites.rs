@@ -1,5 +1,5 @@
-//! Where baked skies are compared with those they were made from: at places that keep to the horizon and the sun, so that what is
-//! measured is as continuous in the conditions as the sky.
+//! Where baked skies are compared with those they were made from: at places that keep to the horizon and the sun, so
+//! that what is measured is as continuous in the conditions as the sky.
 
 use core::f64::consts::TAU;
 
@@ -17,7 +17,8 @@ const ROWS: [u32; 2] = [41, 21];
 /// A row at the very horizon, 0.0005° from it.
 const LOWEST: f64 = 0.006;
 
-/// Rows where layers of the air are seen, between 0.2° and 4° above the horizon: under a low sun errors peak there at its azimuth.
+/// Rows where layers of the air are seen, between 0.2° and 4° above the horizon: under a low sun errors peak there at
+/// its azimuth.
 const LAYERS: [f64; 10] = [
     0.13, 0.155, 0.18, 0.205, 0.23, 0.255, 0.28, 0.31, 0.34, 0.38,
 ];

@@ -51,8 +51,8 @@ pub(crate) fn share(height: f64) -> f64 {
     1.0 - near_pole * near_pole
 }
 
-/// How rows are drawn together towards the horizon, above and below it. Measured: with the same number of rows the 99.9th
-/// percentile of errors is a third of what it is with the height alone, and the 95th two thirds.
+/// How rows are drawn together towards the horizon, above and below it. Measured: with the same number of rows the
+/// 99.9th percentile of errors is a third of what it is with the height alone, and the 95th two thirds.
 const CROWDING: [f32; 2] = [2.2, 1.1];
 
 /// How far rows stand from the pole.
@@ -189,9 +189,9 @@ impl Frame {
         }
     }
 
-    /// With t the share of the way in z from the horizon to the pole: √(1 − √(1 − t)), and the place among the rows,
-    /// √t over a mixture of √t, √(1 − t) and 1. Near the horizon both go with the root of the angle, near the pole with the angle.
-    /// In the place nothing cancels; in the height it costs 3e-4 at most.
+    /// With t the share of the way in z from the horizon to the pole: √(1 − √(1 − t)), and the place among the rows, √t
+    /// over a mixture of √t, √(1 − t) and 1. Near the horizon both go with the root of the angle, near the pole with
+    /// the angle. In the place nothing cancels; in the height it costs 3e-4 at most.
     #[inline(always)]
     fn height<const N: usize>(&self, z: Lanes<N>, side: Lanes<N>) -> (Lanes<N>, Lanes<N>) {
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));

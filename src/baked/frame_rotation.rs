@@ -1,5 +1,5 @@
-//! From the vertical frame to that of the caller, many directions at once: `polarisation::aspect` in single precision and
-//! without branches.
+//! From the vertical frame to that of the caller, many directions at once: `polarisation::aspect` in single precision
+//! and without branches.
 
 use super::coordinates::Frame as View;
 use crate::error::{Error, Result};

@@ -7,8 +7,8 @@ use crate::error::{Error, Result};
 use crate::geometry::Side;
 
 /// What baking adds to the error of a sky: relative differences of all channels at some 660 directions that are not
-/// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on the ground.
-/// They are dense where errors are large: at the horizon, and beside the sun.
+/// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on
+/// the ground. They are dense where errors are large: at the horizon, and beside the sun.
 ///
 /// ```
 /// use welkin::{BakedSky, Conditions, Model};
@@ -26,15 +26,16 @@ pub struct BakeError {
     pub p95: f64,
     /// 99th percentile.
     pub p99: f64,
-    /// 99.9th percentile: at most [`BakedSky::TAIL`](crate::BakedSky::TAIL) times the tolerance, unless the largest table misses that.
+    /// 99.9th percentile: at most [`BakedSky::TAIL`](crate::BakedSky::TAIL) times the tolerance, unless the largest
+    /// table misses that.
     pub p999: f64,
-    /// Largest of the compared directions: at most [`BakedSky::PEAK`](crate::BakedSky::PEAK) times the tolerance, unless the largest table
-    /// misses that. Between them it can be a few times as large.
+    /// Largest of the compared directions: at most [`BakedSky::PEAK`](crate::BakedSky::PEAK) times the tolerance,
+    /// unless the largest table misses that. Between them it can be a few times as large.
     pub max: f64,
 }
 
-/// Errors of the compared directions, with the parts of the sphere that these stand for. As bits: those of the error, which order
-/// like it, before those of the part, so that sorting takes integers.
+/// Errors of the compared directions, with the parts of the sphere that these stand for. As bits: those of the error,
+/// which order like it, before those of the part, so that sorting takes integers.
 #[derive(Clone, Default)]
 pub(super) struct Errors(Vec<u64>);
 
@@ -109,8 +110,8 @@ fn part(bits: u64) -> f64 {
     f64::from(f32::from_bits(bits as u32))
 }
 
-/// Sizes from small to large, with the 95th percentile of the error that four in five skies keep. Each holds the splines of
-/// those before it.
+/// Sizes from small to large, with the 95th percentile of the error that four in five skies keep. Each holds the
+/// splines of those before it.
 const LEVELS: [(f64, Size); 7] = [
     (2e-2, size(12, 6)),
     (1e-2, size(24, 6)),
@@ -173,9 +174,9 @@ pub(super) trait Refinable<const N: usize> {
     fn errors(&self, surface: &Surface<N>) -> Errors;
 }
 
-/// The smallest surface that keeps the tolerance, and its errors. The tolerance alone says which size is the first; where that or a
-/// larger one is about to miss the tolerance it goes over into the next by and by, so that the surface is continuous in the
-/// conditions.
+/// The smallest surface that keeps the tolerance, and its errors. The tolerance alone says which size is the first;
+/// where that or a larger one is about to miss the tolerance it goes over into the next by and by, so that the surface
+/// is continuous in the conditions.
 pub(super) fn bake<const N: usize>(
     part: &mut impl Refinable<N>,
     side: Side,

@@ -56,7 +56,8 @@ impl GridNodes<'_> {
     }
 }
 
-/// Values at the nodes of one size after the other, `[block][row][column]`; those of the last size are not asked for again.
+/// Values at the nodes of one size after the other, `[block][row][column]`; those of the last size are not asked for
+/// again.
 pub(super) struct Known<const N: usize> {
     size: Size,
     blocks: Vec<Nodes<N>>,

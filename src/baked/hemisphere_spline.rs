@@ -1,5 +1,5 @@
-//! One side of the horizon as bicubic B-splines: every size holds the splines of the smaller ones exactly, so that what lies
-//! between two sizes can be had, too.
+//! One side of the horizon as bicubic B-splines: every size holds the splines of the smaller ones exactly, so that what
+//! lies between two sizes can be had, too.
 
 use super::spline::refined;
 use super::spline_size::Size;
@@ -60,7 +60,8 @@ pub(super) fn grid(up: Size, down: Size) -> Grid {
     }
 }
 
-/// Coefficients of both sides as a table of this or a smaller size has them: `[block][up rows, then down rows][azimuth]`.
+/// Coefficients of both sides as a table of this or a smaller size has them: `[block][up rows, then down
+/// rows][azimuth]`.
 pub(super) fn joined<const N: usize>(
     up: Surface<N>,
     down: Surface<N>,

@@ -1,5 +1,5 @@
-//! Stokes vectors at a few wavelengths that differ from query to query. Format specification, section 7.5: Q/I and U/I are
-//! interpolated as the logarithm of I is.
+//! Stokes vectors at a few wavelengths that differ from query to query. Format specification, section 7.5: Q/I and U/I
+//! are interpolated as the logarithm of I is.
 
 use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
 use super::baked_spectral::LANES;
@@ -15,8 +15,8 @@ use crate::polarisation::{PolarisationFrame, Stokes};
 const BLOCKS: usize = 256usize.div_ceil(polarisation_table::LANES);
 
 impl BakedPolarisedSky {
-    /// Stokes vectors at four wavelengths (nm) within the range of the model, as [`PolarisedSky::stokes_at`]. The radiance is that
-    /// of [`BakedSky::hero`].
+    /// Stokes vectors at four wavelengths (nm) within the range of the model, as [`PolarisedSky::stokes_at`]. The
+    /// radiance is that of [`BakedSky::hero`].
     ///
     /// # Errors
     /// [`Error::Direction`] for a direction or an axis that is zero or not finite, [`Error::OutOfRange`] for a wavelength.
@@ -49,8 +49,8 @@ impl BakedPolarisedSky {
     /// [`BakedPolarisedSky::hero`] for many directions with wavelengths of their own.
     ///
     /// # Errors
-    /// As [`BakedPolarisedSky::hero`]; [`Error::Length`](crate::Error::Length) unless there are as many components, wavelengths and
-    /// results. What precedes a bad direction may or may not be written.
+    /// As [`BakedPolarisedSky::hero`]; [`Error::Length`](crate::Error::Length) unless there are as many components,
+    /// wavelengths and results. What precedes a bad direction may or may not be written.
     pub fn hero_batch(
         &self,
         directions: &Directions,

@@ -1,9 +1,10 @@
 //! Skies as small tables: a query costs little more than reading them.
 //!
-//! `coordinates` turns directions into places in tables, `spline` those into taps, `spline_table` sums. `fill` makes the tables, a
-//! `hemisphere_spline` for each side of the horizon, and `grid_choice` their sizes, by the loops of `refinement`, which compare at
-//! `comparison_sites`; `polarisation_table` and `frame_rotation` add polarisation. `batch` has the one loop over directions, and
-//! `baked_spectral`, `baked_colour`, `baked_polarised` and the two of `hero` are the public faces.
+//! `coordinates` turns directions into places in tables, `spline` those into taps, `spline_table` sums. `fill` makes
+//! the tables, a `hemisphere_spline` for each side of the horizon, and `grid_choice` their sizes, by the loops of
+//! `refinement`, which compare at `comparison_sites`; `polarisation_table` and `frame_rotation` add polarisation.
+//! `batch` has the one loop over directions, and `baked_spectral`, `baked_colour`, `baked_polarised` and the two of
+//! `hero` are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
 mod baked_colour;

@@ -1,7 +1,8 @@
-//! How polarised a baked sky is: bicubic B-splines of Q/I and U/(I sin φ) in the vertical frame, on the grid of the radiance.
+//! How polarised a baked sky is: bicubic B-splines of Q/I and U/(I sin φ) in the vertical frame, on the grid of the
+//! radiance.
 //!
-//! Both are smooth wherever the radiance is: at the neutral points, in the aureole and, as the azimuth is an axis of its
-//! own, at the poles. U over the sine of the azimuth is even in it, as Q is.
+//! Both are smooth wherever the radiance is: at the neutral points, in the aureole and, as the azimuth is an axis of
+//! its own, at the poles. U over the sine of the azimuth is even in it, as Q is.
 
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::Frame as View;
@@ -169,8 +170,8 @@ impl PolarisationTable {
     }
 }
 
-/// Q/I and U/I of a block in the frame of the caller, for direction `i`. Where a spline overshoots, the light can be more than
-/// wholly polarised.
+/// Q/I and U/I of a block in the frame of the caller, for direction `i`. Where a spline overshoots, the light can be
+/// more than wholly polarised.
 #[inline(always)]
 pub(super) fn turned<const W: usize>(
     values: &Lanes<PAIR>,

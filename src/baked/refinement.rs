@@ -1,4 +1,5 @@
-//! Surfaces through the nodes of one side of the horizon, and how far they are off between them: the one loop for all that is baked.
+//! Surfaces through the nodes of one side of the horizon, and how far they are off between them: the one loop for all
+//! that is baked.
 
 use super::comparison_sites::{Site, WIDTH};
 use super::grid_choice::{Errors, Refinable};

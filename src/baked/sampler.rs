@@ -69,8 +69,8 @@ pub struct Sample {
 /// Of the disc only what is above the geometric horizon is drawn, evenly in solid angle, upright with the first number
 /// and across with the second. Draws keep 1.5e-4 of its radius (7e-7 rad) off the limb, and its density reaches as far
 /// beyond, so that directions may be turned to another frame and back in single precision: what falls into the rim is
-/// drawn on the rim's inner edge, which changes the light of the disc by less than 1e-4. Along the horizon rounding can make
-/// draws black, which costs 2e-5 of the light of a whole disc.
+/// drawn on the rim's inner edge, which changes the light of the disc by less than 1e-4. Along the horizon rounding can
+/// make draws black, which costs 2e-5 of the light of a whole disc.
 ///
 /// ```
 /// use welkin::{BakedSky, Conditions, Model};

@@ -11,8 +11,8 @@ use super::source_function::{SourceBasisView, SourceView};
 use super::views::{BasisView, ColumnView, FactorsView};
 use crate::error::{Error, Result};
 
-/// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are: their checksums, too, may
-/// be anything.
+/// Verifies the checksum of chunk `i` and undoes its encoding. Chunks of unknown kinds stay as they are: their
+/// checksums, too, may be anything.
 ///
 /// Allocates at most `raw_length` bytes, which was compared with what rank and counts give.
 pub(crate) fn decode<'a>(i: usize, entry: &Entry, stored: &'a [u8]) -> Result<Cow<'a, [u8]>> {
@@ -84,7 +84,8 @@ fn decompress(i: usize, stored: &[u8], raw_length: usize) -> Result<Vec<u8>> {
     Err(broken("has another length than raw_length"))
 }
 
-/// Whether the bytes start a frame of RFC 8878, not a skippable or older one, whose window is not wider than the specification allows.
+/// Whether the bytes start a frame of RFC 8878, not a skippable or older one, whose window is not wider than the
+/// specification allows.
 #[cfg(feature = "zstd")]
 fn is_plain(stored: &[u8]) -> bool {
     /// Window_Descriptor of 2^27 bytes: smaller ones are smaller numbers.

@@ -3,8 +3,8 @@
 use core::fmt::Write;
 
 /// The text with everything escaped that moves the cursor, turns the direction of writing or is not seen: control
-/// characters, bidirectional controls, line and paragraph separators, characters without width, tags. As `\u{202e}`, and
-/// backslashes stay as they are.
+/// characters, bidirectional controls, line and paragraph separators, characters without width, tags. As `\u{202e}`,
+/// and backslashes stay as they are.
 pub fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

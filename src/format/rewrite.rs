@@ -40,8 +40,8 @@ pub fn recode(file: &[u8], encoding: u32) -> Result<Vec<u8>> {
 /// The same file with `chunks` added, in place of chunks of the same kind and nodes. All others are kept as they are.
 ///
 /// # Errors
-/// As [`parse`] for `file`, as [`encode`](super::encode()) for `chunks`; [`Error::Invalid`] if sources, old and new, fit neither their
-/// basis nor each other.
+/// As [`parse`] for `file`, as [`encode`](super::encode()) for `chunks`; [`Error::Invalid`] if sources, old and new,
+/// fit neither their basis nor each other.
 pub fn extend(file: &[u8], chunks: &[Chunk]) -> Result<Vec<u8>> {
     let contents = parse(file)?;
     let (header, arrays, raw_entries) = parts(file, &contents)?;

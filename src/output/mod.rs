@@ -1,16 +1,17 @@
 //! Writes files whole or not at all.
 //!
-//! What a regular file, or nothing, is at gets replaced in one step: the bytes go to a temporary file in the same folder, which is
-//! renamed when they are on disk. Symbolic links are followed, so that they stay and what they point to is replaced or created.
-//! A replaced file keeps its mode and, as far as the system lets this process give files away, its owner and group; if it does
-//! not, the set-user-ID and set-group-ID bits go. Other hard links to it keep the old bytes.
+//! What a regular file, or nothing, is at gets replaced in one step: the bytes go to a temporary file in the same
+//! folder, which is renamed when they are on disk. Symbolic links are followed, so that they stay and what they point
+//! to is replaced or created. A replaced file keeps its mode and, as far as the system lets this process give files
+//! away, its owner and group; if it does not, the set-user-ID and set-group-ID bits go. Other hard links to it keep the
+//! old bytes.
 //!
-//! What is neither a regular file nor a folder (FIFOs, devices, sockets, and descriptors such as `/dev/stdout`) is written straight
-//! to.
+//! What is neither a regular file nor a folder (FIFOs, devices, sockets, and descriptors such as `/dev/stdout`) is
+//! written straight to.
 //!
-//! Temporary files are named `.welkin-HASH-N.tmp`, `HASH` being that of the target's name, and locked as long as their writer
-//! lives. One that a killed process has left behind is removed by the next write of the same target, or by [`sweep`]. With the feature
-//! `signals`, `abandon_on_signals` leaves none behind where a process is asked to end.
+//! Temporary files are named `.welkin-HASH-N.tmp`, `HASH` being that of the target's name, and locked as long as their
+//! writer lives. One that a killed process has left behind is removed by the next write of the same target, or by
+//! [`sweep`]. With the feature `signals`, `abandon_on_signals` leaves none behind where a process is asked to end.
 
 mod path_kind;
 #[cfg(all(unix, feature = "signals"))]
@@ -30,18 +31,19 @@ pub use signals::abandon_on_signals;
 pub use target::{Target, write};
 pub use temporary::{abandon, sweep};
 
-/// Writes `bytes` to `path`: readers of a regular file see the old one or the new one, never a part, even after a full disk, a
-/// killed process or a power cut.
+/// Writes `bytes` to `path`: readers of a regular file see the old one or the new one, never a part, even after a full
+/// disk, a killed process or a power cut.
 ///
 /// # Errors
 /// [`Error::Io`] with `path`: of kind [`io::ErrorKind::InvalidInput`] if it names no file (it is empty, or ends in a separator, `.`
-/// or `..`), of kind [`io::ErrorKind::IsADirectory`] if it is a folder. The temporary file is removed, and the old file is as it was.
+/// or `..`), of kind [`io::ErrorKind::IsADirectory`] if it is a folder. The temporary file is removed, and the old file
+/// is as it was.
 pub fn replace_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     replace_files(&[(path.as_ref(), bytes)])
 }
 
-/// Writes files that belong together: none is touched before the bytes of all are on disk, then they are renamed in the order
-/// given. A process that is killed leaves all old or all new, except in the instant between two renames.
+/// Writes files that belong together: none is touched before the bytes of all are on disk, then they are renamed in the
+/// order given. A process that is killed leaves all old or all new, except in the instant between two renames.
 ///
 /// # Errors
 /// As [`replace_file`], with the path of the file that failed.
@@ -65,7 +67,8 @@ pub fn replace_files(files: &[(&Path, &[u8])]) -> Result<()> {
     temporary::rename_all(temporaries)
 }
 
-/// Finds out whether [`replace_file`] could write to `path`, without changing what is there: for the moment before long work.
+/// Finds out whether [`replace_file`] could write to `path`, without changing what is there: for the moment before long
+/// work.
 ///
 /// # Errors
 /// As [`replace_file`].

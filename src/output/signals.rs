@@ -6,8 +6,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
-/// From now on SIGINT, SIGTERM and SIGHUP first remove the temporary files of unfinished writes, then end the process as they would
-/// have without. Those that the process was started to ignore stay ignored. For the start of `main`.
+/// From now on SIGINT, SIGTERM and SIGHUP first remove the temporary files of unfinished writes, then end the process
+/// as they would have without. Those that the process was started to ignore stay ignored. For the start of `main`.
 ///
 /// # Errors
 /// Those of the system; then nothing has changed, and the next write of the same target cleans up.

@@ -55,7 +55,8 @@ impl Target {
         }
     }
 
-    /// Whether it keeps no bytes, so that its name says nothing about them: standard output, FIFOs, devices and sockets.
+    /// Whether it keeps no bytes, so that its name says nothing about them: standard output, FIFOs, devices and
+    /// sockets.
     pub fn is_stream(&self) -> bool {
         match self {
             Self::Standard => true,
@@ -63,8 +64,8 @@ impl Target {
         }
     }
 
-    /// Where to say what was done, which is not where the bytes go: standard output, or else standard error, as what is no file
-    /// may be standard output by another name.
+    /// Where to say what was done, which is not where the bytes go: standard output, or else standard error, as what is
+    /// no file may be standard output by another name.
     pub fn report(&self) -> Box<dyn Write> {
         match self.is_stream() {
             true => Box::new(io::stderr()),

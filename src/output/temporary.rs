@@ -25,8 +25,8 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the temporary files of all writes that go on in this process; writers then wait for ever. For programs that are asked to
-/// end by a signal, in the thread that ends them.
+/// Removes the temporary files of all writes that go on in this process; writers then wait for ever. For programs that
+/// are asked to end by a signal, in the thread that ends them.
 pub fn abandon() {
     let files = unfinished();
     for file in files.iter() {
@@ -44,7 +44,8 @@ pub struct Temporary {
 }
 
 impl Temporary {
-    /// Creates an empty one that nobody may read who may not read the `old` file, and removes those that dead writers have left.
+    /// Creates an empty one that nobody may read who may not read the `old` file, and removes those that dead writers
+    /// have left.
     pub fn beside(target: &Path, old: Option<&Metadata>) -> io::Result<Self> {
         // A folder may be one that cannot be listed.
         let _ = sweep(folder(target));
@@ -247,7 +248,8 @@ fn resemble(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-/// Makes new names durable. Only Unix can open a folder as a file, and only one that may be read; some file systems cannot sync it.
+/// Makes new names durable. Only Unix can open a folder as a file, and only one that may be read; some file systems
+/// cannot sync it.
 fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(not(unix)) {
         return Ok(());

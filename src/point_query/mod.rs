@@ -43,8 +43,8 @@ const MOST_WAVELENGTHS: usize = WAVELENGTH_BLOCKS * WIDTH;
 /// [prepared](crate::Model::sky). The file must not be larger than 64 altitudes, 256 radiance chunks, rank 512, 256
 /// channels and 64 wavelengths, nor than 64 visibilities. About 75 kB in size, nothing on the heap. `Send + Sync`.
 ///
-/// Between the nodes of the file it differs from [`Sky`](crate::Sky) by what [`Interpolation::Lean`] leaves out; where the
-/// tolerances of the format specification count, ask for [`Interpolation::Full`].
+/// Between the nodes of the file it differs from [`Sky`](crate::Sky) by what [`Interpolation::Lean`] leaves out; where
+/// the tolerances of the format specification count, ask for [`Interpolation::Full`].
 ///
 /// ```
 /// use welkin::{Conditions, PointQuery};

@@ -143,7 +143,8 @@ impl Light {
         }
     }
 
-    /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by wavelength.
+    /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by
+    /// wavelength.
     #[cfg(feature = "std")]
     #[inline(always)]
     pub fn fields<const N: usize>(

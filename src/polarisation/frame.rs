@@ -5,9 +5,9 @@ use crate::error::{Error, Result};
 /// Where the axis `e1` of positive Q stands; `e2 = w × e1` with `w` the view direction.
 ///
 /// No choice of axes is smooth all over the sphere. Where an axis is undefined, the next simpler one takes its place:
-/// `e1` horizontal for [`PolarisationFrame::SunAligned`] towards the sun and away from it, the vertical frame for a [`PolarisationFrame::Axis`]
-/// along the view direction. At the zenith and nadir, the vertical plane is the one of the sun. Degrees of polarisation
-/// do not depend on the axes and are smooth there.
+/// `e1` horizontal for [`PolarisationFrame::SunAligned`] towards the sun and away from it, the vertical frame for a
+/// [`PolarisationFrame::Axis`] along the view direction. At the zenith and nadir, the vertical plane is the one of the
+/// sun. Degrees of polarisation do not depend on the axes and are smooth there.
 ///
 /// ```
 /// use welkin::{Conditions, Model, PolarisationFrame};
@@ -50,7 +50,8 @@ impl Plane {
     pub fn new(view: [f64; 3], zenith: [f64; 3], sun: [f64; 3]) -> Self {
         let rise = dot(view, zenith);
         let up = part_across(zenith, view);
-        // Vertical views are in the plane of the sun: their up points away from it at the zenith, towards it at the nadir.
+        // Vertical views are in the plane of the sun: their up points away from it at the zenith, towards it at the
+        // nadir.
         let up = up.or_else(|| Some(part_across(sun, view)?.map(|v| -v * rise.signum())));
         let smallest = (0..3).min_by(|&a, &b| view[a].abs().total_cmp(&view[b].abs()));
         let any = core::array::from_fn(|k| f64::from(u8::from(Some(k) == smallest)));
@@ -130,7 +131,8 @@ impl Aspect {
         Self::of((z / length, horizontal / length), azimuth, sun, sun_azimuth)
     }
 
-    /// Of a direction with this cosine and sine of its elevation and the azimuth `phi` from a sun at this elevation (rad).
+    /// Of a direction with this cosine and sine of its elevation and the azimuth `phi` from a sun at this elevation
+    /// (rad).
     pub fn along((ce, se): (f64, f64), phi: f64, sun: f64) -> Self {
         let sun = [sun.cos(), 0.0, sun.sin()];
         Self::of((se, ce), phi.sin_cos(), sun, (0.0, 1.0))

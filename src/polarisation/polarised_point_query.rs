@@ -13,9 +13,9 @@ use crate::sky::spectrum;
 /// A model with its polarisation, evaluated where it stands: [`PointQuery`] with Stokes vectors, always with
 /// [`Interpolation::Full`](crate::Interpolation::Full).
 ///
-/// It answers as [`PolarisedSky`](crate::PolarisedSky) does, but for rounding (some 1e-6 of the radiance), in a few microseconds
-/// and without preparation. Made by [`Model::polarised_point_query`](crate::Model::polarised_point_query). Queries allocate nothing.
-/// `Send + Sync`.
+/// It answers as [`PolarisedSky`](crate::PolarisedSky) does, but for rounding (some 1e-6 of the radiance), in a few
+/// microseconds and without preparation. Made by [`Model::polarised_point_query`](crate::Model::polarised_point_query).
+/// Queries allocate nothing. `Send + Sync`.
 ///
 /// ```
 /// use welkin::{BakedSky, Budget, Channels, Conditions, Model, PolarisationFrame};
@@ -63,7 +63,8 @@ impl<'a> PolarisedPointQuery<'a> {
     /// As [`PolarisedSky::stokes`](crate::PolarisedSky::stokes), under these conditions.
     ///
     /// # Errors
-    /// As [`PointQuery::radiance`]; [`Error::Direction`](crate::Error::Direction) for an axis that is zero or not finite.
+    /// As [`PointQuery::radiance`]; [`Error::Direction`](crate::Error::Direction) for an axis that is zero or not
+    /// finite.
     pub fn stokes(
         &self,
         conditions: &Conditions,

@@ -17,7 +17,8 @@ use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 /// A clear sky whose light is polarised, at one set of conditions.
 ///
 /// Singly scattered light is polarised as Rayleigh scattering says; what was scattered more often comes from tables of
-/// its own (Wilkie et al. 2021, section 5.2, but with both components). Everything that [`Sky`] says about directions holds here, too.
+/// its own (Wilkie et al. 2021, section 5.2, but with both components). Everything that [`Sky`] says about directions
+/// holds here, too.
 ///
 /// After [`Model::polarised_sky`] returns, nothing here allocates, blocks or calls the system. `Send + Sync`.
 ///
@@ -157,8 +158,8 @@ impl PolarisedSky {
         }))
     }
 
-    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit` block by
-    /// block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
+    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit`
+    /// block by block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
     pub(crate) fn ratios(
         &self,
         ray: &Ray,

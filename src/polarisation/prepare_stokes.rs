@@ -63,7 +63,8 @@ struct Basis<'a> {
 }
 
 impl<'a> Basis<'a> {
-    /// `ground` is what the light from the ground is multiplied with at each wavelength, `fade` what the azimuth counts.
+    /// `ground` is what the light from the ground is multiplied with at each wavelength, `fade` what the azimuth
+    /// counts.
     fn new(view: &BasisView, ground: &[f32], fade: f64, layout: &'a Layout) -> Self {
         let (rank, nw) = (view.rank, ground.len());
         let mut channel = vec![Pair::ZERO; layout.blocks() * rank];

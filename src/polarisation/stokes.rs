@@ -33,7 +33,8 @@ pub struct Stokes {
     pub u: f32,
 }
 
-/// Room for Stokes vectors as a structure of arrays of equal length, each `[directions or points][wavelengths]`, W m⁻² sr⁻¹ nm⁻¹.
+/// Room for Stokes vectors as a structure of arrays of equal length, each `[directions or points][wavelengths]`, W m⁻²
+/// sr⁻¹ nm⁻¹.
 ///
 /// The components are those of [`Stokes`].
 ///
@@ -77,9 +78,9 @@ impl Stokes {
         }
     }
 
-    /// Q over I, −1..=1; 0 without light. In [`PolarisationFrame::SunAligned`](crate::PolarisationFrame::SunAligned) it is positive where the light
-    /// is polarised across the plane of view and sun, as singly scattered light is, and changes its sign at the neutral
-    /// points.
+    /// Q over I, −1..=1; 0 without light. In [`PolarisationFrame::SunAligned`](crate::PolarisationFrame::SunAligned) it
+    /// is positive where the light is polarised across the plane of view and sun, as singly scattered light is, and
+    /// changes its sign at the neutral points.
     pub fn signed_degree(&self) -> f32 {
         if self.i > 0.0 {
             (self.q / self.i).clamp(-1.0, 1.0)
@@ -110,8 +111,8 @@ impl Stokes {
     }
 }
 
-/// Light of the radiance `i` at a wavelength (nm) among nodes at which it is polarised as `values` are. Format specification,
-/// section 7.5.
+/// Light of the radiance `i` at a wavelength (nm) among nodes at which it is polarised as `values` are. Format
+/// specification, section 7.5.
 pub(crate) fn between(nodes: &[f64], values: &[Stokes], wavelength: f64, i: f32) -> Stokes {
     let (mut q, mut u) = (0.0, 0.0);
     for (k, weight) in hermite(nodes, wavelength).taps() {

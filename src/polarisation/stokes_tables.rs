@@ -98,7 +98,8 @@ impl Polarisation {
         });
     }
 
-    /// Hands the two sums that `mix` makes to `emit`, over that of the radiance, block by block of wavelengths. They are finite.
+    /// Hands the two sums that `mix` makes to `emit`, over that of the radiance, block by block of wavelengths. They
+    /// are finite.
     pub fn ratios(
         &self,
         tables: &Tables,
@@ -154,8 +155,9 @@ pub(crate) fn limit(i: [f32; LANES], q: [f32; LANES], u: [f32; LANES]) -> [[f32;
     [q, u]
 }
 
-/// Q/I and U/(I sin φ), at most the whole light: elsewhere a fit that has gone below zero leaves almost none, and any ratio. In the
-/// plane of the sun, where U says nothing, U/(I sin φ) is bounded to what light that was scattered once cannot exceed.
+/// Q/I and U/(I sin φ), at most the whole light: elsewhere a fit that has gone below zero leaves almost none, and any
+/// ratio. In the plane of the sun, where U says nothing, U/(I sin φ) is bounded to what light that was scattered once
+/// cannot exceed.
 pub(super) fn limit_even(mut q: [f32; LANES], mut u: [f32; LANES], sine: f32) -> [[f32; LANES]; 2] {
     const ONCE: f32 = 2.0;
     for (q, u) in q.iter_mut().zip(&mut u) {

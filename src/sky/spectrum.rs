@@ -3,8 +3,8 @@
 use crate::error::{Error, Result};
 use crate::kernel::axis::{hermite, linear};
 
-/// A spectrum at `wavelength` (nm), from its values at increasing `nodes`, as the model interpolates: smooth in the logarithm,
-/// linear beside zeros. For what is smooth, so divide radiance by the irradiance of the sun first.
+/// A spectrum at `wavelength` (nm), from its values at increasing `nodes`, as the model interpolates: smooth in the
+/// logarithm, linear beside zeros. For what is smooth, so divide radiance by the irradiance of the sun first.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for wavelengths beyond the nodes; [`Error::Length`] unless `values` has one element per node;

@@ -1,7 +1,7 @@
 //! The disc as a cap of the sphere of directions, of which the geometric horizon may hide the lower part.
 //!
-//! In Lambert's azimuthal equal-area projection around its centre, lengths in chords from centre to limb: the disc is the
-//! unit disc exactly, equal areas are equal solid angles, and lines of equal elevation are as good as parabolas.
+//! In Lambert's azimuthal equal-area projection around its centre, lengths in chords from centre to limb: the disc is
+//! the unit disc exactly, equal areas are equal solid angles, and lines of equal elevation are as good as parabolas.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
@@ -93,7 +93,8 @@ impl Cap {
         PI * self.chord * self.chord
     }
 
-    /// Squared distance of a unit vector from the centre; at most 1 on the disc. A chord is exact where a cosine is not.
+    /// Squared distance of a unit vector from the centre; at most 1 on the disc. A chord is exact where a cosine is
+    /// not.
     pub fn square(&self, unit: [f64; 3]) -> f64 {
         let squares = (0..3).map(|i| (unit[i] - self.centre[i]).powi(2));
         squares.sum::<f64>() / (self.chord * self.chord)
@@ -120,8 +121,8 @@ impl Cap {
         self.area * self.chord * self.chord
     }
 
-    /// Maps the unit square to the visible part, uniformly in solid angle: upright, then across. What would fall into the
-    /// outermost [`MARGIN`] is moved to its inner edge.
+    /// Maps the unit square to the visible part, uniformly in solid angle: upright, then across. What would fall into
+    /// the outermost [`MARGIN`] is moved to its inner edge.
     pub fn draw(&self, [a, b]: [f64; 2]) -> [f64; 3] {
         let theta = segment_angle((1.0 - a) * self.area);
         let (x, y) = theta.sin_cos();

@@ -23,7 +23,8 @@ pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 /// The disc of the sun as an observer sees it through the air, at the wavelengths of the model.
 ///
 /// Its radiance is that outside the air, which follows from the solar irradiance of the model, with limb darkening from
-/// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Transmittance`](crate::Transmittance) and
+/// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Transmittance`](crate::Transmittance)
+/// and
 /// [`AerialPerspective`](crate::AerialPerspective). Light is not refracted. The part of the disc below the geometric horizon is black. Queries do
 /// not allocate. `Send + Sync`.
 ///
@@ -214,8 +215,8 @@ impl SolarDisc {
         self.cap.draw(place).map(|v| v as f32)
     }
 
-    /// The density of [`SolarDisc::draw`], sr⁻¹. Reaches a little beyond the disc, so that rounding a direction never gives
-    /// one that is bright and has the density of the sky.
+    /// The density of [`SolarDisc::draw`], sr⁻¹. Reaches a little beyond the disc, so that rounding a direction never
+    /// gives one that is bright and has the density of the sky.
     pub(crate) fn density(&self, direction: [f32; 3]) -> f32 {
         let covered = unit(direction).is_some_and(|unit| self.cap.covers(unit));
         match covered {

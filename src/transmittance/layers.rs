@@ -1,8 +1,8 @@
 //! Densities along straight lines, in closed form. Format specification, section 7.6.
 //!
-//! With `w = h + h²/2R` the squared distance from the planet's centre is `R² + 2Rw`, so that along a line `w` is a parabola of the
-//! distance from the tangent point. A density that is quadratic in `w` within a layer therefore has a mean over any
-//! piece of a line that needs no quadrature, and columns add up, reverse and grow exactly as they should.
+//! With `w = h + h²/2R` the squared distance from the planet's centre is `R² + 2Rw`, so that along a line `w` is a
+//! parabola of the distance from the tangent point. A density that is quadratic in `w` within a layer therefore has a
+//! mean over any piece of a line that needs no quadrature, and columns add up, reverse and grow exactly as they should.
 
 use crate::format::DensityView;
 use crate::geometry::Planet;
@@ -163,7 +163,8 @@ impl Layers {
         amounts
     }
 
-    /// Columns from an altitude (m) to space in a direction with this sine of its elevation, m; the ground is no obstacle.
+    /// Columns from an altitude (m) to space in a direction with this sine of its elevation, m; the ground is no
+    /// obstacle.
     pub fn to_space(&self, altitude: f64, sine: f64) -> Amounts {
         let from = (self.planet.radius + altitude) * sine;
         let line = Line {

@@ -19,8 +19,8 @@ use crate::model::checked_visibility;
 /// The air at one visibility: transmittance along straight lines, without refraction.
 ///
 /// Points are in metres in a world frame whose origin lies on the ground, with +z up there; the planet's centre is at
-/// (0, 0, −R). Nothing blocks the way: the caller has seen what is at its end. Below the ground, at any depth, the air is as
-/// dense as at the ground.
+/// (0, 0, −R). Nothing blocks the way: the caller has seen what is at its end. Below the ground, at any depth, the air
+/// is as dense as at the ground.
 ///
 /// Whatever the file holds, transmittance is 1 over no distance, never grows with distance, is the same in both
 /// directions and multiplies along a line, all but for rounding. Queries allocate nothing. `Send + Sync`.
@@ -43,8 +43,8 @@ pub struct Transmittance {
     wavelengths: Vec<f64>,
 }
 
-/// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`, with constituents of none up to a full
-/// vector.
+/// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`, with constituents of none
+/// up to a full vector.
 #[derive(Clone, Debug)]
 pub(crate) struct Extinction {
     blocks: usize,
@@ -167,8 +167,8 @@ impl Transmittance {
         Ok(())
     }
 
-    /// Transmittance from a point to space in a direction (need not be normalised); zero where the ground is in the way, which it is for
-    /// whatever goes down from the ground or from under it.
+    /// Transmittance from a point to space in a direction (need not be normalised); zero where the ground is in the
+    /// way, which it is for whatever goes down from the ground or from under it.
     ///
     /// # Errors
     /// As [`Transmittance::transmittance`]; [`Error::Direction`] for a vector that is zero or not finite.
@@ -192,8 +192,8 @@ impl Transmittance {
         Ok(())
     }
 
-    /// Transmittance from a point in a direction (need not be normalised) through all of the air, up to the ground where that is in
-    /// the way.
+    /// Transmittance from a point in a direction (need not be normalised) through all of the air, up to the ground
+    /// where that is in the way.
     ///
     /// # Errors
     /// As [`Transmittance::transmittance_to_space`].

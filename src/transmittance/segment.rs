@@ -36,8 +36,8 @@ impl Segment {
         Ok(Self::along(planet, a, direction, length))
     }
 
-    /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true. A point on the ground or
-    /// under it is met at once by lines that go down, and never by others.
+    /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true. A point
+    /// on the ground or under it is met at once by lines that go down, and never by others.
     pub fn to_end(planet: &Planet, a: Point, direction: [f64; 3]) -> Result<(Self, bool)> {
         let a = checked(a)?;
         let square = dot(direction, direction);

@@ -13,8 +13,8 @@ const SOURCE_RANKS: [usize; 4] = [2, 3, 3, 2];
 const SOURCE_DEGREE: usize = 3;
 const SOURCE_ORDERS: usize = 2;
 
-/// The air, the source basis, and a source for each visibility of `head`. With `swing` above 1 the source is negative in
-/// some directions.
+/// The air, the source basis, and a source for each visibility of `head`. With `swing` above 1 the source is negative
+/// in some directions.
 pub fn chunks(head: &Head, swing: f32) -> Vec<Chunk> {
     let chunk = |visibility, payload| Chunk {
         altitude: None,

@@ -22,8 +22,8 @@ pub const RANK: usize = 5;
 
 /// The same `cases` of a property test in every run: what has passed does not fail by chance where nothing has changed.
 ///
-/// `WELKIN_CASES=N` takes N times as many from new seeds, `PROPTEST_CASES=N` just N. What fails is printed and becomes a test of
-/// its own.
+/// `WELKIN_CASES=N` takes N times as many from new seeds, `PROPTEST_CASES=N` just N. What fails is printed and becomes
+/// a test of its own.
 pub fn cases(cases: u32) -> Config {
     let factor = std::env::var("WELKIN_CASES").ok();
     let factor: Option<u32> = factor.map(|n| n.parse().expect("WELKIN_CASES is a number"));

@@ -265,8 +265,8 @@ fn through(case: &Case, query: &Query, i: usize) -> Value {
     with_values(asked, &expected, &absolute)
 }
 
-/// Light that is scattered towards the observer, without and with its polarisation, over the same distances and, every third time,
-/// over one metre.
+/// Light that is scattered towards the observer, without and with its polarisation, over the same distances and, every
+/// third time, over one metre.
 fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
     let farthest = if case.name == "haze-negative" {
         2.0

@@ -1,5 +1,5 @@
-//! A file behind a web server that answers range requests, as [`welkin::Model::stream`] reads it. Nothing that the server says is
-//! believed before it is checked.
+//! A file behind a web server that answers range requests, as [`welkin::Model::stream`] reads it. Nothing that the
+//! server says is believed before it is checked.
 
 use std::io::{self, Read};
 use std::sync::OnceLock;
@@ -25,8 +25,8 @@ struct Version {
 }
 
 impl HttpFile {
-    /// The file at `url` (`http://…`; `https` needs a TLS feature of ureq). Asks nothing yet. No read, redirects included, takes
-    /// longer than `timeout`.
+    /// The file at `url` (`http://…`; `https` needs a TLS feature of ureq). Asks nothing yet. No read, redirects
+    /// included, takes longer than `timeout`.
     pub fn new(url: impl Into<String>, timeout: Duration) -> Self {
         let config = Agent::config_builder()
             // The loopback has none; without this line ureq takes the one of the environment.

@@ -1,4 +1,5 @@
-//! What the measuring tools share: the same questions to everybody, the peers that answer them, and the book that tells.
+//! What the measuring tools share: the same questions to everybody, the peers that answer them, and the book that
+//! tells.
 
 pub mod book;
 pub mod figures;

@@ -33,8 +33,8 @@ pub fn interval(angle: f64) -> usize {
 /// F11, F12 and F33 at one node.
 pub type Elements = [f64; 3];
 
-/// F11, F12 and F33 of spheres (for which F22 = F11) at the nodes of one grid of angles, per wavelength. Between nodes they are linear
-/// in the cosine, and so F11 has mean 1 exactly.
+/// F11, F12 and F33 of spheres (for which F22 = F11) at the nodes of one grid of angles, per wavelength. Between nodes
+/// they are linear in the cosine, and so F11 has mean 1 exactly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     /// By wavelength and node.

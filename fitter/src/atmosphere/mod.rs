@@ -1,8 +1,8 @@
 //! What the air is made of: altitude profiles times spectral coefficients.
 //!
-//! A [`Constituent`] is one altitude profile. All that shares the profile (the water-soluble, insoluble and soot particles of the
-//! boundary layer, say) is one constituent with several [`Scatterer`]s, so that one column density per constituent gives the
-//! optical depth at every wavelength.
+//! A [`Constituent`] is one altitude profile. All that shares the profile (the water-soluble, insoluble and soot
+//! particles of the boundary layer, say) is one constituent with several [`Scatterer`]s, so that one column density per
+//! constituent gives the optical depth at every wavelength.
 
 pub mod json;
 pub mod matrix;

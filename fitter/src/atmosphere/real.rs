@@ -1,8 +1,9 @@
 //! The clear-sky atmosphere of Wilkie et al. 2021, section 4.2, from the tables in `fitter/data`.
 //!
-//! Gas: AFGL US standard profile, Rayleigh scattering after Bodhaine et al. 1999 for dry air (all of it; the paper counts N2 and O2
-//! only, 1 % less), ozone absorption at 223 K. Aerosol: OPAC water-soluble (50 % humidity), insoluble and soot particles with
-//! Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km separates smoothly.
+//! Gas: AFGL US standard profile, Rayleigh scattering after Bodhaine et al. 1999 for dry air (all of it; the paper
+//! counts N2 and O2 only, 1 % less), ozone absorption at 223 K. Aerosol: OPAC water-soluble (50 % humidity), insoluble
+//! and soot particles with Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km
+//! separates smoothly.
 
 use super::table::{Curve, Table};
 use super::{Atmosphere, Constituent, Phase, Scatterer, mie};
@@ -245,7 +246,8 @@ fn aerosol(
 mod tests {
     use super::*;
 
-    /// Bodhaine et al. 1999, Table 3 (cm²), and the column of the US standard atmosphere at 1013.25 hPa (their Table 4).
+    /// Bodhaine et al. 1999, Table 3 (cm²), and the column of the US standard atmosphere at 1013.25 hPa (their Table
+    /// 4).
     #[test]
     fn rayleigh_matches_the_published_values() {
         let table = table!("rayleigh_published_checks.csv").unwrap();

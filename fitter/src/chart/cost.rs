@@ -1,5 +1,6 @@
-//! What one query costs: radiance at all wavelengths in a random direction under a random sun and albedo, at one altitude and
-//! visibility. Plain loops for every scheme; finding angles and taps is not counted, nor are exponentials of the normalisation.
+//! What one query costs: radiance at all wavelengths in a random direction under a random sun and albedo, at one
+//! altitude and visibility. Plain loops for every scheme; finding angles and taps is not counted, nor are exponentials
+//! of the normalisation.
 
 use super::chunk_axes::Place;
 use crate::successive_orders::{FIELDS, NW};

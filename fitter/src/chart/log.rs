@@ -1,5 +1,6 @@
-//! The log domain: ln of the normalised radiance over a black and over a white ground as sums of components. Any albedo follows
-//! from the two; positive everywhere, and small values are fitted as well as large ones. Phase functions cannot be taken out.
+//! The log domain: ln of the normalised radiance over a black and over a white ground as sums of components. Any albedo
+//! follows from the two; positive everywhere, and small values are fitted as well as large ones. Phase functions cannot
+//! be taken out.
 
 use super::chunk_axes::{Frame, Place};
 use crate::dataset::Axis;

@@ -1,8 +1,8 @@
-//! The scheme of Wilkie et al. 2021 (section 5) on one altitude and visibility: for each solar elevation, albedo and wavelength a
-//! matrix over two angles, decomposed to rank 9 and read linearly.
+//! The scheme of Wilkie et al. 2021 (section 5) on one altitude and visibility: for each solar elevation, albedo and
+//! wavelength a matrix over two angles, decomposed to rank 9 and read linearly.
 //!
-//! The angles are those from the sun and from the zenith, or, after sunset, from the edge of the Earth's shadow. Where no direction
-//! has both angles, the matrix holds the nearest that has the second.
+//! The angles are those from the sun and from the zenith, or, after sunset, from the edge of the Earth's shadow. Where
+//! no direction has both angles, the matrix holds the nearest that has the second.
 
 use super::chunk_axes::{Frame, Look};
 use super::dense::Uncompressed;
@@ -173,8 +173,8 @@ fn direction(elevation: f64, zenith: f64, sun: f64) -> (f64, f64) {
     (z.clamp(-1.0, 1.0).asin(), y.atan2(x))
 }
 
-/// The leading singular vectors by subspace iteration, `[columns, then rows][rank]`. Rows are brought to a like size first, so that
-/// relative errors count; that is what the paper's emphasis is for.
+/// The leading singular vectors by subspace iteration, `[columns, then rows][rank]`. Rows are brought to a like size
+/// first, so that relative errors count; that is what the paper's emphasis is for.
 fn decompose(mut matrix: Mat<f64>) -> Vec<f32> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     let size: Vec<f64> = (0..rows)

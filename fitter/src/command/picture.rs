@@ -45,8 +45,8 @@ pub struct Args {
     /// Projection.
     #[arg(long, value_enum, default_value = "perspective")]
     projection: ProjectionArg,
-    /// Angle of the camera's axis above the horizontal, degrees; 90 for a fish-eye of the sky, with what is ahead at the lower edge
-    /// (`--solar-azimuth 180` puts the sun at the upper one).
+    /// Angle of the camera's axis above the horizontal, degrees; 90 for a fish-eye of the sky, with what is ahead at
+    /// the lower edge (`--solar-azimuth 180` puts the sun at the upper one).
     #[arg(long, default_value_t = 0.0)]
     pitch: f64,
     /// Vertical field of view in perspective, degrees.

@@ -19,8 +19,8 @@ pub struct Args {
 
 #[derive(Subcommand)]
 enum Action {
-    /// Print the name of every unit, a tab, and whether it is done, missing or damaged (length and checksum of the whole file
-    /// are compared). Damaged ones are done again by `run`.
+    /// Print the name of every unit, a tab, and whether it is done, missing or damaged (length and checksum of the
+    /// whole file are compared). Damaged ones are done again by `run`.
     List {
         #[command(flatten)]
         plan: UnitsArgs,
@@ -33,7 +33,8 @@ enum Action {
         #[arg(required = true)]
         which: Vec<String>,
     },
-    /// Check every unit and write manifest.json into the work folder: origin, checksum, core-seconds, difference to the tracer.
+    /// Check every unit and write manifest.json into the work folder: origin, checksum, core-seconds, difference to the
+    /// tracer.
     Manifest {
         #[command(flatten)]
         plan: UnitsArgs,

@@ -50,7 +50,8 @@ impl Store {
         Ok(values)
     }
 
-    /// Core-seconds that it took to compute the unit `name`, all threads of the process together; `None` if nobody knows.
+    /// Core-seconds that it took to compute the unit `name`, all threads of the process together; `None` if nobody
+    /// knows.
     pub fn cost(&self, name: &str) -> Option<f64> {
         let text = fs::read_to_string(self.path(name, COST)).ok()?;
         text.trim().parse().ok()
@@ -122,7 +123,8 @@ impl Store {
         Ok(self.load(name)?.is_some())
     }
 
-    /// The checksum in the file of the unit `name`, if there is one that belongs to these settings. Only the header is read.
+    /// The checksum in the file of the unit `name`, if there is one that belongs to these settings. Only the header is
+    /// read.
     pub fn checksum(&self, name: &str) -> Result<Option<u32>> {
         let mut start = [0; HEADER];
         let read = fs::File::open(self.path(name, UNIT)).and_then(|mut f| f.read_exact(&mut start));

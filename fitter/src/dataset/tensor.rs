@@ -8,7 +8,8 @@ use rayon::prelude::*;
 /// Channels of a traced tensor: field · NW + wavelength; intensities first.
 pub const CHANNELS: usize = (FIELDS + POLARISED) * NW;
 
-/// Values `[view][phi][elevation][channel]` at the sites of a grid, per unit of solar irradiance, phase functions taken out.
+/// Values `[view][phi][elevation][channel]` at the sites of a grid, per unit of solar irradiance, phase functions taken
+/// out.
 #[derive(Clone, Debug)]
 pub struct Tensor {
     /// Lengths of the four modes.

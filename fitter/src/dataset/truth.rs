@@ -30,7 +30,8 @@ pub struct Sample {
     pub polarisation: [[f64; NW]; 2],
 }
 
-/// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns and albedos.
+/// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns
+/// and albedos.
 ///
 /// Half of the solar elevations are uniform in −4.2..90°, the others in −4.2..12°. Sun-major.
 pub fn truth(

@@ -1,8 +1,8 @@
 //! Coupled canonical polyadic decomposition of many four-mode cores: some factor matrices are shared by all of them.
 //!
-//! Alternating least squares with extrapolation. Plain sweeps crawl through swamps where components nearly cancel. After each sweep
-//! the factors are extrapolated along their last step; a step that makes the fit worse is taken back and the extrapolation is
-//! shortened. A small ridge keeps components from growing against each other.
+//! Alternating least squares with extrapolation. Plain sweeps crawl through swamps where components nearly cancel.
+//! After each sweep the factors are extrapolated along their last step; a step that makes the fit worse is taken back
+//! and the extrapolation is shortened. A small ridge keeps components from growing against each other.
 
 use super::tucker::Dense;
 use faer::linalg::solvers::{Llt, Solve};
@@ -37,8 +37,8 @@ pub struct Cpd {
 /// Weight of the components' squared norms in the objective.
 const RIDGE: f64 = 1e-9;
 
-/// Decomposes `cores`, which have equal lengths in the modes that `shared` marks; the first mode is never shared. `progress` is told the sweeps and the root mean
-/// square of the relative errors.
+/// Decomposes `cores`, which have equal lengths in the modes that `shared` marks; the first mode is never shared.
+/// `progress` is told the sweeps and the root mean square of the relative errors.
 pub fn decompose(
     cores: &[Dense],
     shared: [bool; 4],
@@ -254,7 +254,8 @@ impl Problem {
     }
 }
 
-/// Squared error of a tensor of norm 1 and the sum of its components' squared norms, given its product with the first three factors.
+/// Squared error of a tensor of norm 1 and the sum of its components' squared norms, given its product with the first
+/// three factors.
 fn residual(factors: &[Mat<f64>; 4], product: &Mat<f64>) -> (f64, f64) {
     let overlap = dot(product, &factors[3]);
     let gram = gram_of_others(factors, 3);

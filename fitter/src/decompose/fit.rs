@@ -31,8 +31,8 @@ pub fn decompose_all(chunks: &[Chunk], options: Options, progress: &dyn Fn(usize
     decompose_weighted(chunks, &weights, COMPRESSION, options, progress)
 }
 
-/// Decomposes in tiers: each tier fits what the tiers before it, which stay as they are, leave. Its first components are a model of
-/// their own.
+/// Decomposes in tiers: each tier fits what the tiers before it, which stay as they are, leave. Its first components
+/// are a model of their own.
 pub fn decompose_nested(chunks: &[Chunk], tiers: &[usize], options: Options) -> Fit {
     let weights = channel_weights(chunks);
     let first = Options {
@@ -144,7 +144,8 @@ impl Fit {
         all.flatten().copied().collect()
     }
 
-    /// The inverse of [`Fit::to_values`] for a grid, a rank and numbers of chunks and channels; `None` for another number of values.
+    /// The inverse of [`Fit::to_values`] for a grid, a rank and numbers of chunks and channels; `None` for another
+    /// number of values.
     pub fn from_values(
         values: &[f32],
         grid: &Grid,
@@ -195,8 +196,8 @@ impl Fit {
         }
     }
 
-    /// Sum of the norms of a chunk's components over the norm of their sum, which is that of the chunk: large when components
-    /// cancel.
+    /// Sum of the norms of a chunk's components over the norm of their sum, which is that of the chunk: large when
+    /// components cancel.
     pub fn condition(&self, chunk: &Chunk, k: usize) -> f64 {
         let rank = self.basis.rank;
         let norm = |matrix: &[f32], r: usize| -> f64 {

@@ -65,7 +65,8 @@ fn swamps_are_crossed() {
     assert!(history.windows(2).all(|w| w[1] < w[0] * 1.05 + 1e-4));
 }
 
-/// A tensor of rank 3 that two components approach without ever reaching it, while they grow and cancel: the ridge has to stop them.
+/// A tensor of rank 3 that two components approach without ever reaching it, while they grow and cancel: the ridge has
+/// to stop them.
 #[test]
 fn components_that_cancel_do_not_run_away() {
     let (a, b) = ([1.0, 0.0, 0.5, 0.2], [0.0, 1.0, -0.3, 0.6]);

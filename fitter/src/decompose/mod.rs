@@ -1,4 +1,5 @@
-//! From traced tensors to the factors of the file: normalise, compress, decompose together, refine, turn node values into splines.
+//! From traced tensors to the factors of the file: normalise, compress, decompose together, refine, turn node values
+//! into splines.
 
 mod chunk;
 mod collocation;

@@ -86,7 +86,8 @@ pub struct Level {
 }
 
 impl Level {
-    /// The mean over view directions of ln (L / (1 − T)), rounded to half precision: the fit takes the rounding into account.
+    /// The mean over view directions of ln (L / (1 − T)), rounded to half precision: the fit takes the rounding into
+    /// account.
     pub fn new(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium, axis: Axis) -> Self {
         let collocation = Collocation::new(axis);
         let exact = collocation.solve(&mean_logarithm(tensor, geometry, medium));
@@ -114,7 +115,8 @@ fn mean_logarithm(tensor: &Tensor, geometry: &ChunkGeometry, medium: &Medium) ->
     mean
 }
 
-/// Some channels (whole fields) divided by opacity and level: values of order one, `[view][phi][elevation][field][wavelength]`.
+/// Some channels (whole fields) divided by opacity and level: values of order one,
+/// `[view][phi][elevation][field][wavelength]`.
 pub fn normalise(
     tensor: &Tensor,
     geometry: &ChunkGeometry,

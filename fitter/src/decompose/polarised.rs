@@ -47,7 +47,8 @@ impl PolarisedChunk {
     }
 }
 
-/// Decomposes the polarisation of all chunks together. `progress` is told the sweep and the root mean square of the relative errors.
+/// Decomposes the polarisation of all chunks together. `progress` is told the sweep and the root mean square of the
+/// relative errors.
 pub fn polarise(
     chunks: Vec<PolarisedChunk>,
     options: Options,
@@ -83,7 +84,8 @@ fn is_odd(channel: usize) -> bool {
     channel / NW % 2 == 1
 }
 
-/// Divides U, which is odd in the azimuth, by the azimuth's sine. Its sine series gives the limits towards the sun and away from it.
+/// Divides U, which is odd in the azimuth, by the azimuth's sine. Its sine series gives the limits towards the sun and
+/// away from it.
 fn divide_by_sine(values: &mut [f64], [_, phis, elevations, channels]: [usize; 4]) {
     let stride = elevations * channels;
     let divisor = SineDivision::new(phis);
@@ -127,7 +129,8 @@ impl SineDivision {
     }
 }
 
-/// Factors per view and per solar elevation that make an error count relative to the radiance: geometric means of its inverse.
+/// Factors per view and per solar elevation that make an error count relative to the radiance: geometric means of its
+/// inverse.
 fn inverse_radiance(chunk: &Chunk) -> [Vec<f64>; 2] {
     let [views, phis, elevations] = chunk.sites;
     let mut weights = [vec![0.0; views], vec![0.0; elevations]];

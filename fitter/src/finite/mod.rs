@@ -1,4 +1,5 @@
-//! What the model file needs for finite distances: densities of the air and the source function of multiply scattered light.
+//! What the model file needs for finite distances: densities of the air and the source function of multiply scattered
+//! light.
 
 pub mod density;
 mod modes;

@@ -1,8 +1,9 @@
 //! The source function of multiply scattered light, from the moments of the light field to a few components.
 //!
-//! At a point, in a direction and under a sun, the source is `σ_R · S_R + σ_A · S_A`: what molecules and what particles make of the
-//! incoming light. `S_R` depends on four numbers (the coherency tensor), `S_A` on the harmonics of the radiance times those of the
-//! local mixture's phase function. Divided by a level per sun and wavelength, both are smooth in every variable.
+//! At a point, in a direction and under a sun, the source is `σ_R · S_R + σ_A · S_A`: what molecules and what particles
+//! make of the incoming light. `S_R` depends on four numbers (the coherency tensor), `S_A` on the harmonics of the
+//! radiance times those of the local mixture's phase function. Divided by a level per sun and wavelength, both are
+//! smooth in every variable.
 
 use super::modes::{Tensor, gram, leading, project};
 use crate::successive_orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
@@ -13,7 +14,8 @@ use welkin::format::{PhaseFunction, Ranks, SOURCE_FIELDS, SourceBasis, SourceCor
 
 /// Channels: field · NW + wavelength.
 const CHANNELS: usize = SOURCE_FIELDS * NW;
-/// How much a component of the tensor counts against a harmonic: isotropic light gives both the same share of the source.
+/// How much a component of the tensor counts against a harmonic: isotropic light gives both the same share of the
+/// source.
 const TENSOR_WEIGHT: f64 = 4.0;
 /// Up to here (m) all altitudes count alike; above, ever less.
 const DENSE_AIR: f64 = 16_000.0;

@@ -55,7 +55,8 @@ impl Settings {
     }
 }
 
-/// Renders a picture at the tracer's `wavelengths` (nm); `done` is called after every row. The result depends on the arguments only.
+/// Renders a picture at the tracer's `wavelengths` (nm); `done` is called after every row. The result depends on the
+/// arguments only.
 pub fn render(
     tracer: &Tracer,
     wavelengths: &[f64],

@@ -1,4 +1,5 @@
-//! The successive-orders solver before outside references: the light field of a reference's atmosphere, gathered along its lines of sight.
+//! The successive-orders solver before outside references: the light field of a reference's atmosphere, gathered along
+//! its lines of sight.
 
 use super::traced_lines::query;
 use crate::atmosphere::json::Case;
@@ -11,8 +12,8 @@ use anyhow::{Context, Result, bail};
 use std::f64::consts::FRAC_PI_2;
 use welkin::geometry::Side;
 
-/// Light that the air scatters, for each row of `case`; without standard errors, as it has no noise. Ground that is seen is
-/// black.
+/// Light that the air scatters, for each row of `case`; without standard errors, as it has no noise. Ground that is
+/// seen is black.
 pub fn gather(case: &Case, settings: Settings) -> Result<Vec<Radiance>> {
     let medium = Medium::new(repeated(&case.atmosphere)?, 0.0)?;
     let light = solve(&medium, settings, &|_| ());

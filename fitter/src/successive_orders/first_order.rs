@@ -3,7 +3,8 @@
 use super::scattered_source::{DARK, Stokes, Sun};
 use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
 
-/// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one per constituent.
+/// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one
+/// per constituent.
 pub fn add(profiles: &[f32], sunlight: &Spectrum, weight: &Spectrum, sums: &mut [Spectrum]) {
     for (sum, p) in sums.iter_mut().zip(profiles) {
         for w in 0..NW {
@@ -17,7 +18,8 @@ pub fn rayleigh(medium: &Medium, sums: &[Spectrum]) -> Spectrum {
     weighted(medium.parts.iter().map(|part| &part.rayleigh).zip(sums))
 }
 
-/// Line integrals of each aerosol species (by its position within the constituents), per steradian, without phase functions.
+/// Line integrals of each aerosol species (by its position within the constituents), per steradian, without phase
+/// functions.
 pub fn aerosol(medium: &Medium, species: usize, sums: &[Spectrum]) -> Spectrum {
     weighted(
         medium

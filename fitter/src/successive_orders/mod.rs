@@ -1,9 +1,11 @@
-//! The successive-orders solver: the whole light field of an atmosphere by successive orders of scattering, without noise.
+//! The successive-orders solver: the whole light field of an atmosphere by successive orders of scattering, without
+//! noise.
 //!
-//! Single scattering is integrated along each ray. Multiple scattering is smooth, so it is kept as angular moments of the light
-//! field on a grid of altitudes and sun zeniths (`moments`), filled order by order ([`fn@solve`]) and gathered along each view ray
-//! ([`view_rays`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency tensor of the incoming light; aerosols
-//! scatter spherical harmonics of the intensity and depolarise. The Monte Carlo tracer is its reference.
+//! Single scattering is integrated along each ray. Multiple scattering is smooth, so it is kept as angular moments of
+//! the light field on a grid of altitudes and sun zeniths (`moments`), filled order by order ([`fn@solve`]) and
+//! gathered along each view ray ([`view_rays`]). Rayleigh scattering is exact with polarisation, as the 3×3 coherency
+//! tensor of the incoming light; aerosols scatter spherical harmonics of the intensity and depolarise. The Monte Carlo
+//! tracer is its reference.
 
 pub mod first_order;
 pub mod moments;

@@ -151,7 +151,8 @@ pub const DEGREES: [usize; HARMONICS] = {
     out
 };
 
-/// Orthonormal real harmonics without their azimuth factor: `N_lm P_lm(cos θ)`, √2 included for m > 0; sorted by m, then l.
+/// Orthonormal real harmonics without their azimuth factor: `N_lm P_lm(cos θ)`, √2 included for m > 0; sorted by m,
+/// then l.
 pub fn polar_harmonics(cosine: f64) -> [f32; HARMONICS] {
     let sine = ((1.0 - cosine) * (1.0 + cosine)).max(0.0).sqrt();
     let mut out = [0.0; HARMONICS];

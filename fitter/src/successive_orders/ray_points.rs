@@ -108,8 +108,8 @@ fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
         .min(fineness * LONGEST)
 }
 
-/// How far one may climb before the profiles change: finest across the inversion at 2 km, and ever finer towards the edge of air that
-/// does not end where the grid of the light field does.
+/// How far one may climb before the profiles change: finest across the inversion at 2 km, and ever finer towards the
+/// edge of air that does not end where the grid of the light field does.
 fn height_step(h: f64, top: f64) -> f64 {
     match h {
         h if h < 1300.0 => 400.0,

@@ -7,7 +7,8 @@ use super::moments::{
 use super::ray_points::Node;
 use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum};
 
-/// Intensity and linear polarisation per wavelength, against (e1, e2): e1 in the vertical plane of the ray, e2 horizontal.
+/// Intensity and linear polarisation per wavelength, against (e1, e2): e1 in the vertical plane of the ray, e2
+/// horizontal.
 pub type Stokes = [Spectrum; 3];
 /// No light.
 pub const DARK: Stokes = [[0.0; NW]; 3];
@@ -53,8 +54,8 @@ impl Sun {
 const AZIMUTHAL: usize = ORDERS + 1;
 const ROW: usize = TENSOR + AZIMUTHAL;
 
-/// What one sun node scatters towards the observer: tensor components, then azimuthal orders, each over wavelength; flat, so that
-/// interpolation is one loop.
+/// What one sun node scatters towards the observer: tensor components, then azimuthal orders, each over wavelength;
+/// flat, so that interpolation is one loop.
 type Row = [f32; ROW * NW];
 
 /// The source function of multiply scattered light at a node, contracted to what depends on the sun alone.

@@ -50,7 +50,8 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is a point).
+    /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is
+    /// a point).
     pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {
         ensure!(
             atmosphere.wavelengths.len() == NW,
@@ -119,9 +120,11 @@ impl Medium {
         self.attenuate(&columns.map(|c| c as f32))
     }
 
-    /// Transmittance from `altitude` to the sun, whose centre stands `mu` above the local horizontal (sine of its elevation).
+    /// Transmittance from `altitude` to the sun, whose centre stands `mu` above the local horizontal (sine of its
+    /// elevation).
     ///
-    /// Near the planet's edge it is the share of the disc above the horizon, seen through the air at the centroid of that share.
+    /// Near the planet's edge it is the share of the disc above the horizon, seen through the air at the centroid of
+    /// that share.
     pub fn sunlight(&self, altitude: f64, mu: f64) -> Option<Spectrum> {
         let dip = self.sun.planet().dip(altitude);
         let angle = mu.clamp(-1.0, 1.0).asin() + dip;
@@ -150,8 +153,8 @@ impl Medium {
     }
 }
 
-/// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's centre, for
-/// a centre `x` radii above the horizon.
+/// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's
+/// centre, for a centre `x` radii above the horizon.
 fn visible_disc(x: f64) -> (f64, f64) {
     use std::f64::consts::PI;
     let chord = 1.0 - x * x;

@@ -15,8 +15,8 @@ pub const POLARISED: usize = 4;
 
 /// Light along a view ray, divided by what the evaluator multiplies back.
 ///
-/// Singly scattered light is stored without its phase function; soot shares the phase function of the water-soluble particles and
-/// the small difference goes to the multiply scattered light.
+/// Singly scattered light is stored without its phase function; soot shares the phase function of the water-soluble
+/// particles and the small difference goes to the multiply scattered light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fields {
     /// Single Rayleigh scattering, over its phase function.
@@ -32,7 +32,8 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// The five intensities in the order of the file, then Q and U of the multiply scattered light and of the light from the ground.
+    /// The five intensities in the order of the file, then Q and U of the multiply scattered light and of the light
+    /// from the ground.
     pub fn spectra(&self) -> [&Spectrum; FIELDS + POLARISED] {
         let ([i, q, u], [ground_i, ground_q, ground_u]) = (&self.multiple, &self.ground);
         let (rayleigh, fine, coarse) = (&self.rayleigh, &self.fine, &self.coarse);
@@ -80,7 +81,8 @@ impl<'a> Gatherer<'a> {
         self.planet
     }
 
-    /// The ray from `altitude` (m) at `elevation` (rad) above the local horizontal; on the side of the horizon that `side` says.
+    /// The ray from `altitude` (m) at `elevation` (rad) above the local horizontal; on the side of the horizon that
+    /// `side` says.
     pub fn path(&self, altitude: f64, elevation: f64, side: Side) -> Path {
         let ray = self.planet.ray(altitude, elevation);
         let length = if ray.side == side {

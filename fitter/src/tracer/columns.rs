@@ -23,7 +23,8 @@ struct Point {
 }
 
 impl<const N: usize> Medium<N> {
-    /// Column densities (m) of all constituents between the distances `from` and `to` along `line`; nothing below the ground.
+    /// Column densities (m) of all constituents between the distances `from` and `to` along `line`; nothing below the
+    /// ground.
     pub fn columns(&self, line: &Line, from: f64, to: f64) -> Columns {
         let (a, b) = (line.start + from, line.start + to);
         let mut sum = [0.0; MAX_CONSTITUENTS];

@@ -1,7 +1,7 @@
 //! The sun's disc: uniformly bright, of unit irradiance. A radius of 0 makes it a point.
 //!
-//! Walks sample the disc. The lobes of all phase functions are far wider than it, so sampling phase functions to find it would add
-//! nothing (its weight in a balance heuristic would be below 1e-4).
+//! Walks sample the disc. The lobes of all phase functions are far wider than it, so sampling phase functions to find
+//! it would add nothing (its weight in a balance heuristic would be below 1e-4).
 
 use super::stokes::Frame;
 use glam::DVec3;

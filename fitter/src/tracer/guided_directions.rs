@@ -1,6 +1,7 @@
 //! A second density for directions: a lobe around the brightest part of the sky, mixed with the phase function.
 //!
-//! Under a low sun most light comes from a small part of the sky, which phase functions as broad as Rayleigh's rarely hit.
+//! Under a low sun most light comes from a small part of the sky, which phase functions as broad as Rayleigh's rarely
+//! hit.
 
 use super::phase::{henyey_greenstein, sample_henyey_greenstein};
 use super::stokes::Frame;
@@ -49,7 +50,8 @@ impl Glow {
     }
 }
 
-/// Weights multiply from one scattering to the next, so by day, when the lobe is of little use, only the first two get it.
+/// Weights multiply from one scattering to the next, so by day, when the lobe is of little use, only the first two get
+/// it.
 fn share(sine: f64, scatterings: usize) -> f64 {
     match scatterings {
         _ if sine < -0.02 => 0.5,

@@ -1,8 +1,8 @@
 //! The reference tracer: unbiased, spectral, polarised Monte Carlo in a spherical atmosphere.
 //!
-//! Light that is scattered once comes from quadrature (`single`); all else from random walks (`walk`) that start on the line of
-//! sight. Results are kept apart by the number of ground bounces, so that any ground albedo can be evaluated afterwards, and
-//! by batch, so that standard errors are honest for any of them.
+//! Light that is scattered once comes from quadrature (`single`); all else from random walks (`walk`) that start on the
+//! line of sight. Results are kept apart by the number of ground bounces, so that any ground albedo can be evaluated
+//! afterwards, and by batch, so that standard errors are honest for any of them.
 
 #![allow(
     clippy::needless_range_loop,
@@ -178,8 +178,8 @@ impl Tracer {
         })
     }
 
-    /// Estimates one query with `samples` walks per batch in each of [`BATCHES`] batches, on rayon's threads. The result depends on
-    /// the arguments only.
+    /// Estimates one query with `samples` walks per batch in each of [`BATCHES`] batches, on rayon's threads. The
+    /// result depends on the arguments only.
     pub fn estimate(&self, query: &Query, samples: usize, seed: u64) -> Result<Estimate> {
         query.check(self.top)?;
         Ok(Estimate::join(
@@ -213,8 +213,8 @@ impl Tracer {
             .collect()
     }
 
-    /// What a camera sees in one pixel: the mean over `samples` walks in directions that `direction` makes of two numbers in 0..1.
-    /// The result depends on the arguments only. Ground and solids reflect what `view` says.
+    /// What a camera sees in one pixel: the mean over `samples` walks in directions that `direction` makes of two
+    /// numbers in 0..1. The result depends on the arguments only. Ground and solids reflect what `view` says.
     pub fn pixel(
         &self,
         view: &View,
@@ -238,8 +238,8 @@ impl Tracer {
         Ok(all)
     }
 
-    /// Walks per batch that should bring the standard error of I to `target` times I at `albedo`, from a pilot run whose results
-    /// are not used: stopping when the error looks small would bias the result.
+    /// Walks per batch that should bring the standard error of I to `target` times I at `albedo`, from a pilot run
+    /// whose results are not used: stopping when the error looks small would bias the result.
     pub fn samples_for(&self, query: &Query, target: f64, albedo: f64, seed: u64) -> Result<usize> {
         if self.options.orders == Orders::Single {
             return Ok(0);

@@ -4,7 +4,8 @@ use super::stokes::Scattering;
 use super::tabulated::Tabulated;
 use crate::atmosphere::matrix::Matrix;
 
-/// What Henyey-Greenstein aerosols do to polarised light (the published model does not say). Tabulated matrices say it themselves.
+/// What Henyey-Greenstein aerosols do to polarised light (the published model does not say). Tabulated matrices say it
+/// themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Aerosol {
     /// Scattered light is natural: the main columns of the outside references, and the default.

@@ -32,8 +32,8 @@ fn mix(x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// A Kronecker sequence with the generalised golden ratios, shifted at random: every point is uniform, so every batch is unbiased,
-/// and the points of a batch fill the cube evenly.
+/// A Kronecker sequence with the generalised golden ratios, shifted at random: every point is uniform, so every batch
+/// is unbiased, and the points of a batch fill the cube evenly.
 pub struct Lattice {
     shift: [f64; LATTICE_DIMENSIONS],
     step: [f64; LATTICE_DIMENSIONS],

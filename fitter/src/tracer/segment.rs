@@ -1,4 +1,5 @@
-//! Where along a ray to look for sunlight: a piecewise linear density that follows scattering × transmittance × sunlight.
+//! Where along a ray to look for sunlight: a piecewise linear density that follows scattering × transmittance ×
+//! sunlight.
 
 use super::linear_density::linear;
 use super::medium::Medium;

@@ -7,8 +7,8 @@ use super::stokes::{Mueller, Scattering};
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_PI, PI};
 
-/// Pieces whose estimated error exceeds this part of the whole are halved. The estimate is the 7-point rule's error, far above
-/// the 15-point rule's.
+/// Pieces whose estimated error exceeds this part of the whole are halved. The estimate is the 7-point rule's error,
+/// far above the 15-point rule's.
 const TOLERANCE: f64 = 2e-6;
 const DEEPEST: usize = 14;
 

@@ -2,22 +2,23 @@
 //!
 //! Light is *I, Q, U*: circular polarisation is not followed.
 //!
-//! A [`Frame`] belongs to a direction `w` in which one **looks** (the light travels along −`w`). It has a reference axis `e1` ⟂ `w`
-//! and `e2 = w × e1`. A polariser turned by ψ from `e1` towards `e2` passes ½(I + Q cos 2ψ + U sin 2ψ): Q is what passes along `e1`
-//! less what passes along `e2`; U what passes along the diagonal `e1 + e2` less that along `e1 − e2`.
+//! A [`Frame`] belongs to a direction `w` in which one **looks** (the light travels along −`w`). It has a reference
+//! axis `e1` ⟂ `w` and `e2 = w × e1`. A polariser turned by ψ from `e1` towards `e2` passes ½(I + Q cos 2ψ + U sin 2ψ):
+//! Q is what passes along `e1` less what passes along `e2`; U what passes along the diagonal `e1 + e2` less that along
+//! `e1 − e2`.
 //!
-//! At the **observer** `e1` lies in the vertical plane and points up, `e2` points to the right. Under a mirror about the sun's
-//! vertical plane Q is even and U is odd.
+//! At the **observer** `e1` lies in the vertical plane and points up, `e2` points to the right. Under a mirror about
+//! the sun's vertical plane Q is even and U is odd.
 //!
-//! **Scattering** from the looked-at direction `w'` into `w` (as seen backwards) uses the scattering plane's normal
-//! `n = w × w' / |w × w'|` as `e2` of both frames, so Q is parallel minus perpendicular to the scattering plane, and the matrix is
-//! `F11 F12 0 / F12 F22 0 / 0 0 F33` with mean F11 over the sphere 1.
+//! **Scattering** from the looked-at direction `w'` into `w` (as seen backwards) uses the scattering plane's normal `n
+//! = w × w' / |w × w'|` as `e2` of both frames, so Q is parallel minus perpendicular to the scattering plane, and the
+//! matrix is `F11 F12 0 / F12 F22 0 / 0 0 F33` with mean F11 over the sphere 1.
 //!
-//! Particles as large as the wavelength turn some U into V and back (F34). That takes two such scatterings of light already polarised,
-//! so V is left out for them, too.
+//! Particles as large as the wavelength turn some U into V and back (F34). That takes two such scatterings of light
+//! already polarised, so V is left out for them, too.
 //!
-//! The walk runs from the observer to the sun and so keeps the *product* of all Mueller matrices met so far ([`Mueller`]), which
-//! maps Stokes vectors in the walk's present frame to Stokes vectors in the observer's frame.
+//! The walk runs from the observer to the sun and so keeps the *product* of all Mueller matrices met so far
+//! ([`Mueller`]), which maps Stokes vectors in the walk's present frame to Stokes vectors in the observer's frame.
 
 use glam::DVec3;
 
@@ -143,7 +144,8 @@ impl<const N: usize> Mueller<N> {
         }
     }
 
-    /// Changes the frame of the right side: afterwards it takes Stokes vectors whose `e1` is turned by α (cosine, sine).
+    /// Changes the frame of the right side: afterwards it takes Stokes vectors whose `e1` is turned by α (cosine,
+    /// sine).
     pub fn turn(&mut self, (cos, sin): (f64, f64)) {
         let (c2, s2) = (cos * cos - sin * sin, 2.0 * sin * cos);
         for row in &mut self.0 {
@@ -175,7 +177,8 @@ impl<const N: usize> Mueller<N> {
         }
     }
 
-    /// Stokes vector at the observer of natural light that is scattered once more, in the plane at angle α (cosine, sine).
+    /// Stokes vector at the observer of natural light that is scattered once more, in the plane at angle α (cosine,
+    /// sine).
     pub fn natural(&self, (cos, sin): (f64, f64), f: &Scattering<N>) -> [[f64; N]; 3] {
         let (c2, s2) = (cos * cos - sin * sin, 2.0 * sin * cos);
         self.0.map(|row| {

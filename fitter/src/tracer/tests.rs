@@ -226,9 +226,9 @@ fn impossible_queries_are_refused() {
     }
 }
 
-/// Under a high sun the disc changes nothing. At night light scattered once comes from above the shadow, where the air thins by e
-/// over 8 km; the shadow's edges for the upper and lower rim of the sun are 7 km apart, so the disc brightens by about
-/// (7/2/8)² / 8 = 2.5 %.
+/// Under a high sun the disc changes nothing. At night light scattered once comes from above the shadow, where the air
+/// thins by e over 8 km; the shadow's edges for the upper and lower rim of the sun are 7 km apart, so the disc
+/// brightens by about (7/2/8)² / 8 = 2.5 %.
 #[test]
 fn the_suns_disc_matters_at_the_shadows_edge_only() {
     let radius = 0.2667_f64.to_radians();

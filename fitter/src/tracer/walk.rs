@@ -1,9 +1,9 @@
 //! The random walk from the observer towards the sun.
 //!
-//! Free flights by delta tracking with a majorant per shell. One *hero* wavelength decides; every wavelength is weighted with
-//! the balance heuristic over all heroes: `m` holds f(λ) / p(hero), `pdf` holds p(λ) / p(hero), and light is gathered as
-//! `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see [`Segment`]); that point's
-//! density does not depend on the hero.
+//! Free flights by delta tracking with a majorant per shell. One *hero* wavelength decides; every wavelength is
+//! weighted with the balance heuristic over all heroes: `m` holds f(λ) / p(hero), `pdf` holds p(λ) / p(hero), and light
+//! is gathered as `m · n / Σ pdf`. Sunlight is sampled once per flight, at a point of its own along the ray (see
+//! [`Segment`]); that point's density does not depend on the hero.
 
 use super::guided_directions::Glow;
 use super::medium::{Columns, Medium};
@@ -72,8 +72,8 @@ pub struct Walker<'a, const N: usize> {
 
 /// How far from a surface walks go on, m: their own surface must not stop them.
 const CLEARANCE: f64 = 1e-3;
-/// Flights of a walk and tentative collisions of a flight after which it ends: more than any air has use for that light gets
-/// through (some thousand optical depths), so that no walk is endless in air that has none.
+/// Flights of a walk and tentative collisions of a flight after which it ends: more than any air has use for that light
+/// gets through (some thousand optical depths), so that no walk is endless in air that has none.
 const MOST_FLIGHTS: usize = 1 << 20;
 const MOST_COLLISIONS: usize = 1 << 24;
 

@@ -172,7 +172,8 @@ impl Plan {
         Ok(Sample::from_values(&values))
     }
 
-    /// The atmosphere of a visibility (m) and traced samples for the reference tracer: every direction has two suns of its own.
+    /// The atmosphere of a visibility (m) and traced samples for the reference tracer: every direction has two suns of
+    /// its own.
     pub fn judged_samples(
         &self,
         work: &Path,

@@ -1,4 +1,5 @@
-//! Choices from the fuzzer's bytes: the same bytes give the same choices, and missing ones are drawn from those that were there.
+//! Choices from the fuzzer's bytes: the same bytes give the same choices, and missing ones are drawn from those that
+//! were there.
 
 pub struct Bytes<'a> {
     rest: &'a [u8],

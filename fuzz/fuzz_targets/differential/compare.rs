@@ -127,9 +127,9 @@ fn values(
     wrong.map(|((a, b), tolerance)| format!("{a} and {b}, more than {tolerance} apart"))
 }
 
-/// Whether the specification promises nothing about the light of a segment: the source is not smooth, or the view so steep that
-/// it may count as vertical; or only wishes, for segments that leave the air, and for long ones in twilight, of which quadratures
-/// differ most.
+/// Whether the specification promises nothing about the light of a segment: the source is not smooth, or the view so
+/// steep that it may count as vertical; or only wishes, for segments that leave the air, and for long ones in twilight,
+/// of which quadratures differ most.
 fn is_rough(case: &Case, question: &Question) -> bool {
     let [.., distance] = question.cells;
     let twilight = question.cells[3] < 0.0 && distance > 100.0;

@@ -1,7 +1,7 @@
 //! All readers about the same file: they accept and refuse the same, for the same reasons, and give the same values.
 //!
-//! The input is a list of choices: a file of the conformance suite, changes of its parts, and questions. Lengths and checksums are
-//! made right, so that what is behind them is reached.
+//! The input is a list of choices: a file of the conformance suite, changes of its parts, and questions. Lengths and
+//! checksums are made right, so that what is behind them is reached.
 #![no_main]
 
 #[path = "../../../tests/common/answer.rs"]
@@ -108,7 +108,8 @@ fn complain(complaint: &str) {
     }
 }
 
-/// The general evaluator does not look at checksums and numbers of chunks: where others refuse them it may say anything.
+/// The general evaluator does not look at checksums and numbers of chunks: where others refuse them it may say
+/// anything.
 fn check_general(check: &dyn Fn(&str, Report), library: &Report, mut general: Report) {
     if let (Ok(library), Ok(general)) = (library, &mut general) {
         for (expected, got) in library.iter().zip(general) {

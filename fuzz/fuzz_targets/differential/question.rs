@@ -17,8 +17,8 @@ pub const QUANTITIES: [&str; 9] = [
 ];
 pub const FIRST_SEGMENT: u32 = 6;
 
-/// Cells as in the conformance suite: altitude, visibility, albedo, elevation and azimuth of the sun, direction, wavelength,
-/// distance.
+/// Cells as in the conformance suite: altitude, visibility, albedo, elevation and azimuth of the sun, direction,
+/// wavelength, distance.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Question {

@@ -108,7 +108,8 @@ pub fn c(file: &[u8], questions: &[Question]) -> Report {
         values: [0.0; MOST_VALUES],
     };
     let mut answers = vec![empty; questions.len()];
-    // SAFETY: the function reads so many bytes and questions, and writes so many answers, whose layouts are those of reader.c.
+    // SAFETY: the function reads so many bytes and questions, and writes so many answers, whose layouts are those of
+    // reader.c.
     let error = unsafe {
         welkin_c_reader(
             file.as_ptr(),

@@ -1,4 +1,5 @@
-//! The sun of a date, a time and a place: Reda and Andreas 2004, *Solar Position Algorithm for Solar Radiation Applications*.
+//! The sun of a date, a time and a place: Reda and Andreas 2004, *Solar Position Algorithm for Solar Radiation
+//! Applications*.
 
 use jiff::Timestamp;
 use jiff::civil::{Date, DateTime};
@@ -65,7 +66,8 @@ fn instant(civil: DateTime, offset: Offset) -> Result<Timestamp> {
 pub struct Instants(Span<f64>);
 
 impl Instants {
-    /// Of a date and times of that day, or of a date that has its time. A course that would go back ends on the next day.
+    /// Of a date and times of that day, or of a date that has its time. A course that would go back ends on the next
+    /// day.
     pub fn new(date: &str, times: Option<Span<Time>>) -> Result<Self> {
         let wrong = |what: &str| Failure::message(format!("date \"{date}\": {what}"));
         let seconds = |instant: Timestamp| instant.as_second() as f64;
@@ -105,8 +107,8 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// The centre of the sun at an instant (seconds since 1970 in UTC), without refraction, as the light of the model goes
-    /// straight. +x is the east and +y the north.
+    /// The centre of the sun at an instant (seconds since 1970 in UTC), without refraction, as the light of the model
+    /// goes straight. +x is the east and +y the north.
     pub fn sun(&self, instant: f64) -> Result<Position> {
         let failed =
             |e: solar_positioning::Error| Failure::message(format!("position of the sun: {e}"));
@@ -134,8 +136,8 @@ impl Observer {
 mod tests {
     use super::*;
 
-    /// The example of the report of the algorithm (NREL/TP-560-34302, table A5.1): 17 October 2003, 12:30:30 at UTC−7, 39.742476° N,
-    /// 105.1786° W, 1830.14 m; zenith angle 50.11162° with 0.01632° of refraction, azimuth 194.34024°.
+    /// The example of the report of the algorithm (NREL/TP-560-34302, table A5.1): 17 October 2003, 12:30:30 at UTC−7,
+    /// 39.742476° N, 105.1786° W, 1830.14 m; zenith angle 50.11162° with 0.01632° of refraction, azimuth 194.34024°.
     #[test]
     fn the_example_of_the_report() {
         let times = Span::times("12:30:30-07:00").unwrap();

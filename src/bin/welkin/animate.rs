@@ -26,8 +26,8 @@ pub struct Options {
     /// How many frames the course of the sun has, both ends included.
     #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(1..=100_000), value_name = "COUNT")]
     frames: u32,
-    /// Render all frames anew, over whatever is there. Without, frames of the same call that exist whole are left as they are, and
-    /// others are refused before the first is rendered.
+    /// Render all frames anew, over whatever is there. Without, frames of the same call that exist whole are left as
+    /// they are, and others are refused before the first is rendered.
     #[arg(long)]
     overwrite: bool,
 }

@@ -8,7 +8,8 @@ use crate::failure::{Failure, Result};
 /// Where a picture looks.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Heading {
-    /// Azimuth that is looked to, degrees, counter-clockwise from +x: in the middle of the picture, or at the top of the up fish-eye.
+    /// Azimuth that is looked to, degrees, counter-clockwise from +x: in the middle of the picture, or at the top of
+    /// the up fish-eye.
     #[arg(long, default_value_t = 0.0, value_name = "DEG")]
     view_azimuth: f64,
 }

@@ -1,7 +1,7 @@
 //! The sun's disc in a picture: how much of its light each pixel gets.
 //!
-//! A pixel that the disc touches is divided until its parts are small beside the disc, so that what pixels have together is what
-//! the disc sends, however large they are.
+//! A pixel that the disc touches is divided until its parts are small beside the disc, so that what pixels have
+//! together is what the disc sends, however large they are.
 
 use welkin::{Conditions, Model, SOLAR_ANGULAR_RADIUS, SolarDisc, xyz_to_linear_srgb};
 
@@ -27,7 +27,8 @@ impl Disc {
         Ok(Self(model.solar_disc(conditions)?))
     }
 
-    /// The mean over a pixel, linear sRGB in cd m⁻²; `is_open` says whether nothing stands before the sun in a direction.
+    /// The mean over a pixel, linear sRGB in cd m⁻²; `is_open` says whether nothing stands before the sun in a
+    /// direction.
     pub fn rgb(
         &self,
         pixel: [usize; 2],
@@ -132,7 +133,8 @@ impl Part {
             .fold(0.0, f64::max)
     }
 
-    /// Whether any of the disc can be in it. Half as much again, as corners of a part at a pole are not its farthest points.
+    /// Whether any of the disc can be in it. Half as much again, as corners of a part at a pole are not its farthest
+    /// points.
     fn may_touch(&self, sun: [f64; 3], look: &impl Look) -> bool {
         let Some(middle) = look(self.middle) else {
             // A part beyond the edge of a fish-eye.

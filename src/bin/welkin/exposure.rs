@@ -18,9 +18,9 @@ const WHITE_AT_EV_0: f64 = 1.2;
 
 #[derive(clap::Args)]
 pub struct Exposure {
-    /// Exposure value of the PNG at ISO 100. Automatic if absent: the mean of the sky (a geometric mean over the upper hemisphere,
-    /// without the disc of the sun) is 0.36 of white, one stop above middle grey; the mean of a landscape (of all its pixels) 0.25.
-    /// It changes as smoothly as the sun moves.
+    /// Exposure value of the PNG at ISO 100. Automatic if absent: the mean of the sky (a geometric mean over the upper
+    /// hemisphere, without the disc of the sun) is 0.36 of white, one stop above middle grey; the mean of a landscape
+    /// (of all its pixels) 0.25. It changes as smoothly as the sun moves.
     #[arg(long, value_name = "EV", value_parser = value)]
     exposure: Option<f64>,
     /// Tone curve of the PNG.

@@ -46,7 +46,8 @@ pub struct Options {
     /// All wavelengths of the model instead of linear sRGB.
     #[arg(long)]
     spectral: bool,
-    /// The volume: .exr (six channels per slice, or two per wavelength) or .raw (a header of 64 bytes, then single precision);
+    /// The volume: .exr (six channels per slice, or two per wavelength) or .raw (a header of 64 bytes, then single
+    /// precision);
     /// - for standard output.
     #[arg(long, default_value = "froxels.exr", value_name = "FILE")]
     out: PathBuf,

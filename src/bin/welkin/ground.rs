@@ -1,7 +1,8 @@
 //! The lit ground under a sky: what fills the lower half of an environment map.
 //!
-//! Lambertian, of the albedo of the conditions, in the light of sun and sky at the place that is seen: there the sun stands
-//! higher or lower than above the observer. The air before it takes some of that and adds its own, which the sky has already.
+//! Lambertian, of the albedo of the conditions, in the light of sun and sky at the place that is seen: there the sun
+//! stands higher or lower than above the observer. The air before it takes some of that and adds its own, which the sky
+//! has already.
 
 use std::f64::consts::PI;
 
@@ -66,7 +67,8 @@ impl Ground {
         })
     }
 
-    /// Adds its spectral radiance (W m⁻² sr⁻¹ nm⁻¹), seen through the air, to that of the sky; nothing above the horizon.
+    /// Adds its spectral radiance (W m⁻² sr⁻¹ nm⁻¹), seen through the air, to that of the sky; nothing above the
+    /// horizon.
     pub fn add(&self, direction: [f32; 3], radiance: &mut [f32]) -> welkin::Result<()> {
         if let Some(ground) = self.seen(direction)? {
             radiance

@@ -1,7 +1,7 @@
 //! The header of an EXR file, so that the same picture is the same file.
 
-/// Sorts the attributes of a file with one part by name: the encoder writes those that it does not know in an order of their own
-/// every time. What is no such header is left as it is.
+/// Sorts the attributes of a file with one part by name: the encoder writes those that it does not know in an order of
+/// their own every time. What is no such header is left as it is.
 pub fn sort(file: &mut [u8]) {
     /// Magic number and version.
     const START: usize = 8;

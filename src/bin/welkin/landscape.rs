@@ -22,7 +22,8 @@ use crate::terrain::{FARTHEST, Field, Terrain, altitude, noise};
 pub struct Options {
     #[command(flatten)]
     lens: Lens,
-    /// Render a landscape in perspective instead of the sky alone: `flat`, `hills`, or a height field (.png or .exr, +y up).
+    /// Render a landscape in perspective instead of the sky alone: `flat`, `hills`, or a height field (.png or .exr, +y
+    /// up).
     #[arg(long, value_name = "FILE")]
     terrain: Option<PathBuf>,
     /// Width of the height field on the ground, km.
@@ -31,8 +32,8 @@ pub struct Options {
     /// Height of the hills or of white in the height field, m; 3000 m, or 1 for an EXR, if absent.
     #[arg(long, value_name = "M")]
     terrain_height: Option<f64>,
-    /// Look at the landscape through an ideal polariser that passes light along this angle from the top of the picture to the right,
-    /// degrees.
+    /// Look at the landscape through an ideal polariser that passes light along this angle from the top of the picture
+    /// to the right, degrees.
     #[arg(long, value_name = "DEG", requires = "terrain")]
     polariser: Option<f64>,
     /// How the light of the air before the terrain is computed.

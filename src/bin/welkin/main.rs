@@ -55,8 +55,8 @@ use welkin::format::printable;
 #[command(name = "welkin", version)]
 struct Arguments {
     /// Read model files into memory instead of mapping them. A mapped file that somebody truncates meanwhile ends the
-    /// command with SIGBUS, and one that somebody changes can give wrong numbers; files that are replaced by renaming, as
-    /// this command does, are safe either way. Costs time and memory for the whole file.
+    /// command with SIGBUS, and one that somebody changes can give wrong numbers; files that are replaced by renaming,
+    /// as this command does, are safe either way. Costs time and memory for the whole file.
     #[arg(long, global = true)]
     no_map: bool,
     #[command(subcommand)]

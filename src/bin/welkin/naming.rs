@@ -27,8 +27,8 @@ pub struct Named<F> {
     pub target: Target,
 }
 
-/// Which of the `formats`, listed with their extensions, `--out` means: by its extension, or as `--format` wishes where there is
-/// none. `None` if there is neither.
+/// Which of the `formats`, listed with their extensions, `--out` means: by its extension, or as `--format` wishes where
+/// there is none. `None` if there is neither.
 pub fn named<F: Copy + PartialEq>(
     path: &Path,
     wish: Option<F>,

@@ -13,8 +13,8 @@ use crate::tone::Film;
 
 #[derive(clap::Args)]
 pub struct Options {
-    /// Base name for an EXR and a PNG, or the name of one of them with its extension; - for standard output. What begins with a digit
-    /// is no extension.
+    /// Base name for an EXR and a PNG, or the name of one of them with its extension; - for standard output. What
+    /// begins with a digit is no extension.
     #[arg(long, default_value = "sky", value_name = "FILE")]
     out: PathBuf,
     /// Write only this, to the very file that --out names, where its name does not tell.

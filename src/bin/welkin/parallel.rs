@@ -54,8 +54,8 @@ pub fn pixels<T: Clone + Default + Send, E: Send>(
     Ok(pixels)
 }
 
-/// So many planes of a picture of `[width, height]`; `pixel` gets `[column, row]` and writes a value for each plane, with something
-/// that `scratch` makes at hand.
+/// So many planes of a picture of `[width, height]`; `pixel` gets `[column, row]` and writes a value for each plane,
+/// with something that `scratch` makes at hand.
 pub fn planes<S>(
     [width, height]: [usize; 2],
     count: usize,

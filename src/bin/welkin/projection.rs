@@ -11,8 +11,8 @@ pub enum Projection {
     Side,
     /// Whole sphere, zenith in the top row, the view azimuth in the middle column.
     LatLong,
-    /// Faces of a cube one below the other: +X, −X, +Y, −Y, +Z, −Z, of a left-handed frame with +Z in the view azimuth and +Y at the
-    /// zenith.
+    /// Faces of a cube one below the other: +X, −X, +Y, −Y, +Z, −Z, of a left-handed frame with +Z in the view azimuth
+    /// and +Y at the zenith.
     Cube,
 }
 
@@ -36,8 +36,8 @@ impl Projection {
         }
     }
 
-    /// Unit vector at a place in the picture, in pixels from its upper left corner, in a frame with +x in the view azimuth; `None`
-    /// outside the fish-eye.
+    /// Unit vector at a place in the picture, in pixels from its upper left corner, in a frame with +x in the view
+    /// azimuth; `None` outside the fish-eye.
     fn local(self, [column, row]: [f64; 2], [width, height]: [usize; 2]) -> Option<[f64; 3]> {
         let right = column / width as f64 * 2.0 - 1.0;
         let above = 1.0 - row / height as f64 * 2.0;

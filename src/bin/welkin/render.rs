@@ -46,8 +46,8 @@ pub struct Options {
     /// Fill what is below the horizon with the ground of the given albedo in the light of sun and sky; black if absent.
     #[arg(long, conflicts_with_all = ["stokes", "terrain"])]
     ground: bool,
-    /// Add the sun's disc, darker towards its limb; pixels that it covers in part get their share of its light. It is 10⁵ times as
-    /// bright as the sky: environment maps are better off with a light of their own (welkin light).
+    /// Add the sun's disc, darker towards its limb; pixels that it covers in part get their share of its light. It is
+    /// 10⁵ times as bright as the sky: environment maps are better off with a light of their own (welkin light).
     #[arg(long, conflicts_with_all = ["stokes", "polariser"])]
     sun: bool,
     /// What the picture shows.

@@ -16,8 +16,9 @@ pub struct Scene {
     /// Visibility (meteorological range) at the ground, km; 59.4 if absent.
     #[arg(long, value_name = "KM", conflicts_with = "turbidity")]
     visibility: Option<f64>,
-    /// Turbidity instead of the visibility: the vertical optical thickness of molecules and particles over that of the molecules at
-    /// 550 nm, without ozone (Preetham et al. 1999). 1.5 to 4.5 in the default model, where 59.4 km has 2.1.
+    /// Turbidity instead of the visibility: the vertical optical thickness of molecules and particles over that of the
+    /// molecules at 550 nm, without ozone (Preetham et al. 1999). 1.5 to 4.5 in the default model, where 59.4 km has
+    /// 2.1.
     #[arg(long, value_name = "RATIO")]
     turbidity: Option<f64>,
     /// Albedo of the ground, 0 to 1.
@@ -70,7 +71,8 @@ impl Scene {
         self.visibility.is_some() || self.turbidity.is_some()
     }
 
-    /// With `--clamp` the nearest that the model reaches; says on standard error what it moved. Otherwise all must be in the model.
+    /// With `--clamp` the nearest that the model reaches; says on standard error what it moved. Otherwise all must be
+    /// in the model.
     pub fn reached(&self, model: &Model, mut all: Vec<Conditions>) -> Result<Vec<Conditions>> {
         if !self.clamp {
             for conditions in &all {

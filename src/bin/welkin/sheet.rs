@@ -24,8 +24,8 @@ const ELEVATIONS: [f64; 7] = [-4.0, -2.0, 0.0, 2.0, 8.0, 30.0, 70.0];
 /// Rows: visibilities, km, and altitudes, m.
 const VISIBILITIES: [f64; 2] = [20.0, 131.8];
 const ALTITUDES: [f64; 4] = [0.0, 1e3, 4e3, 12e3];
-/// Solar elevations in the last row, degrees, seen from the ground at 59.4 km: the published model, whose nodes are elsewhere, shows
-/// a second glow and a crescent at the zenith in such places.
+/// Solar elevations in the last row, degrees, seen from the ground at 59.4 km: the published model, whose nodes are
+/// elsewhere, shows a second glow and a crescent at the zenith in such places.
 const BETWEEN: [f64; 4] = [5.23, 27.17, 58.46, 70.53];
 const BETWEEN_VISIBILITY: f64 = 59.4;
 const BACKGROUND: [u8; 3] = [24; 3];

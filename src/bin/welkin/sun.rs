@@ -12,11 +12,12 @@ pub struct Sun {
     /// Geometric elevation of the sun's centre, degrees; 20 if absent. A course FROM..TO for animate and contact-sheet.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub sun_elevation: Option<Span<f64>>,
-    /// Azimuth of the sun, degrees, counter-clockwise from +x seen from above; 0 if absent. A course FROM..TO for animate and
-    /// contact-sheet.
+    /// Azimuth of the sun, degrees, counter-clockwise from +x seen from above; 0 if absent. A course FROM..TO for
+    /// animate and contact-sheet.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     sun_azimuth: Option<Span<f64>>,
-    /// Date instead of the sun's angles, YYYY-MM-DD, with --time; or an instant with its offset from UTC, 2026-06-21T14:30+02:00.
+    /// Date instead of the sun's angles, YYYY-MM-DD, with --time; or an instant with its offset from UTC,
+    /// 2026-06-21T14:30+02:00.
     /// +x is then the east and +y the north.
     #[arg(
         long,

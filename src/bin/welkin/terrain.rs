@@ -29,8 +29,8 @@ pub struct Field {
 }
 
 impl Field {
-    /// From a grey or colour PNG (the first channel; black is 0, white `highest` m) or an EXR (the first channel in metres,
-    /// or in shares of `highest` where it is given), `width` metres wide.
+    /// From a grey or colour PNG (the first channel; black is 0, white `highest` m) or an EXR (the first channel in
+    /// metres, or in shares of `highest` where it is given), `width` metres wide.
     pub fn read(path: &Path, width: f64, highest: Option<f64>) -> Result<Self> {
         let fail = |text: String| Failure::message(format!("{}: {text}", path.display()));
         let extension = path.extension().map(|e| e.to_ascii_lowercase());
@@ -125,7 +125,8 @@ impl Terrain {
         self.height_under(x, y, 0.0)
     }
 
-    /// The same, or what is not lower than that where it is well below an altitude: who passes far above wants no detail.
+    /// The same, or what is not lower than that where it is well below an altitude: who passes far above wants no
+    /// detail.
     fn height_under(&self, x: f64, y: f64, altitude: f64) -> f64 {
         match self {
             Terrain::Flat => 0.0,
@@ -144,8 +145,8 @@ impl Terrain {
         }
     }
 
-    /// Distance at which a ray from `origin` (world frame: the origin on the ground, +z up) meets the terrain of a planet
-    /// with this radius.
+    /// Distance at which a ray from `origin` (world frame: the origin on the ground, +z up) meets the terrain of a
+    /// planet with this radius.
     pub fn hit(&self, radius: f64, origin: [f64; 3], direction: [f64; 3]) -> Option<f64> {
         let above = |s: f64| {
             let [x, y, z]: [f64; 3] = std::array::from_fn(|k| origin[k] + s * direction[k]);
@@ -218,8 +219,8 @@ fn hills([x, y]: [f64; 2], enough: f64) -> f64 {
     range * ridges(bent.map(|v| 1.6 * v), enough / range)
 }
 
-/// A ridged multifractal of 0 to 1: rough where it is high, smooth in valleys. After Musgrave, in Ebert et al. 2003, Texturing and
-/// Modeling. Or something higher that is less than `enough`.
+/// A ridged multifractal of 0 to 1: rough where it is high, smooth in valleys. After Musgrave, in Ebert et al. 2003,
+/// Texturing and Modeling. Or something higher that is less than `enough`.
 fn ridges([mut x, mut y]: [f64; 2], enough: f64) -> f64 {
     let (mut sum, mut amplitude, mut weight) = (0.0, 0.5, 1.0);
     for _ in 0..12 {

@@ -27,7 +27,8 @@ const FROM_ACES: [[f32; 3]; 3] = [
 /// Which light is white.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum WhiteBalance {
-    /// Daylight film: CIE D55, adapted to the white of the display after Bradford. The sky is as blue as on photographs.
+    /// Daylight film: CIE D55, adapted to the white of the display after Bradford. The sky is as blue as on
+    /// photographs.
     #[default]
     Daylight,
     /// The white of the display, CIE D65: colours as they are measured, those of the EXR.

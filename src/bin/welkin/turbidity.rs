@@ -1,7 +1,8 @@
 //! Turbidity, as other models of the sky describe the air, to the visibility that this one has.
 //!
-//! Equation 1 of Wilkie et al. 2021, after Preetham et al. 1999, *A Practical Analytic Model for Daylight*: the vertical optical
-//! thickness of molecules and particles over that of molecules, at 550 nm. The thickness is that of the air in the model.
+//! Equation 1 of Wilkie et al. 2021, after Preetham et al. 1999, *A Practical Analytic Model for Daylight*: the
+//! vertical optical thickness of molecules and particles over that of molecules, at 550 nm. The thickness is that of
+//! the air in the model.
 
 use std::io::Write;
 
@@ -11,7 +12,8 @@ use crate::failure::{Result, plain};
 
 /// nm.
 const WAVELENGTH: f64 = 550.0;
-/// Vertical optical thickness of dry air at 1013.25 hPa: Bodhaine et al. 1999, *On Rayleigh Optical Depth Calculations*.
+/// Vertical optical thickness of dry air at 1013.25 hPa: Bodhaine et al. 1999, *On Rayleigh Optical Depth
+/// Calculations*.
 const MOLECULES: f64 = 0.0971;
 /// Of 345 DU of ozone, as in the US standard atmosphere; it absorbs, and so counts for neither.
 const OZONE: f64 = 0.0306;

@@ -49,8 +49,8 @@ struct Source {
 }
 
 impl Oracle<'_> {
-    /// In-scattered light at every wavelength, towards the observer over a distance; the integral is cut into pieces that
-    /// are not longer than `step`, m.
+    /// In-scattered light at every wavelength, towards the observer over a distance; the integral is cut into pieces
+    /// that are not longer than `step`, m.
     pub fn in_scattering(&self, q: &Query, distance: f64, step: f64) -> Vec<Light> {
         let scene = self.scene(q);
         let start = [0.0, 0.0, self.radius() + q.altitude];
@@ -376,8 +376,8 @@ impl Oracle<'_> {
         sum * self.f32(at, 6)
     }
 
-    /// What a component of the moments looks like through polarisers along the axes `e1` and `e2`, in the local frame: to
-    /// molecules in L, Q and U, and to particles.
+    /// What a component of the moments looks like through polarisers along the axes `e1` and `e2`, in the local frame:
+    /// to molecules in L, Q and U, and to particles.
     fn moments(
         &self,
         source: &Source,

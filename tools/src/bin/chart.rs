@@ -1,5 +1,5 @@
-//! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release -p welkin-tools --bin chart`
-//! writes `docs/figures/settings.csv` and `.svg`.
+//! Speed against accuracy against bytes for every setting of the evaluators: `cargo run --release -p welkin-tools --bin
+//! chart` writes `docs/figures/settings.csv` and `.svg`.
 //!
 //! Errors are 95th percentiles against [`welkin::Sky`], of baked skies over a few conditions, of point queries over
 //! the whole model; times are the least of many repetitions.

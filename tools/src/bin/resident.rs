@@ -1,5 +1,6 @@
-//! Memory that a process holds, as CSV: `cargo run --release -p welkin-tools --bin resident -- MODEL [LOW HIGH]` evaluates one sky on the
-//! ground, or skies at altitudes between two (m), and prints what that added to an empty process (Linux).
+//! Memory that a process holds, as CSV: `cargo run --release -p welkin-tools --bin resident -- MODEL [LOW HIGH]`
+//! evaluates one sky on the ground, or skies at altitudes between two (m), and prints what that added to an empty
+//! process (Linux).
 
 use std::hint::black_box;
 use std::io::Error as IoError;

@@ -1,7 +1,7 @@
 //! The JSON atmosphere: profiles, scene and lines of sight of one test case in one file.
 //!
-//! Every species gives its extinction at the altitude nodes, at one wavelength or several. Lengths in metres, angles in degrees, as
-//! the names of the fields say; all of them are described in `docs/atmosphere.md`.
+//! Every species gives its extinction at the altitude nodes, at one wavelength or several. Lengths in metres, angles in
+//! degrees, as the names of the fields say; all of them are described in `docs/atmosphere.md`.
 
 mod species;
 mod spectral;

@@ -25,7 +25,8 @@ pub struct Species {
 }
 
 impl Species {
-    /// What it adds to an atmosphere: one constituent, or several where the shape of the profile changes with the wavelength.
+    /// What it adds to an atmosphere: one constituent, or several where the shape of the profile changes with the
+    /// wavelength.
     pub fn constituents(&self, nodes: usize, wavelengths: usize) -> Result<Vec<Constituent>> {
         self.extinction_per_m.check(nodes, wavelengths)?;
         let phase = self.phase(wavelengths)?;

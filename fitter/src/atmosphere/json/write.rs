@@ -7,8 +7,8 @@ use super::{Case, File};
 use anyhow::{Context, Result, bail};
 
 impl Case {
-    /// The text of a file that [`Case::parse`] reads back: every species with its extinction at every node and wavelength, so that
-    /// no other program needs to know how they are made. Numbers are written to the last bit.
+    /// The text of a file that [`Case::parse`] reads back: every species with its extinction at every node and
+    /// wavelength, so that no other program needs to know how they are made. Numbers are written to the last bit.
     ///
     /// # Errors
     /// Scattering matrices, for which the format has no words, and whatever `parse` refuses.

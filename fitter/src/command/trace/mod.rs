@@ -35,7 +35,8 @@ pub struct Args {
     /// Whether ground shines where it is seen directly.
     #[arg(long, value_enum, default_value = "lit")]
     visible_ground: Ground,
-    /// Aerosols: Henyey-Greenstein ones that depolarise or preserve polarisation, or full Mie matrices (real atmosphere only).
+    /// Aerosols: Henyey-Greenstein ones that depolarise or preserve polarisation, or full Mie matrices (real atmosphere
+    /// only).
     #[arg(long, value_enum, default_value = "depolarising")]
     aerosol: AerosolArg,
     /// Angular radius of the sun, degrees (0.2667 for the real one); 0 for a parallel beam.
@@ -44,8 +45,8 @@ pub struct Args {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Output CSV; standard output if absent or -. Rows that are done are kept in FILE.unfinished until all are, and the same command goes
-    /// on from there after an interruption.
+    /// Output CSV; standard output if absent or -. Rows that are done are kept in FILE.unfinished until all are, and
+    /// the same command goes on from there after an interruption.
     #[arg(long)]
     out: Option<PathBuf>,
 }

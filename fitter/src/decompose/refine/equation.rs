@@ -76,7 +76,8 @@ impl Equation {
     }
 }
 
-/// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one of them.
+/// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one
+/// of them.
 pub fn equations(chunk: &Chunk, site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
     let draw = rng.next_u64() as usize;
     let radiance = |k: usize| {

@@ -1,8 +1,9 @@
 //! Refinement of coupled factors in the measure that counts: relative radiance.
 //!
-//! The decomposition treats the fields one by one and all sites alike. Here each factor matrix in turn is moved, by linear least
-//! squares on a random selection of sites, to where the *sum* of the fields times their phase functions is right relative to the
-//! traced radiance. Steps are damped towards the present factors, so that the fields stay what they stand for.
+//! The decomposition treats the fields one by one and all sites alike. Here each factor matrix in turn is moved, by
+//! linear least squares on a random selection of sites, to where the *sum* of the fields times their phase functions is
+//! right relative to the traced radiance. Steps are damped towards the present factors, so that the fields stay what
+//! they stand for.
 
 mod equation;
 mod normal;

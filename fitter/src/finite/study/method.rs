@@ -86,8 +86,8 @@ impl<'a> Methods<'a> {
         }
     }
 
-    /// Light before it is kept from being negative, per unit of solar irradiance; `None` where Eq. 2 would need a sky from
-    /// beyond the model's altitudes.
+    /// Light before it is kept from being negative, per unit of solar irradiance; `None` where Eq. 2 would need a sky
+    /// from beyond the model's altitudes.
     pub fn light(&self, method: Method, case: &Case) -> Result<Option<Spectrum>> {
         let narrow = |values: [f64; NW]| Some(values.map(|v| v as f32));
         if method == Method::Quadrature {

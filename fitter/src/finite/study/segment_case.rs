@@ -71,8 +71,9 @@ impl Case {
     }
 }
 
-/// `count` random segments for each of the visibilities: 1 m to 300 km, never through the ground; observers up to `highest` (m); half of
-/// the directions crowd around the horizontal, half of the suns stand below 0°, and all crowd around it.
+/// `count` random segments for each of the visibilities: 1 m to 300 km, never through the ground; observers up to
+/// `highest` (m); half of the directions crowd around the horizontal, half of the suns stand below 0°, and all crowd
+/// around it.
 ///
 /// # Errors
 /// If hardly any segment is 1 m long: there is no air up to `highest`.

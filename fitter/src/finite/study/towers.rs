@@ -36,7 +36,8 @@ pub struct View {
 pub struct Views {
     /// Names of the pictures from left to right.
     pub names: Vec<String>,
-    /// The pictures in a row; below each its relative error in luminance: blue is −10 %, red +10 %, black not available.
+    /// The pictures in a row; below each its relative error in luminance: blue is −10 %, red +10 %, black not
+    /// available.
     pub sheet: Picture,
 }
 

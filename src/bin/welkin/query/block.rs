@@ -1,4 +1,5 @@
-//! A few ten thousand rows at a time: understood and answered by all threads, in an order that shares work, and written in theirs.
+//! A few ten thousand rows at a time: understood and answered by all threads, in an order that shares work, and written
+//! in theirs.
 
 use std::io;
 use std::sync::Mutex;

@@ -10,9 +10,9 @@ use welkin::{
 
 /// The model and what is prepared of it when it is first needed.
 ///
-/// The general evaluators verify all that they could ever read. Where that fails, because a chunk is missing or damaged, or because
-/// the file is too large for them, there are none: then what a row needs is prepared row by row, so that only rows that need the
-/// broken chunk get an error.
+/// The general evaluators verify all that they could ever read. Where that fails, because a chunk is missing or
+/// damaged, or because the file is too large for them, there are none: then what a row needs is prepared row by row, so
+/// that only rows that need the broken chunk get an error.
 pub struct Shared<'a> {
     pub model: &'a Model,
     pub clamp: bool,

@@ -157,8 +157,8 @@ fn absurd(detail: &str) -> welkin::Error {
     }
 }
 
-/// Solves a symmetric positive semidefinite system for three right-hand sides by Gauss-Jordan elimination. Unknowns of which
-/// nothing is known (no sky has light there) are 0.
+/// Solves a symmetric positive semidefinite system for three right-hand sides by Gauss-Jordan elimination. Unknowns of
+/// which nothing is known (no sky has light there) are 0.
 fn solve(n: usize, matrix: impl Fn(usize, usize) -> f64, right: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     let left = |i: usize| (0..n).map(|j| matrix(i, j)).collect::<Vec<_>>();
     let augmented = |(i, right): (usize, &[f64; 3])| [&left(i), right.as_slice()].concat();

@@ -198,8 +198,9 @@ fn report(scope: &Scope, quantity: Quantity, differences: &Differences) -> Value
     })
 }
 
-/// What the new file promises: the errors of its worst chunk, which are those of the source since chunks do not change, plus the
-/// difference to the source, which is all that fewer nodes and wavelengths add. Null if the source does not know its errors.
+/// What the new file promises: the errors of its worst chunk, which are those of the source since chunks do not change,
+/// plus the difference to the source, which is all that fewer nodes and wavelengths add. Null if the source does not
+/// know its errors.
 fn promise(chunks: &[Chunk], differences: &Differences) -> Value {
     let radiance = chunks
         .iter()

@@ -94,8 +94,8 @@ impl Samples {
 }
 
 impl Differences {
-    /// Where both are zero (ground seen from the ground) there is nothing to compare. Finite: what is not zero where the source
-    /// is counts relative to the smallest normal number.
+    /// Where both are zero (ground seen from the ground) there is nothing to compare. Finite: what is not zero where
+    /// the source is counts relative to the smallest normal number.
     pub fn between(got: &[f32], expected: &[f32]) -> Self {
         let pairs = got
             .iter()

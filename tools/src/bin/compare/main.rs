@@ -1,8 +1,8 @@
 //! Times and errors next to those of others, on the same directions in the same run.
 //!
-//! `cargo run --release -p welkin-tools --bin compare` prints a table, `-- --json` the same as JSON. Times are medians per query
-//! on one core; errors are 95th percentiles of relative differences from [`welkin::Sky`] (peers: from what they stand
-//! for). Only ratios mean something on another machine.
+//! `cargo run --release -p welkin-tools --bin compare` prints a table, `-- --json` the same as JSON. Times are medians
+//! per query on one core; errors are 95th percentiles of relative differences from [`welkin::Sky`] (peers: from what
+//! they stand for). Only ratios mean something on another machine.
 
 mod clock;
 mod finite;

@@ -1,6 +1,7 @@
-//! Whether baked skies pop: `cargo run --release -p welkin-tools --bin motion` walks along climbs, sunsets and changes of
-//! the visibility, and prints by how much small steps (0.1 m, 0.001°, 1 m of visibility) change pixels beyond the sky's own change, where
-//! the size of the tables changes and elsewhere; `-- --strips FOLDER` writes a climb and a sunset as strips of frames.
+//! Whether baked skies pop: `cargo run --release -p welkin-tools --bin motion` walks along climbs, sunsets and changes
+//! of the visibility, and prints by how much small steps (0.1 m, 0.001°, 1 m of visibility) change pixels beyond the
+//! sky's own change, where the size of the tables changes and elsewhere; `-- --strips FOLDER` writes a climb and a
+//! sunset as strips of frames.
 
 #[allow(dead_code)]
 mod steps;

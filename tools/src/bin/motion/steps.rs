@@ -152,8 +152,9 @@ impl View {
     }
 }
 
-/// Directions that a step does not carry over the horizon or away from it: where it moves by more than a tenth of their distance
-/// from it, as it does within 0.1° of it for the first 0.1 m above the ground and within 0.015° at 1 m, they see something else afterwards.
+/// Directions that a step does not carry over the horizon or away from it: where it moves by more than a tenth of their
+/// distance from it, as it does within 0.1° of it for the first 0.1 m above the ground and within 0.015° at 1 m, they
+/// see something else afterwards.
 fn stays(direction: [f32; 3], from: &Conditions, to: &Conditions) -> bool {
     let [before, after] =
         [from, to].map(|c| f64::from(direction[2]).asin().to_degrees() - horizon(c.altitude));
@@ -166,8 +167,8 @@ pub struct Jump {
     pub largest: f64,
     /// Where it is.
     pub direction: [f32; 3],
-    /// That of pixels that are wrong by more than a baked sky may be: where the fit of a sky falls through zero at dusk no
-    /// table follows.
+    /// That of pixels that are wrong by more than a baked sky may be: where the fit of a sky falls through zero at dusk
+    /// no table follows.
     pub lost: f64,
     /// Whether both skies keep the promised largest error.
     pub held: bool,
@@ -199,7 +200,8 @@ pub fn jump(from: &View, to: &View) -> Result<Jump> {
     Ok(worst)
 }
 
-/// Directions that crowd at the horizon, where the boundary layer ends (seen from above), and at the sun, and some anywhere.
+/// Directions that crowd at the horizon, where the boundary layer ends (seen from above), and at the sun, and some
+/// anywhere.
 pub fn directions(conditions: &Conditions) -> Vec<[f32; 3]> {
     let Conditions {
         altitude,

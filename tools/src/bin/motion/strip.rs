@@ -1,5 +1,5 @@
-//! Strips of frames: each frame is a column of pixels, from 10° below the horizon up to 30° above it under the sun. A pop would be a
-//! vertical edge. The lower half shows the error of the baked sky, ±1 % from black to white.
+//! Strips of frames: each frame is a column of pixels, from 10° below the horizon up to 30° above it under the sun. A
+//! pop would be a vertical edge. The lower half shows the error of the baked sky, ±1 % from black to white.
 
 use std::fs::File;
 use std::io::BufWriter;
