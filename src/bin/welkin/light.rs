@@ -64,7 +64,8 @@ fn table(out: &mut impl Write, options: &Options, model: &Model, light: &Light) 
     writeln!(
         out,
         "conditions          visibility {} km, albedo {}, altitude {} m",
-        conditions.visibility * 1e-3,
+        // To the metre: what turbidity asks for has no end.
+        conditions.visibility.round() / 1e3,
         conditions.albedo,
         conditions.altitude,
     )?;

@@ -1,7 +1,7 @@
 //! `welkin render`.
 
 use std::io::Write;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use welkin::{Conditions, Model, PolarisedSky, Sky};
 
@@ -71,6 +71,8 @@ pub struct Shot {
     sky: Sky,
     film: Film,
     pixels: usize,
+    /// How long the sky took.
+    prepared: Duration,
 }
 
 impl Options {
@@ -82,6 +84,7 @@ impl Options {
         outputs: &Outputs,
         marks: &[(&'static str, &str)],
     ) -> Result<Shot> {
+        let start = Instant::now();
         let polarised = match self.stokes || self.quantity != Quantity::Radiance {
             true => Some(model.polarised_sky(conditions)?),
             false => None,
@@ -90,6 +93,7 @@ impl Options {
             Some(polarised) => polarised.sky().clone(),
             None => model.sky(conditions)?,
         };
+        let prepared = start.elapsed();
         let azimuth = self.heading.azimuth()?;
         let mut about = About::scene(sky.conditions(), azimuth).with(marks);
         about.text("model", self.source.name());
@@ -114,6 +118,7 @@ impl Options {
             sky,
             film,
             pixels,
+            prepared,
         })
     }
 
@@ -196,8 +201,10 @@ pub fn run(options: &Options) -> Result<()> {
     let start = Instant::now();
     let model = options.source.open()?;
     let conditions = options.scene.conditions(&model)?;
+    let opened = start.elapsed();
     let shot = options.shot(&model, &conditions, &outputs, &[])?;
-    let rendered = start.elapsed();
+    let prepared = opened + shot.prepared;
+    let rendered = start.elapsed() - prepared;
     outputs.write(&shot.picture)?;
     let mut out = outputs.report();
     report(options, &model, &shot, &mut out)?;
@@ -206,7 +213,8 @@ pub fn run(options: &Options) -> Result<()> {
     }
     writeln!(
         out,
-        "time            {:.0} ms for {} pixels",
+        "time            {:.2} ms to open and prepare, {:.0} ms for {} pixels",
+        1e3 * prepared.as_secs_f64(),
         1e3 * rendered.as_secs_f64(),
         shot.pixels,
     )?;
@@ -237,7 +245,7 @@ fn report(options: &Options, model: &Model, shot: &Shot, out: &mut dyn Write) ->
     writeln!(
         out,
         "conditions      visibility {} km, albedo {}, altitude {} m",
-        plain((conditions.visibility * 1e3).round() * 1e-6),
+        plain(conditions.visibility.round() / 1e3),
         plain(conditions.albedo),
         plain(conditions.altitude),
     )?;
