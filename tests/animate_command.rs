@@ -135,7 +135,10 @@ fn courses_that_the_model_does_not_reach_are_refused_before_the_first_frame() {
         ("animate --frames 9 --out f", "--sun-elevation"),
         ("animate --sun-elevation 1..2 --frames 0 --out f", "frames"),
         ("animate --sun-elevation 1..2 --out -", "frames need a name"),
-        ("animate --sun-elevation 1..2 --out missing/f", "missing/f"),
+        (
+            "animate --sun-elevation 1..2 --out missing/frames/f",
+            "missing/f",
+        ),
         (
             "animate --sun-elevation 1..2 --visibility 5 --out f",
             "visibility must be in",
