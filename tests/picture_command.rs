@@ -225,8 +225,6 @@ fn hills_have_a_viewpoint() {
     assert_eq!(show(" --altitude 1500"), (1585.0, [104.0, 5.0]));
     let given = " --altitude 3000 --view-azimuth 20 --pitch -7";
     assert_eq!(show(given), (3002.0, [20.0, -7.0]));
-    // As high as a model goes.
-    assert_eq!(show(" --model m.welkin").0, 2002.0);
 }
 
 /// One byte per character would do for few names of files.
