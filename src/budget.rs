@@ -204,7 +204,7 @@ impl Model {
     /// # Errors
     /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.
     pub fn polarised_point_query(&self, plan: &Plan) -> Result<PolarisedPointQuery<'_>> {
-        let general = self.point_query(plan)?;
+        let query = self.point_query(plan)?;
         let head = self.head();
         let visibilities = head.visibilities.len();
         let mut chunks = vec![None; head.altitudes.len() * visibilities];
@@ -221,7 +221,7 @@ impl Model {
             chunks[a * visibilities + v] = Some(self.polarisation_chunk(a, v)?);
         }
         let factors = Factors::new(self.polarisation_basis()?, chunks, visibilities)?;
-        Ok(PolarisedPointQuery::new(general, factors))
+        Ok(PolarisedPointQuery::new(query, factors))
     }
 }
 

@@ -2,10 +2,11 @@
 
 use zerocopy::little_endian::U16;
 
+use super::capacity::{MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
 use super::contraction::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::neighbours::{Interpolation, Share};
+use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
-use super::{MOST_CONSTITUENTS, PointQuery, WAVELENGTH_BLOCKS};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{ColumnView, FactorsView};
@@ -34,7 +35,7 @@ impl Kernel for One<'_, '_> {
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = QueryCoordinates::new(model, &question);
+        let place = model.coordinates(&question);
         Query::around(model, &place)?.answer(instructions, self.out)
     }
 }
@@ -187,6 +188,18 @@ impl<'a, 'b> Query<'a, 'b> {
 }
 
 impl PointQuery<'_> {
+    /// Where a question stands on the axes.
+    #[inline(always)]
+    pub(super) fn coordinates(&self, question: &Question) -> QueryCoordinates {
+        QueryCoordinates::new(
+            &self.head,
+            &self.axes,
+            self.suns,
+            self.interpolation,
+            question,
+        )
+    }
+
     #[cold]
     pub(super) fn missing(
         &self,

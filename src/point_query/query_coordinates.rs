@@ -1,9 +1,8 @@
 //! Where a query stands on the axes of a model.
 
-use super::PointQuery;
 use super::contraction::{self, Components};
 use super::head_view::HeadView;
-use super::neighbours::Nodes;
+use super::neighbours::{Axis, Interpolation, Nodes};
 use crate::azimuth_fade::azimuthal;
 use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
@@ -59,9 +58,14 @@ impl Question {
 
 impl QueryCoordinates {
     #[inline(always)]
-    pub fn new(model: &PointQuery, question: &Question) -> Self {
-        let (head, [altitudes, visibilities]) = (&model.head, &model.axes);
-        let [over_altitude, over_visibility] = model.interpolation.curves();
+    pub fn new(
+        head: &HeadView,
+        [altitudes, visibilities]: &[Axis; 2],
+        suns: [f64; 2],
+        interpolation: Interpolation,
+        question: &Question,
+    ) -> Self {
+        let [over_altitude, over_visibility] = interpolation.curves();
         let Question {
             conditions,
             view: [x, y, z],
@@ -81,7 +85,7 @@ impl QueryCoordinates {
         let phi = (across as f32).atan2(along as f32 + 0.0);
         let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
-        let sun = axis.coordinate_between(model.suns, conditions.solar_elevation);
+        let sun = axis.coordinate_between(suns, conditions.solar_elevation);
         Self {
             altitudes: altitudes.around(conditions.altitude.cbrt(), over_altitude),
             visibilities: visibilities.around(1.0 / conditions.visibility, over_visibility),
