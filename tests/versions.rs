@@ -1,4 +1,4 @@
-//! The table of versions in CHANGELOG.md says what the sources say.
+//! The table of versions in CHANGELOG.md and README.md say what the sources say.
 
 /// What stands between `before` and the next `after`.
 fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
@@ -62,4 +62,20 @@ fn the_changelog_lists_the_versions_of_all_parts() {
     ];
     let parts = parts.map(|(part, version)| (part.to_owned(), version.to_owned()));
     assert_eq!(listed(), parts);
+}
+
+#[test]
+fn the_first_page_says_which_rust_it_needs() {
+    let readme = include_str!("../README.md");
+    let manifest = include_str!("../Cargo.toml");
+    let fitter = include_str!("../fitter/Cargo.toml");
+    let least = |manifest| between(manifest, "\nrust-version = \"", "\"");
+    assert_eq!(
+        between(readme, "The first needs Rust ", " "),
+        least(manifest)
+    );
+    assert_eq!(
+        between(readme, "with those of the fitter, ", ";"),
+        least(fitter)
+    );
 }

@@ -3,7 +3,8 @@
 //! What stands in a page between `<!-- figures: NAME -->` and `<!-- end -->` is made from the file NAME in
 //! `docs/figures`: a CSV file becomes a table, with its first lines, the ones that start with `#`, below it; a Markdown
 //! file is a template. There `{SOURCE/KEY/KEY FORMAT}` stands for one figure: the keys lead into `SOURCE.json`, by name
-//! where there is a list, or to the row and the column of `SOURCE.csv`. Formats are `time` (of ns), `bytes`, `%` (of a
+//! where there is a list, or to the row and the column of `SOURCE.csv`; a row is called by its first cell, or by its
+//! first two with a comma between where several begin alike. Formats are `time` (of ns), `bytes`, `%` (of a
 //! share) and `2` (two digits); without one the text stands as it is.
 
 use std::error::Error;
@@ -115,15 +116,20 @@ fn source(path: &Path) -> Result<Value> {
     }
     let rows = rows(&fs::read_to_string(path.with_extension("csv"))?)?;
     let (head, rows) = rows.split_first().ok_or("an empty file")?;
+    let name = |cells: &Vec<String>| {
+        let first = cells.first()?;
+        let alike = rows.iter().filter(|row| row.first() == Some(first));
+        Some(match alike.count() {
+            1 => first.clone(),
+            _ => cells.iter().take(2).cloned().collect::<Vec<_>>().join(", "),
+        })
+    };
     let row = |cells: &Vec<String>| {
         let columns = head
             .iter()
             .cloned()
             .zip(cells.iter().cloned().map(Value::from));
-        Some((
-            cells.first()?.clone(),
-            columns.collect::<Map<_, _>>().into(),
-        ))
+        Some((name(cells)?, columns.collect::<Map<_, _>>().into()))
     };
     Ok(rows.iter().filter_map(row).collect::<Map<_, _>>().into())
 }
@@ -211,6 +217,23 @@ mod tests {
         let once = filled(page, folder.path()).unwrap();
         assert_eq!(once, expected);
         assert_eq!(filled(&once, folder.path()).unwrap(), expected);
+    }
+
+    #[test]
+    fn rows_that_begin_alike_are_called_by_two_cells() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        write("a.csv", "what,rank,error\nx,1,0.5\nx,2,0.25\ny,2,0.1\n");
+        write("b.md", "{a/x, 1/error} {a/x, 2/error %} {a/y/error}\n");
+        write("c.md", "{a/x/error}");
+        let fill = |name| {
+            filled(
+                &format!("<!-- figures: {name} -->\n<!-- end -->"),
+                folder.path(),
+            )
+        };
+        assert!(fill("b.md").unwrap().contains("\n0.5 25 % 0.1\n"));
+        assert!(fill("c.md").is_err());
     }
 
     #[test]
