@@ -32,7 +32,13 @@ pub struct Model {
 
 /// The bytes of the embedded model: a file like any other.
 #[cfg(feature = "default-model")]
-pub static DEFAULT_MODEL: &[u8] = include_bytes!("../../models/default.welkin");
+pub static DEFAULT_MODEL: &[u8] = {
+    // Chunks start at multiples of 64 bytes: in cache lines of their own, as in a mapped file.
+    #[repr(C, align(64))]
+    struct Aligned<T: ?Sized>(T);
+    const EMBEDDED: &Aligned<[u8]> = &Aligned(*include_bytes!("../../models/default.welkin"));
+    &EMBEDDED.0
+};
 
 impl Model {
     /// Opens a file; with the feature `mmap` by mapping it, otherwise as [`Model::read`].
@@ -281,5 +287,14 @@ fn io(path: &Path, source: std::io::Error) -> Error {
     Error::Io {
         path: path.to_owned(),
         source,
+    }
+}
+
+#[cfg(all(test, feature = "default-model"))]
+mod tests {
+    /// Rows of factor matrices that straddle cache lines cost a point query 5 to 10 %.
+    #[test]
+    fn the_embedded_model_starts_a_cache_line() {
+        assert!(super::DEFAULT_MODEL.as_ptr().addr().is_multiple_of(64));
     }
 }

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::format::{ColumnView, FactorsView};
 use crate::geometry::Side;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::{Instructions, Kernel};
+use crate::kernel::simd::{Instructions, Kernel, dispatch};
 
 /// Most chunks around a query, and most altitudes.
 const MOST_AROUND: usize = 16;
@@ -188,16 +188,48 @@ impl<'a, 'b> Query<'a, 'b> {
 }
 
 impl PointQuery<'_> {
-    /// Where a question stands on the axes.
-    #[inline(always)]
-    pub(super) fn coordinates(&self, question: &Question) -> QueryCoordinates {
-        QueryCoordinates::new(
-            &self.head,
-            &self.axes,
-            self.suns,
-            self.interpolation,
-            question,
-        )
+    /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at each of [`PointQuery::wavelengths`]; frame and meaning as of
+    /// [`Sky`](crate::Sky).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for conditions outside the model, [`Error::Direction`] for a vector that is zero or not
+    /// finite, [`Error::Length`] unless `out` has one element per wavelength, [`Error::MissingChunk`].
+    pub fn radiance(
+        &self,
+        conditions: &Conditions,
+        direction: [f32; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        self.relative_radiance(conditions, direction, out)?;
+        for (out, irradiance) in out.iter_mut().zip(&self.irradiance) {
+            *out = (*out * irradiance).min(f32::MAX);
+        }
+        Ok(())
+    }
+
+    /// Radiance per unit of solar spectral irradiance, sr⁻¹.
+    ///
+    /// # Errors
+    /// As [`PointQuery::radiance`].
+    pub fn relative_radiance(
+        &self,
+        conditions: &Conditions,
+        direction: [f32; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        if out.len() != self.head.shape.wavelengths {
+            return Err(Error::Length {
+                what: "output",
+                expected: self.head.shape.wavelengths as u64,
+                got: out.len() as u64,
+            });
+        }
+        dispatch(One {
+            model: self,
+            conditions,
+            direction,
+            out,
+        })
     }
 
     #[cold]

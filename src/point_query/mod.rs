@@ -9,11 +9,11 @@ mod evaluate;
 mod head_counts;
 mod head_rules;
 mod head_view;
+mod locate;
 mod neighbours;
 mod opened;
 mod optics;
 mod query_coordinates;
-mod radiance;
 #[cfg(feature = "std")]
 mod stokes_query;
 
