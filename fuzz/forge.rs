@@ -3,7 +3,9 @@
 
 #![forbid(unsafe_code)]
 
-use welkin::{Transmittance, Conditions, PolarisationFrame, AerialPerspective, Model, PolarisedSky, Stokes, StokesSpectra};
+use welkin::{
+    AerialPerspective, Conditions, Model, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra, Transmittance,
+};
 
 /// `data` with the length of the file and all checksums that can be found set right.
 pub fn forged(data: &[u8]) -> Vec<u8> {
@@ -94,8 +96,8 @@ fn check_polarised(light: &[Stokes]) {
     }
 }
 
-/// Skies, Stokes vectors and haze at the ends and in the middle of the model: errors, or finite numbers in their
-/// ranges.
+/// Skies, Stokes vectors and aerial perspective at the ends and in the middle of the model: errors, or finite numbers
+/// in their ranges.
 pub fn interrogate(model: &Model) {
     let _ = model.verify();
     let [altitudes, visibilities, elevations] = [

@@ -9,13 +9,14 @@ use welkin::{Conditions, PointQuery};
 
 /// Writes spectral radiance (W m⁻² sr⁻¹ nm⁻¹) at the wavelengths of a model to `out` and returns 0, or −1 where
 /// something is wrong. `conditions`: solar elevation, solar azimuth (rad), visibility (m), albedo, altitude (m).
+/// No name of `welkin.h` is the same, so that a program may link both.
 ///
 /// # Safety
 /// `model` points to `model_length` bytes, `conditions` to five, `direction` to three and `out` to `out_length`
 /// numbers.
 #[allow(unsafe_code, reason = "callers in C hand over pointers and look for the name")]
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_radiance(
+pub unsafe extern "C" fn welkin_point_radiance(
     model: *const u8,
     model_length: usize,
     conditions: *const f64,
@@ -40,7 +41,7 @@ pub unsafe extern "C" fn welkin_radiance(
         albedo,
         altitude,
     };
-    let answer = PointQuery::new(model).and_then(|general| general.radiance(&conditions, direction, out));
+    let answer = PointQuery::new(model).and_then(|query| query.radiance(&conditions, direction, out));
     match answer {
         Ok(()) => 0,
         Err(_) => -1,

@@ -15,7 +15,7 @@ static FILES: [&[u8]; 6] = [
     include_bytes!("../../format-spec/conformance/files/zstd.welkin"),
     include_bytes!("../../format-spec/conformance/files/polarised.welkin"),
     include_bytes!("../../format-spec/conformance/files/air.welkin"),
-    include_bytes!("../../format-spec/conformance/files/haze.welkin"),
+    include_bytes!("../../format-spec/conformance/files/aerial-perspective.welkin"),
 ];
 
 /// Ends at `end`, and fails when asked beyond `end` often.

@@ -24,7 +24,7 @@ impl Prepared {
                 altitude: 1500.0,
                 ..Conditions::default()
             };
-            let aerial = model.aerial_perspective(&conditions).expect("a model with haze");
+            let aerial = model.aerial_perspective(&conditions).expect("a model with aerial perspective");
             let sky = model.polarised_sky(&conditions).expect("a polarised model");
             (aerial, sky)
         });

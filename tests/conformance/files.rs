@@ -112,8 +112,8 @@ pub fn valid() -> Vec<Case> {
         needs: vec!["transmittance"],
         ..case("air-thin", "a layer of one millimetre", thin_air())
     });
-    for (name, shows, file) in hazy() {
-        let needs = vec!["haze"];
+    for (name, shows, file) in aerial() {
+        let needs = vec!["aerial-perspective"];
         cases.push(Case {
             needs,
             ..case(name, shows, file)
@@ -323,7 +323,7 @@ fn air() -> Vec<u8> {
 }
 
 /// The air and what it scatters: without radiance.
-fn hazy() -> [(&'static str, &'static str, Vec<u8>); 4] {
+fn aerial() -> [(&'static str, &'static str, Vec<u8>); 4] {
     let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
     let polarised = common::aerial::polarised_chunks(&head);
     let file = |swing: f32, visibilities: &[usize]| {
@@ -333,22 +333,22 @@ fn hazy() -> [(&'static str, &'static str, Vec<u8>); 4] {
     };
     [
         (
-            "haze",
+            "aerial-perspective",
             "light that segments scatter, by day and in twilight",
             file(0.2, &[0, 1, 2]),
         ),
         (
-            "haze-negative",
+            "aerial-perspective-negative",
             "the source is negative in some directions",
             file(6.0, &[0, 1, 2]),
         ),
         (
-            "haze-polarised",
+            "aerial-perspective-polarised",
             "molecules scatter most of the light, and polarise it",
             encode(&head, &polarised).expect("a valid model"),
         ),
         (
-            "haze-sparse",
+            "aerial-perspective-sparse",
             "the source of one visibility is missing",
             file(0.2, &[0, 2]),
         ),

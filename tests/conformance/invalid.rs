@@ -20,7 +20,7 @@ impl Case {
     pub fn quantity(&self) -> &'static str {
         match self.needs.first() {
             Some(&"transmittance") => "transmittance",
-            Some(&"haze") => "in_scattering",
+            Some(&"aerial-perspective") => "in_scattering",
             Some(&"polarisation") => "stokes",
             _ => "relative_radiance",
         }

@@ -226,19 +226,19 @@ fn lengths() -> Vec<Case> {
         case(
             "source-short",
             "half a number of the core is missing",
-            &["haze"],
+            &["aerial-perspective"],
             stored(Kind::Source, &shorter),
         ),
         case(
             "source-long",
             "bytes after the core",
-            &["haze"],
+            &["aerial-perspective"],
             stored(Kind::Source, &longer),
         ),
         case(
             "source-basis-long",
             "bytes after the factors",
-            &["haze"],
+            &["aerial-perspective"],
             stored(Kind::SourceBasis, &longer),
         ),
         case(
@@ -358,7 +358,7 @@ fn tables() -> Vec<Case> {
     vec![case(
         "source-table",
         "a source of more than 2^18 altitudes, wavelengths and moments",
-        &["haze"],
+        &["aerial-perspective"],
         bytes,
     )]
 }

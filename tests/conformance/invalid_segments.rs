@@ -33,10 +33,19 @@ pub fn all() -> Vec<Case> {
             change,
         )
     };
-    let basis =
-        |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::SourceBasis, at, change);
-    let source =
-        |name, shows, at, change: &[u8]| forge(name, shows, "haze", Kind::Source, at, change);
+    let basis = |name, shows, at, change: &[u8]| {
+        forge(
+            name,
+            shows,
+            "aerial-perspective",
+            Kind::SourceBasis,
+            at,
+            change,
+        )
+    };
+    let source = |name, shows, at, change: &[u8]| {
+        forge(name, shows, "aerial-perspective", Kind::Source, at, change)
+    };
     let fewer_suns = {
         let mut chunks = common::aerial::chunks(&head, 0.2);
         chunks.retain(|chunk| !matches!(chunk.payload, Payload::Source(_)));
@@ -289,7 +298,7 @@ pub fn all() -> Vec<Case> {
         case(
             "source-suns",
             "a source with more suns than its basis",
-            "haze",
+            "aerial-perspective",
             fewer_suns,
         ),
     ]

@@ -34,7 +34,7 @@ pub fn of(case: &Case) -> Vec<Value> {
     if !case.brief {
         all.extend(special(&case.bytes));
     }
-    if let Some(&("transmittance" | "haze")) = case.needs.first() {
+    if let Some(&("transmittance" | "aerial-perspective")) = case.needs.first() {
         all.retain(|query| query.direction != [0.0; 3]);
         // Rounding beyond the last visibility is no error.
         let visibility = ranges(&case.bytes).visibility[1] * (1.0 + 1e-12);
@@ -246,7 +246,7 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
 
 /// What is asked about a segment.
 fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
-    match case.needs.contains(&"haze") {
+    match case.needs.contains(&"aerial-perspective") {
         true => into(case, query, i),
         false => vec![through(case, query, i)],
     }
@@ -268,7 +268,7 @@ fn through(case: &Case, query: &Query, i: usize) -> Value {
 /// Light that is scattered towards the observer, without and with its polarisation, over the same distances and, every
 /// third time, over one metre.
 fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
-    let farthest = if case.name == "haze-negative" {
+    let farthest = if case.name == "aerial-perspective-negative" {
         2.0
     } else {
         6.2
@@ -313,7 +313,7 @@ fn over(quantity: &str, query: &Query, distance: f64) -> Value {
 
 /// Conditions outside the model.
 fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
-    let hazy = case.needs.contains(&"haze");
+    let aerial = case.needs.contains(&"aerial-perspective");
     let ask = |quantity: &str, change: &dyn Fn(&mut Query)| {
         let mut query = Query { ..*query };
         change(&mut query);
@@ -321,7 +321,7 @@ fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
     };
     let ranges = ranges(&case.bytes);
     let far = |q: &mut Query| q.visibility = ranges.visibility[1] * 1.1;
-    if !hazy {
+    if !aerial {
         return vec![ask("transmittance", &far)];
     }
     vec![

@@ -9,7 +9,7 @@ use crate::files::{Case, small};
 pub fn all() -> Vec<(Case, &'static str)> {
     let mut cases = Vec::new();
     let radiance = polarised();
-    let aerial = hazy();
+    let aerial = lit_air();
     let segments = |file: &[u8], kind: Kind, at: usize, change: &[u8]| {
         changed(file, last(file, kind) + at, change)
     };
@@ -124,7 +124,7 @@ pub fn all() -> Vec<(Case, &'static str)> {
             "reserved bytes of a source are not zero",
             Kind::Source,
             28,
-            "haze",
+            "aerial-perspective",
         ),
     ] {
         let bytes = segments(&aerial, kind, at, &7u32.to_le_bytes());
@@ -187,7 +187,7 @@ fn pad(matrix: &mut [u8], width: usize, first: impl Fn(usize) -> usize) {
     }
 }
 
-fn hazy() -> Vec<u8> {
+fn lit_air() -> Vec<u8> {
     let head = small(&[0.0], &[40e3, 60e3]);
     encode(&head, &common::aerial::chunks(&head, 0.2)).expect("a valid model")
 }

@@ -90,8 +90,8 @@ static void print_floats(const float *values, uint32_t count)
 static welkin_error answer_transmittance(const welkin_file *file, const query *q)
 {
     float transmittance[WELKIN_MAX_WAVELENGTHS];
-    welkin_air air;
-    welkin_error error = welkin_air_prepare(&air, file, q->conditions.visibility);
+    welkin_transmittance_profile air;
+    welkin_error error = welkin_transmittance_prepare(&air, file, q->conditions.visibility);
     if (!error) error = welkin_transmittance(&air, q->conditions.altitude, q->direction, q->distance, transmittance);
     if (!error) print_floats(transmittance, file->wavelengths);
     return error;
@@ -100,9 +100,9 @@ static welkin_error answer_transmittance(const welkin_file *file, const query *q
 static welkin_error answer_in_scattering(const welkin_file *file, const query *q, float *scratch, size_t floats)
 {
     float light[WELKIN_MAX_WAVELENGTHS];
-    welkin_haze haze;
-    welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
-    if (!error) error = welkin_in_scattering(&haze, q->conditions.altitude, q->direction, q->distance, light);
+    welkin_aerial_perspective aerial;
+    welkin_error error = welkin_aerial_perspective_prepare(&aerial, file, &q->conditions, scratch, floats);
+    if (!error) error = welkin_in_scattering(&aerial, q->conditions.altitude, q->direction, q->distance, light);
     if (!error) print_floats(light, file->wavelengths);
     return error;
 }
@@ -110,9 +110,9 @@ static welkin_error answer_in_scattering(const welkin_file *file, const query *q
 static welkin_error answer_in_scattering_stokes(const welkin_file *file, const query *q, float *scratch, size_t floats)
 {
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
-    welkin_haze haze;
-    welkin_error error = welkin_haze_prepare(&haze, file, &q->conditions, scratch, floats);
-    if (!error) error = welkin_in_scattering_stokes(&haze, q->conditions.altitude, q->direction, q->distance, l, s, u);
+    welkin_aerial_perspective aerial;
+    welkin_error error = welkin_aerial_perspective_prepare(&aerial, file, &q->conditions, scratch, floats);
+    if (!error) error = welkin_in_scattering_stokes(&aerial, q->conditions.altitude, q->direction, q->distance, l, s, u);
     if (error) return error;
     print_floats(l, file->wavelengths);
     print_floats(s, file->wavelengths);
@@ -193,7 +193,7 @@ int main(int count, char **arguments)
     if (!opened) {
         bytes = unpack(&file, bytes);
         floats = welkin_scratch_floats(&file, mode | WELKIN_POLARISED);
-        if (floats < welkin_haze_floats(&file)) floats = welkin_haze_floats(&file);
+        if (floats < welkin_aerial_perspective_floats(&file)) floats = welkin_aerial_perspective_floats(&file);
         scratch = malloc(floats * sizeof *scratch);
         if (!scratch) return 2;
     }

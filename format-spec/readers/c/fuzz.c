@@ -53,15 +53,15 @@ static void ask_segments(const welkin_file *file, const welkin_conditions *condi
 {
     static const double segments[4][4] = {{1, 0, 0.01, 9e4}, {0.1, 0.2, 0.9, 1e6}, {0.3, 0, -0.5, 3e3}, {1, 0, 0, 0}};
     float values[WELKIN_MAX_WAVELENGTHS], q[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
-    welkin_air air;
-    welkin_haze haze;
-    int i, hazy;
-    if (welkin_air_prepare(&air, file, conditions->visibility)) return;
-    hazy = !welkin_haze_prepare(&haze, file, conditions, scratch, floats);
+    welkin_transmittance_profile air;
+    welkin_aerial_perspective aerial;
+    int i, lit;
+    if (welkin_transmittance_prepare(&air, file, conditions->visibility)) return;
+    lit = !welkin_aerial_perspective_prepare(&aerial, file, conditions, scratch, floats);
     for (i = 0; i < 4; i++) {
         if (!welkin_transmittance(&air, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, 1);
-        if (hazy && !welkin_in_scattering(&haze, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
-        if (hazy && !welkin_in_scattering_stokes(&haze, 100, segments[i], segments[i][3], values, q, u)) {
+        if (lit && !welkin_in_scattering(&aerial, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
+        if (lit && !welkin_in_scattering_stokes(&aerial, 100, segments[i], segments[i][3], values, q, u)) {
             check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
             check(u, file->wavelengths, -FLT_MAX, FLT_MAX);
         }
@@ -70,7 +70,7 @@ static void ask_segments(const welkin_file *file, const welkin_conditions *condi
 
 static void ask(const welkin_file *file)
 {
-    size_t floats = welkin_scratch_floats(file, WELKIN_POLARISED | WELKIN_DENSE), more = welkin_haze_floats(file);
+    size_t floats = welkin_scratch_floats(file, WELKIN_POLARISED | WELKIN_DENSE), more = welkin_aerial_perspective_floats(file);
     float *scratch;
     int i;
     if (more > floats) floats = more;

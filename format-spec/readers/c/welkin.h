@@ -2,9 +2,9 @@
  *
  * In exactly one C file: #define WELKIN_IMPLEMENTATION, then include this header. Link with -lm.
  *
- * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and every number of the
- * file is checked before use. Bytes may be unaligned; the host may have either byte order. Numbers must be IEEE 754, so do not
- * compile the implementation with -ffast-math.
+ * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and
+ * every number of the file is checked before use. Bytes may be unaligned; the host may have either byte order.
+ * Numbers must be IEEE 754, so do not compile the implementation with -ffast-math.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
@@ -94,18 +94,18 @@ typedef struct welkin_sky {
     unsigned flags;
 } welkin_sky;
 
-/* The air at one visibility, for transmittances; private. */
-typedef struct welkin_air {
+/* The profiles of the air at one visibility, for transmittances; private. */
+typedef struct welkin_transmittance_profile {
     const welkin_file *file;
     const unsigned char *edges, *densities;
     uint32_t layers;
     uint32_t visibility_node[2];
     double visibility_weight[2];
-} welkin_air;
+} welkin_transmittance_profile;
 
-/* What the air of a scene scatters; private. May be shared by threads. */
-typedef struct welkin_haze {
-    welkin_air air;
+/* The light that the air of a scene scatters; private. May be shared by threads. */
+typedef struct welkin_aerial_perspective {
+    welkin_transmittance_profile air;
     double sun[3];
     uint32_t altitudes, suns, degree, orders, rank[4];
     const unsigned char *altitude, *sine, *factor[4]; /* axes, and the factors of the four modes */
@@ -114,7 +114,7 @@ typedef struct welkin_haze {
     const unsigned char *level[4];   /* [field][suns][wavelengths] */
     float *core[4];                  /* [altitude][sun][moment][channel] */
     float *extinction, *bounce, *parameter, *scattering;
-} welkin_haze;
+} welkin_aerial_perspective;
 
 /* The name of an error's class. */
 WELKIN_API const char *welkin_error_name(welkin_error error);
@@ -122,16 +122,17 @@ WELKIN_API const char *welkin_error_name(welkin_error error);
 /* Checks the head of a file. The bytes must stay as they are while the file or skies of it are in use. */
 WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length);
 
-/* Decodes a zstd frame of `length` bytes into `out`, and returns how many bytes it wrote; anything but `capacity` is a failure.
- * ZSTD_decompress does what is wanted. */
+/* Decodes a zstd frame of `length` bytes into `out`, and returns how many bytes it wrote; anything but `capacity` is a
+ * failure. ZSTD_decompress does what is wanted. */
 typedef size_t welkin_decompress(void *user, void *out, size_t capacity, const void *frame, size_t length);
 
 /* Bytes that welkin_unpack needs, 0 if no chunk is compressed (or if there are too many for a size_t). */
 WELKIN_API size_t welkin_unpacked_length(const welkin_file *file);
 
-/* Writes the same file without compression to `out`, and opens that in place of the compressed one. A chunk that cannot be decoded is an
- * error where it is used. */
-WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out, size_t capacity);
+/* Writes the same file without compression to `out`, and opens that in place of the compressed one. A chunk that cannot
+ * be decoded is an error where it is used. */
+WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out,
+                                      size_t capacity);
 
 WELKIN_API double welkin_wavelength(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_altitude(const welkin_file *file, uint32_t index);
@@ -141,50 +142,57 @@ WELKIN_API double welkin_visibility(const welkin_file *file, uint32_t index);
 WELKIN_API size_t welkin_scratch_floats(const welkin_file *file, unsigned flags);
 
 /* Reads and checks what the conditions need. The scratch and the file must outlive the sky. */
-WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions, unsigned flags,
-                                       float *scratch, size_t scratch_floats);
+WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
+                                       unsigned flags, float *scratch, size_t scratch_floats);
 
-/* Radiance per unit of solar irradiance, sr^-1, at every wavelength of the file. The direction need not be normalised. */
+/* Radiance per unit of solar irradiance, sr^-1, at every wavelength of the file. The direction need not be
+ * normalised. */
 WELKIN_API welkin_error welkin_radiance(const welkin_sky *sky, const double direction[3], float *radiance);
 
 /* Stokes components in the vertical frame; the sky must be prepared with WELKIN_POLARISED. */
-WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q, float *u);
+WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q,
+                                      float *u);
 
 /* CIE 1931 X, Y, Z in cd m^-2 of a radiance that welkin_radiance gave. */
 WELKIN_API void welkin_xyz(const welkin_file *file, const float *radiance, double xyz[3]);
 
 /* A radiance that welkin_radiance gave, between the wavelengths of the file. */
-WELKIN_API welkin_error welkin_radiance_at(const welkin_file *file, const float *radiance, double wavelength, double *value);
+WELKIN_API welkin_error welkin_radiance_at(const welkin_file *file, const float *radiance, double wavelength,
+                                           double *value);
 
 /* Stokes components that welkin_stokes gave, between the wavelengths of the file: L, Q, U. */
-WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *radiance, const float *q, const float *u, double wavelength,
-                                         double stokes[3]);
+WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *radiance, const float *q, const float *u,
+                                         double wavelength, double stokes[3]);
 
 /* Solar irradiance, W m^-2 nm^-1. */
 WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *file, double wavelength, double *value);
 
 /* Reads and checks the profiles of the air. */
-WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *file, double visibility);
+WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profile *air, const welkin_file *file,
+                                                     double visibility);
 
 /* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction. */
-WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
-                                             float *transmittance);
+WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
+                                             const double direction[3], double distance, float *transmittance);
 
-/* How many floats welkin_haze_prepare needs. */
-WELKIN_API size_t welkin_haze_floats(const welkin_file *file);
+/* How many floats welkin_aerial_perspective_prepare needs. */
+WELKIN_API size_t welkin_aerial_perspective_floats(const welkin_file *file);
 
-/* Reads and checks what scatters light. The altitude of the conditions does not matter. The scratch and the file must outlive the
- * haze. */
-WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file *file, const welkin_conditions *conditions, float *scratch,
-                                            size_t scratch_floats);
+/* Reads and checks what scatters light. The altitude of the conditions does not matter. The scratch and the file must
+ * outlive the aerial perspective. */
+WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspective *aerial, const welkin_file *file,
+                                                          const welkin_conditions *conditions, float *scratch,
+                                                          size_t scratch_floats);
 
-/* Light that the air of a segment scatters towards its start, per unit of solar irradiance, sr^-1, at every wavelength of the file. An
- * integral over some hundred points: for checks and for tables, not for each pixel. */
-WELKIN_API welkin_error welkin_in_scattering(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light);
+/* Light that the air of a segment scatters towards its start, per unit of solar irradiance, sr^-1, at every wavelength
+ * of the file. An integral over some hundred points: for checks and for tables, not for each pixel. */
+WELKIN_API welkin_error welkin_in_scattering(const welkin_aerial_perspective *aerial, double altitude,
+                                             const double direction[3], double distance, float *light);
 
 /* The same light with its Stokes components Q and U in the vertical frame at the start. */
-WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
-                                                 float *light, float *q, float *u);
+WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspective *aerial, double altitude,
+                                                    const double direction[3], double distance, float *light, float *q,
+                                                    float *u);
 
 #ifdef __cplusplus
 }
@@ -358,7 +366,8 @@ static size_t welkin__take(uint64_t *offset, uint64_t bytes)
     return at;
 }
 
-/* Sets where the head arrays are, and returns the length of the head. Counts are 16 and 32 bits wide: nothing overflows. */
+/* Sets where the head arrays are, and returns the length of the head. Counts are 16 and 32 bits wide: nothing
+ * overflows. */
 static uint64_t welkin__place_arrays(welkin_file *f)
 {
     uint64_t offset = WELKIN__HEADER, nw = f->wavelengths, nv = f->visibilities;
@@ -691,7 +700,8 @@ WELKIN_API const char *welkin_error_name(welkin_error error)
 
 /* ---- chunks ---- */
 
-static welkin_error welkin__find(const welkin_file *f, uint32_t kind, uint32_t altitude, uint32_t visibility, welkin__entry *found)
+static welkin_error welkin__find(const welkin_file *f, uint32_t kind, uint32_t altitude, uint32_t visibility,
+                                 welkin__entry *found)
 {
     uint32_t i;
     for (i = 0; i < f->chunk_count; i++) {
@@ -764,8 +774,8 @@ static size_t welkin__blocks_length(const unsigned char *p, size_t left)
     return length;
 }
 
-/* Where the content size of a zstd frame is: behind a window of at most 128 MiB and a Dictionary_ID that is 0 (RFC 8878, 3.1.1.1); 0 if
- * the frame is none or breaks this. */
+/* Where the content size of a zstd frame is: behind a window of at most 128 MiB and a Dictionary_ID that is 0 (RFC
+ * 8878, 3.1.1.1); 0 if the frame is none or breaks this. */
 static size_t welkin__content_size_at(const unsigned char *p, size_t length)
 {
     static const unsigned char magic[4] = {0x28, 0xB5, 0x2F, 0xFD}, widths[4] = {0, 1, 2, 4};
@@ -826,8 +836,8 @@ WELKIN_API size_t welkin_unpacked_length(const welkin_file *f)
 }
 
 /* Writes a chunk, decoded if that succeeds, and what its entry says about it; returns its length. */
-static size_t welkin__unpack_chunk(const welkin_file *f, const welkin__entry *e, welkin_decompress *decompress, void *user,
-                                   unsigned char *entry, unsigned char *out)
+static size_t welkin__unpack_chunk(const welkin_file *f, const welkin__entry *e, welkin_decompress *decompress,
+                                   void *user, unsigned char *entry, unsigned char *out)
 {
     const unsigned char *stored = f->bytes + (size_t)e->offset;
     size_t length = (size_t)e->stored, raw = (size_t)e->raw;
@@ -842,7 +852,8 @@ static size_t welkin__unpack_chunk(const welkin_file *f, const welkin__entry *e,
     return length;
 }
 
-WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out, size_t capacity)
+WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out,
+                                      size_t capacity)
 {
     unsigned char *bytes = (unsigned char *)out;
     size_t head = file->directory_at + (size_t)WELKIN__ENTRY * file->chunk_count, length = head;
@@ -1063,8 +1074,8 @@ static welkin_error welkin__find_columns(const welkin_file *f, const welkin__ste
     return WELKIN_OK;
 }
 
-static welkin_error welkin__find_cells(const welkin_file *f, const welkin__stencil *a, const welkin__stencil *b, uint32_t kind,
-                                       welkin__part *parts, uint32_t *count)
+static welkin_error welkin__find_cells(const welkin_file *f, const welkin__stencil *a, const welkin__stencil *b,
+                                       uint32_t kind, welkin__part *parts, uint32_t *count)
 {
     uint32_t j, m;
     *count = 0;
@@ -1080,7 +1091,8 @@ static welkin_error welkin__find_cells(const welkin_file *f, const welkin__stenc
 }
 
 /* Everything that is missing is found before anything is checked. */
-static welkin_error welkin__find_scene(const welkin_file *f, double altitude, double visibility, unsigned flags, welkin__scene *scene)
+static welkin_error welkin__find_scene(const welkin_file *f, double altitude, double visibility, unsigned flags,
+                                       welkin__scene *scene)
 {
     welkin__stencil a = welkin__cubic(f->bytes + f->altitude_at, f->altitudes, altitude, WELKIN__CUBE_ROOT);
     welkin__stencil b = welkin__cubic(f->bytes + f->visibility_at, f->visibilities, visibility, WELKIN__INVERSE);
@@ -1118,7 +1130,8 @@ static float *welkin__carve(float **scratch, size_t floats)
     return block;
 }
 
-static void welkin__carve_table(const welkin_file *f, welkin_table *t, uint32_t rank, uint32_t channels, unsigned flags, float **scratch)
+static void welkin__carve_table(const welkin_file *f, welkin_table *t, uint32_t rank, uint32_t channels, unsigned flags,
+                                float **scratch)
 {
     size_t alpha = welkin__alpha_rows(f), phi = f->phi_intervals + 1;
     t->rank = rank;
@@ -1223,8 +1236,8 @@ static void welkin__add_factors(const welkin_file *f, welkin_table *t, const wel
     }
 }
 
-static void welkin__add_levels(const welkin_file *f, const welkin__part *part, const unsigned char *p, const welkin__spline *elevation,
-                               double *level)
+static void welkin__add_levels(const welkin_file *f, const welkin__part *part, const unsigned char *p,
+                               const welkin__spline *elevation, double *level)
 {
     size_t q = welkin__ceil16(part->entry.rank), rows = welkin__alpha_rows(f) + f->elevation_intervals + 3;
     uint32_t w;
@@ -1266,7 +1279,8 @@ static void welkin__fade(const welkin_file *f, welkin_table *t, double fade)
     }
 }
 
-static welkin_error welkin__read_basis(const welkin_file *f, const welkin__entry *entry, uint32_t channels, welkin_table *t)
+static welkin_error welkin__read_basis(const welkin_file *f, const welkin__entry *entry, uint32_t channels,
+                                       welkin_table *t)
 {
     const unsigned char *p, *channel;
     size_t phi = f->phi_intervals + 1, a, i, c;
@@ -1282,7 +1296,8 @@ static welkin_error welkin__read_basis(const welkin_file *f, const welkin__entry
 }
 
 /* out += the weighted sum of four rows */
-static void welkin__add_rows(float *out, const float *a, const float *b, const float *c, const float *d, const float w[4], uint32_t n)
+static void welkin__add_rows(float *out, const float *a, const float *b, const float *c, const float *d,
+                             const float w[4], uint32_t n)
 {
     float wa = w[0], wb = w[1], wc = w[2], wd = w[3];
     uint32_t i;
@@ -1312,7 +1327,8 @@ static void welkin__make_dense(const welkin_file *f, welkin_table *t)
         }
 }
 
-static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scene *scene, const welkin__spline *elevation)
+static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scene *scene,
+                                             const welkin__spline *elevation)
 {
     const welkin_file *f = sky->file;
     double level[WELKIN_MAX_WAVELENGTHS] = {0};
@@ -1326,7 +1342,8 @@ static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scen
     return WELKIN_OK;
 }
 
-static welkin_error welkin__prepare_polarisation(welkin_sky *sky, const welkin__scene *scene, const welkin__spline *elevation)
+static welkin_error welkin__prepare_polarisation(welkin_sky *sky, const welkin__scene *scene,
+                                                 const welkin__spline *elevation)
 {
     const welkin_file *f = sky->file;
     welkin_error error = welkin__read_basis(f, &scene->polarisation_basis, 4 * f->wavelengths, &sky->polarisation);
@@ -1360,8 +1377,8 @@ static void welkin__prepare_geometry(welkin_sky *sky, const welkin_conditions *c
     sky->sun[2] = sin(c->solar_elevation);
 }
 
-WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions, unsigned flags,
-                                       float *scratch, size_t scratch_floats)
+WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
+                                       unsigned flags, float *scratch, size_t scratch_floats)
 {
     welkin_conditions c = *conditions;
     welkin__scene scene;
@@ -1631,7 +1648,8 @@ static welkin_error welkin__limit_polarisation(float radiance, double q, double 
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q, float *u)
+WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q,
+                                      float *u)
 {
     float envelope[WELKIN_MAX_WAVELENGTHS], sum[WELKIN_MAX_WAVELENGTHS] = {0}, polarising[WELKIN_MAX_WAVELENGTHS] = {0};
     float multiple[4 * WELKIN_MAX_WAVELENGTHS];
@@ -1681,7 +1699,8 @@ WELKIN_API void welkin_xyz(const welkin_file *f, const float *radiance, double x
         for (i = 0; i < 3; i++) xyz[i] += (double)radiance[w] * welkin__f64(f->bytes + f->xyz_at + 8 * (3 * (size_t)w + i));
 }
 
-static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavelength, welkin__stencil *cubic, welkin__stencil *linear)
+static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavelength, welkin__stencil *cubic,
+                                             welkin__stencil *linear)
 {
     const unsigned char *axis = f->bytes + f->wavelength_at;
     if (!welkin__is_on_axis(axis, f->wavelengths, wavelength)) return WELKIN_ERROR_RANGE;
@@ -1690,7 +1709,8 @@ static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavele
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *radiance, double wavelength, double *value)
+WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *radiance, double wavelength,
+                                           double *value)
 {
     welkin__stencil cubic, linear;
     double logarithm = 0, plain = 0;
@@ -1710,8 +1730,8 @@ WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *ra
     return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
-WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u, double wavelength,
-                                         double stokes[3])
+WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u,
+                                         double wavelength, double stokes[3])
 {
     welkin__stencil cubic, linear;
     double share[2] = {0, 0}, degree;
@@ -1766,7 +1786,7 @@ static int welkin__densities_are_good(const unsigned char *p, size_t n)
     return 1;
 }
 
-static welkin_error welkin__read_air(welkin_air *air, const welkin__entry *entry)
+static welkin_error welkin__read_profile(welkin_transmittance_profile *air, const welkin__entry *entry)
 {
     const welkin_file *f = air->file;
     const unsigned char *p;
@@ -1785,7 +1805,8 @@ static welkin_error welkin__read_air(welkin_air *air, const welkin__entry *entry
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *file, double visibility)
+WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profile *air, const welkin_file *file,
+                                                     double visibility)
 {
     welkin__stencil b;
     welkin__entry entry;
@@ -1799,7 +1820,7 @@ WELKIN_API welkin_error welkin_air_prepare(welkin_air *air, const welkin_file *f
         air->visibility_node[i] = b.node[i];
         air->visibility_weight[i] = b.weight[i];
     }
-    return welkin__read_air(air, &entry);
+    return welkin__read_profile(air, &entry);
 }
 
 /* A straight line: w = low + s²/2R at the distance s from the point closest to the planet's centre. */
@@ -1811,8 +1832,8 @@ typedef struct welkin__line {
 static double welkin__crossing(const welkin__line *line, double w) { return sqrt(fmax(0, 2 * line->radius * (w - line->low))); }
 
 /* Adds the integrals over a piece of the line within one layer. */
-static void welkin__add_piece(const welkin_air *air, const welkin__line *line, uint32_t layer, double bottom, double thickness, double s0,
-                              double s1, double *columns)
+static void welkin__add_piece(const welkin_transmittance_profile *air, const welkin__line *line, uint32_t layer,
+                              double bottom, double thickness, double s0, double s1, double *columns)
 {
     size_t nk = air->file->constituents, k;
     const unsigned char *d = air->densities + 8 * layer * nk;
@@ -1831,14 +1852,14 @@ static void welkin__add_piece(const welkin_air *air, const welkin__line *line, u
 }
 
 /* Below the ground the profiles are those at the ground. */
-static void welkin__add_underground(const welkin_air *air, const welkin__line *line, double *columns)
+static void welkin__add_underground(const welkin_transmittance_profile *air, const welkin__line *line, double *columns)
 {
     double depth = welkin__crossing(line, 0), s0 = fmax(-depth, line->start), s1 = fmin(depth, line->end);
     uint32_t k;
     for (k = 0; k < air->file->constituents && s1 > s0; k++) columns[k] += (s1 - s0) * (double)welkin__f32(air->densities + 4 * (size_t)k);
 }
 
-static void welkin__integrate(const welkin_air *air, const welkin__line *line, double *columns)
+static void welkin__integrate(const welkin_transmittance_profile *air, const welkin__line *line, double *columns)
 {
     double bottom = 0, inner = welkin__crossing(line, 0);
     uint32_t i;
@@ -1864,8 +1885,8 @@ static welkin_error welkin__segment(double altitude, const double direction[3], 
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_transmittance(const welkin_air *air, double altitude, const double direction[3], double distance,
-                                             float *transmittance)
+WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
+                                             const double direction[3], double distance, float *transmittance)
 {
     const welkin_file *f = air->file;
     double v[3], columns[WELKIN_MAX_CONSTITUENTS] = {0};
@@ -1923,41 +1944,42 @@ static uint32_t welkin__harmonic_count(uint32_t degree, uint32_t orders)
 }
 
 /* Counts are in their ranges when this is called. */
-static welkin_error welkin__place_source_basis(welkin_haze *haze, const unsigned char *p, uint64_t length)
+static welkin_error welkin__place_source_basis(welkin_aerial_perspective *aerial, const unsigned char *p,
+                                               uint64_t length)
 {
-    uint32_t i, rows[4], nw = haze->air.file->wavelengths;
-    uint64_t axes = 8 * ((uint64_t)haze->altitudes + haze->suns), factors = 0;
-    rows[0] = haze->altitudes;
-    rows[1] = haze->suns;
-    rows[2] = 4 + welkin__harmonic_count(haze->degree, haze->orders);
+    uint32_t i, rows[4], nw = aerial->air.file->wavelengths;
+    uint64_t axes = 8 * ((uint64_t)aerial->altitudes + aerial->suns), factors = 0;
+    rows[0] = aerial->altitudes;
+    rows[1] = aerial->suns;
+    rows[2] = 4 + welkin__harmonic_count(aerial->degree, aerial->orders);
     rows[3] = 2 * nw;
-    haze->altitude = p + 32;
-    haze->sine = haze->altitude + 8 * (size_t)haze->altitudes;
+    aerial->altitude = p + 32;
+    aerial->sine = aerial->altitude + 8 * (size_t)aerial->altitudes;
     for (i = 0; i < 4; i++) {
-        haze->factor[i] = p + 32 + (size_t)(axes + 4 * factors);
-        factors += (uint64_t)rows[i] * haze->rank[i];
+        aerial->factor[i] = p + 32 + (size_t)(axes + 4 * factors);
+        factors += (uint64_t)rows[i] * aerial->rank[i];
     }
-    if (length != 32 + axes + 4 * factors || (uint64_t)haze->altitudes * nw * haze->rank[2] > 1u << 18) return WELKIN_ERROR_VALUE;
-    if (!welkin__steps_are_good(haze->altitude, haze->altitudes, 0, 1e9, 0.001)) return WELKIN_ERROR_VALUE;
-    if (!welkin__steps_are_good(haze->sine, haze->suns, -1, 1, 1e-9)) return WELKIN_ERROR_VALUE;
-    return welkin__f32s_are_finite(haze->factor[0], (size_t)factors) ? WELKIN_OK : WELKIN_ERROR_VALUE;
+    if (length != 32 + axes + 4 * factors || (uint64_t)aerial->altitudes * nw * aerial->rank[2] > 1u << 18) return WELKIN_ERROR_VALUE;
+    if (!welkin__steps_are_good(aerial->altitude, aerial->altitudes, 0, 1e9, 0.001)) return WELKIN_ERROR_VALUE;
+    if (!welkin__steps_are_good(aerial->sine, aerial->suns, -1, 1, 1e-9)) return WELKIN_ERROR_VALUE;
+    return welkin__f32s_are_finite(aerial->factor[0], (size_t)factors) ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
-static welkin_error welkin__read_source_basis(welkin_haze *haze, const welkin__entry *entry)
+static welkin_error welkin__read_source_basis(welkin_aerial_perspective *aerial, const welkin__entry *entry)
 {
     const unsigned char *p;
     uint32_t i;
-    welkin_error error = welkin__payload(haze->air.file, entry, &p);
+    welkin_error error = welkin__payload(aerial->air.file, entry, &p);
     if (error) return error;
     if (entry->raw < 32 || !welkin__source_ranks_are_good(p + 16)) return WELKIN_ERROR_VALUE;
-    haze->altitudes = welkin__u32(p);
-    haze->suns = welkin__u32(p + 4);
-    haze->degree = welkin__u32(p + 8);
-    haze->orders = welkin__u32(p + 12);
-    for (i = 0; i < 4; i++) haze->rank[i] = welkin__u32(p + 16 + 4 * i);
-    if (haze->altitudes < 2 || haze->altitudes > 256 || haze->suns < 2 || haze->suns > 256) return WELKIN_ERROR_VALUE;
-    if (haze->degree > 24 || haze->orders > haze->degree) return WELKIN_ERROR_VALUE;
-    return welkin__place_source_basis(haze, p, entry->raw);
+    aerial->altitudes = welkin__u32(p);
+    aerial->suns = welkin__u32(p + 4);
+    aerial->degree = welkin__u32(p + 8);
+    aerial->orders = welkin__u32(p + 12);
+    for (i = 0; i < 4; i++) aerial->rank[i] = welkin__u32(p + 16 + 4 * i);
+    if (aerial->altitudes < 2 || aerial->altitudes > 256 || aerial->suns < 2 || aerial->suns > 256) return WELKIN_ERROR_VALUE;
+    if (aerial->degree > 24 || aerial->orders > aerial->degree) return WELKIN_ERROR_VALUE;
+    return welkin__place_source_basis(aerial, p, entry->raw);
 }
 
 /* Where the tables of a source chunk are. */
@@ -1967,38 +1989,39 @@ typedef struct welkin__source {
     double scale;
 } welkin__source;
 
-static size_t welkin__core_size(const welkin_haze *haze)
+static size_t welkin__core_size(const welkin_aerial_perspective *aerial)
 {
-    return (size_t)haze->rank[0] * haze->rank[1] * haze->rank[2] * haze->rank[3];
+    return (size_t)aerial->rank[0] * aerial->rank[1] * aerial->rank[2] * aerial->rank[3];
 }
 
-static int welkin__species_are_good(const welkin_haze *haze, const welkin__source *source)
+static int welkin__species_are_good(const welkin_aerial_perspective *aerial, const welkin__source *source)
 {
-    size_t nw = haze->air.file->wavelengths, p, w;
+    size_t nw = aerial->air.file->wavelengths, p, w;
     for (p = 0; p < source->species; p++) {
         uint32_t phase = welkin__u32(source->phase + 4 * p);
         if (phase != 1 && phase != 2) return 0;
         for (w = 0; w < nw; w++)
             if (!welkin__parameter_is_good(phase, (double)welkin__f32(source->parameter + 4 * (p * nw + w)))) return 0;
     }
-    return welkin__densities_are_good(source->scattering, source->species * (size_t)haze->air.file->constituents * nw);
+    return welkin__densities_are_good(source->scattering, source->species * (size_t)aerial->air.file->constituents * nw);
 }
 
 /* Checks a source and that it fits the basis. */
-static welkin_error welkin__read_source(const welkin_haze *haze, const welkin__entry *entry, welkin__source *source)
+static welkin_error welkin__read_source(const welkin_aerial_perspective *aerial, const welkin__entry *entry,
+                                        welkin__source *source)
 {
-    const welkin_file *f = haze->air.file;
+    const welkin_file *f = aerial->air.file;
     const unsigned char *p;
-    size_t nw = f->wavelengths, levels = 2 * nw, core = welkin__core_size(haze);
+    size_t nw = f->wavelengths, levels = 2 * nw, core = welkin__core_size(aerial);
     uint32_t suns, i;
     welkin_error error = welkin__payload(f, entry, &p);
     if (error) return error;
     if (entry->raw < 32 || !welkin__source_ranks_are_good(p + 8)) return WELKIN_ERROR_VALUE;
     source->species = welkin__u32(p);
     suns = welkin__u32(p + 4);
-    if (source->species < 1 || source->species > 16 || suns != haze->suns) return WELKIN_ERROR_VALUE;
+    if (source->species < 1 || source->species > 16 || suns != aerial->suns) return WELKIN_ERROR_VALUE;
     for (i = 0; i < 4; i++)
-        if (welkin__u32(p + 8 + 4 * i) != haze->rank[i]) return WELKIN_ERROR_VALUE;
+        if (welkin__u32(p + 8 + 4 * i) != aerial->rank[i]) return WELKIN_ERROR_VALUE;
     levels *= suns;
     source->scale = (double)welkin__f32(p + 24);
     source->phase = p + 32;
@@ -2008,12 +2031,12 @@ static welkin_error welkin__read_source(const welkin_haze *haze, const welkin__e
     source->core = source->level + 4 * levels;
     if (entry->raw != 32 + 4 * (source->species * (1 + nw + f->constituents * nw) + levels) + 2 * core) return WELKIN_ERROR_VALUE;
     if (!welkin__f32s_are_finite(p + 24, 1) || !welkin__f32s_are_finite(source->level, levels)) return WELKIN_ERROR_VALUE;
-    if (!welkin__f16s_are_finite(source->core, core) || !welkin__species_are_good(haze, source)) return WELKIN_ERROR_VALUE;
+    if (!welkin__f16s_are_finite(source->core, core) || !welkin__species_are_good(aerial, source)) return WELKIN_ERROR_VALUE;
     return WELKIN_OK;
 }
 
 /* An upper bound that follows from the directory alone. */
-WELKIN_API size_t welkin_haze_floats(const welkin_file *f)
+WELKIN_API size_t welkin_aerial_perspective_floats(const welkin_file *f)
 {
     size_t longest = 0;
     uint32_t i;
@@ -2025,27 +2048,28 @@ WELKIN_API size_t welkin_haze_floats(const welkin_file *f)
 }
 
 /* Widens the core, and adds the species of visibilities that count linearly. */
-static void welkin__take_source(welkin_haze *haze, const welkin__source *source, uint32_t m, double linear)
+static void welkin__take_source(welkin_aerial_perspective *aerial, const welkin__source *source, uint32_t m,
+                                double linear)
 {
-    size_t nw = haze->air.file->wavelengths, core = welkin__core_size(haze), i;
-    haze->level[m] = source->level;
-    for (i = 0; i < core; i++) haze->core[m][i] = welkin__narrow(source->scale * (double)welkin__f16(source->core + 2 * i));
-    for (i = 0; i < haze->species * nw; i++) {
-        float *sum = &haze->parameter[i];
+    size_t nw = aerial->air.file->wavelengths, core = welkin__core_size(aerial), i;
+    aerial->level[m] = source->level;
+    for (i = 0; i < core; i++) aerial->core[m][i] = welkin__narrow(source->scale * (double)welkin__f16(source->core + 2 * i));
+    for (i = 0; i < aerial->species * nw; i++) {
+        float *sum = &aerial->parameter[i];
         *sum = welkin__narrow((double)*sum + linear * (double)welkin__f32(source->parameter + 4 * i));
     }
-    for (i = 0; i < haze->species * nw * haze->air.file->constituents; i++) {
-        float *sum = &haze->scattering[i];
+    for (i = 0; i < aerial->species * nw * aerial->air.file->constituents; i++) {
+        float *sum = &aerial->scattering[i];
         *sum = welkin__narrow((double)*sum + linear * (double)welkin__f32(source->scattering + 4 * i));
     }
 }
 
-static int welkin__same_species(const welkin_haze *haze, const welkin__source *source)
+static int welkin__same_species(const welkin_aerial_perspective *aerial, const welkin__source *source)
 {
     uint32_t i;
-    if (source->species != haze->species) return 0;
-    for (i = 0; i < haze->species; i++)
-        if (welkin__u32(source->phase + 4 * (size_t)i) != haze->phase[i]) return 0;
+    if (source->species != aerial->species) return 0;
+    for (i = 0; i < aerial->species; i++)
+        if (welkin__u32(source->phase + 4 * (size_t)i) != aerial->phase[i]) return 0;
     return 1;
 }
 
@@ -2058,81 +2082,86 @@ static double welkin__weight_of(const welkin__stencil *s, uint32_t node)
     return weight;
 }
 
-static welkin_error welkin__read_sources(welkin_haze *haze, const welkin__entry *entries, const welkin__stencil *linear, float **scratch)
+static welkin_error welkin__read_sources(welkin_aerial_perspective *aerial, const welkin__entry *entries,
+                                         const welkin__stencil *linear, float **scratch)
 {
-    const welkin_file *f = haze->air.file;
+    const welkin_file *f = aerial->air.file;
     uint32_t m, i;
-    for (m = 0; m < haze->visibilities; m++) {
+    for (m = 0; m < aerial->visibilities; m++) {
         welkin__source source;
-        welkin_error error = welkin__read_source(haze, &entries[m], &source);
+        welkin_error error = welkin__read_source(aerial, &entries[m], &source);
         if (error) return error;
         if (m == 0) {
-            haze->species = source.species;
-            for (i = 0; i < source.species; i++) haze->phase[i] = welkin__u32(source.phase + 4 * (size_t)i);
-            haze->parameter = welkin__carve(scratch, (size_t)source.species * f->wavelengths);
-            haze->scattering = welkin__carve(scratch, (size_t)source.species * f->constituents * f->wavelengths);
+            aerial->species = source.species;
+            for (i = 0; i < source.species; i++) aerial->phase[i] = welkin__u32(source.phase + 4 * (size_t)i);
+            aerial->parameter = welkin__carve(scratch, (size_t)source.species * f->wavelengths);
+            aerial->scattering = welkin__carve(scratch, (size_t)source.species * f->constituents * f->wavelengths);
         }
-        if (!welkin__same_species(haze, &source)) return WELKIN_ERROR_VALUE;
-        haze->core[m] = welkin__carve(scratch, welkin__core_size(haze));
-        welkin__take_source(haze, &source, m, welkin__weight_of(linear, entries[m].visibility));
+        if (!welkin__same_species(aerial, &source)) return WELKIN_ERROR_VALUE;
+        aerial->core[m] = welkin__carve(scratch, welkin__core_size(aerial));
+        welkin__take_source(aerial, &source, m, welkin__weight_of(linear, entries[m].visibility));
     }
     return WELKIN_OK;
 }
 
-static void welkin__prepare_haze_tables(welkin_haze *haze, const welkin_conditions *c, const welkin__stencil *linear, float **scratch)
+static void welkin__prepare_air_tables(welkin_aerial_perspective *aerial, const welkin_conditions *c,
+                                       const welkin__stencil *linear, float **scratch)
 {
-    const welkin_file *f = haze->air.file;
+    const welkin_file *f = aerial->air.file;
     size_t nw = f->wavelengths, air = f->constituents * nw, i;
-    haze->extinction = welkin__carve(scratch, air);
-    haze->bounce = welkin__carve(scratch, nw);
-    for (i = 0; i < air; i++) haze->extinction[i] = welkin__narrow(welkin__head_value(f, f->extinction_at, air, i, linear));
+    aerial->extinction = welkin__carve(scratch, air);
+    aerial->bounce = welkin__carve(scratch, nw);
+    for (i = 0; i < air; i++) aerial->extinction[i] = welkin__narrow(welkin__head_value(f, f->extinction_at, air, i, linear));
     for (i = 0; i < nw; i++) {
         double share = 1 - c->albedo * welkin__head_value(f, f->albedo_at, nw, i, linear);
-        haze->bounce[i] = welkin__narrow(c->albedo / (share > DBL_EPSILON ? share : DBL_EPSILON));
+        aerial->bounce[i] = welkin__narrow(c->albedo / (share > DBL_EPSILON ? share : DBL_EPSILON));
     }
-    haze->sun[0] = cos(c->solar_elevation) * cos(c->solar_azimuth);
-    haze->sun[1] = cos(c->solar_elevation) * sin(c->solar_azimuth);
-    haze->sun[2] = sin(c->solar_elevation);
+    aerial->sun[0] = cos(c->solar_elevation) * cos(c->solar_azimuth);
+    aerial->sun[1] = cos(c->solar_elevation) * sin(c->solar_azimuth);
+    aerial->sun[2] = sin(c->solar_elevation);
 }
 
-static welkin_error welkin__find_sources(welkin_haze *haze, const welkin__stencil *b, welkin__entry *basis, welkin__entry *entries)
+static welkin_error welkin__find_sources(welkin_aerial_perspective *aerial, const welkin__stencil *b,
+                                         welkin__entry *basis, welkin__entry *entries)
 {
     uint32_t m;
-    if (welkin__find(haze->air.file, WELKIN__TRANSMITTANCE, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
-    if (welkin__find(haze->air.file, WELKIN__SOURCE_BASIS, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
+    if (welkin__find(aerial->air.file, WELKIN__TRANSMITTANCE, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
+    if (welkin__find(aerial->air.file, WELKIN__SOURCE_BASIS, WELKIN__NONE, WELKIN__NONE, basis)) return WELKIN_ERROR_MISSING;
     for (m = 0; m < b->count; m++) {
         if (b->weight[m] == 0) continue;
-        if (welkin__find(haze->air.file, WELKIN__SOURCE, WELKIN__NONE, b->node[m], &entries[haze->visibilities])) return WELKIN_ERROR_MISSING;
-        haze->weight[haze->visibilities++] = b->weight[m];
+        if (welkin__find(aerial->air.file, WELKIN__SOURCE, WELKIN__NONE, b->node[m], &entries[aerial->visibilities])) return WELKIN_ERROR_MISSING;
+        aerial->weight[aerial->visibilities++] = b->weight[m];
     }
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_haze_prepare(welkin_haze *haze, const welkin_file *file, const welkin_conditions *conditions, float *scratch,
-                                            size_t scratch_floats)
+WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspective *aerial, const welkin_file *file,
+                                                          const welkin_conditions *conditions, float *scratch,
+                                                          size_t scratch_floats)
 {
     const unsigned char *axis = file->bytes + file->visibility_at;
     welkin_conditions c = *conditions;
     welkin__stencil cubic, linear;
     welkin__entry basis, entries[4];
     welkin_error error;
-    memset(haze, 0, sizeof *haze);
-    haze->air.file = file;
+    memset(aerial, 0, sizeof *aerial);
+    aerial->air.file = file;
     c.altitude = welkin_altitude(file, 0);
     if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
     cubic = welkin__cubic(axis, file->visibilities, c.visibility, WELKIN__INVERSE);
     linear = welkin__linear(axis, file->visibilities, c.visibility, WELKIN__INVERSE);
-    error = welkin__find_sources(haze, &cubic, &basis, entries);
+    error = welkin__find_sources(aerial, &cubic, &basis, entries);
     if (error) return error;
-    if (scratch_floats < welkin_haze_floats(file)) return WELKIN_ERROR_SCRATCH;
-    error = welkin_air_prepare(&haze->air, file, c.visibility);
-    if (!error) error = welkin__read_source_basis(haze, &basis);
+    if (scratch_floats < welkin_aerial_perspective_floats(file)) return WELKIN_ERROR_SCRATCH;
+    error = welkin_transmittance_prepare(&aerial->air, file, c.visibility);
+    if (!error) error = welkin__read_source_basis(aerial, &basis);
     if (error) return error;
-    welkin__prepare_haze_tables(haze, &c, &linear, &scratch);
-    return welkin__read_sources(haze, entries, &linear, &scratch);
+    welkin__prepare_air_tables(aerial, &c, &linear, &scratch);
+    return welkin__read_sources(aerial, entries, &linear, &scratch);
 }
 
-/* Cosine and sine of the azimuth of the view less that of the sun, counter-clockwise around the vertical; 0 where there is none. */
+/* Cosine and sine of the azimuth of the view less that of the sun, counter-clockwise around the vertical; 0 where there
+ * is none. */
 typedef struct welkin__azimuth {
     double cosine, sine;
 } welkin__azimuth;
@@ -2144,7 +2173,8 @@ typedef struct welkin__spot {
     welkin__azimuth phi;
 } welkin__spot;
 
-/* A line of sight from its start: a unit vector, and the components of the sun's direction along e1 and e2 of the vertical frame. */
+/* A line of sight from its start: a unit vector, and the components of the sun's direction along e1 and e2 of the
+ * vertical frame. */
 typedef struct welkin__sight {
     double v[3], p1, p2;
 } welkin__sight;
@@ -2182,26 +2212,27 @@ static void welkin__find_sun(welkin__sight *sight, const double *sun)
     sight->p2 = level * phi.sine;
 }
 
-static welkin__spot welkin__spot_at(const welkin_haze *haze, double altitude, const double v[3], double s)
+static welkin__spot welkin__spot_at(const welkin_aerial_perspective *aerial, double altitude, const double v[3],
+                                    double s)
 {
     welkin__spot spot;
-    double radius = haze->air.file->planet_radius, distance, level[3];
+    double radius = aerial->air.file->planet_radius, distance, level[3];
     int i;
     for (i = 0; i < 3; i++) spot.up[i] = s * v[i];
     spot.up[2] += radius + altitude;
     distance = sqrt(welkin__dot(spot.up, spot.up));
     for (i = 0; i < 3; i++) spot.up[i] = distance > 0 ? spot.up[i] / distance : (double)(i == 2);
     spot.altitude = fmax(0, distance - radius);
-    spot.sine = fmin(fmax(welkin__dot(spot.up, haze->sun), -1), 1);
+    spot.sine = fmin(fmax(welkin__dot(spot.up, aerial->sun), -1), 1);
     spot.cos_theta = fmin(fmax(welkin__dot(spot.up, v), -1), 1);
     spot.sin_theta = sqrt(1 - spot.cos_theta * spot.cos_theta);
-    spot.phi = welkin__azimuth_between(v, haze->sun, spot.up);
-    spot.fade = welkin__azimuthal_fade(welkin__across(haze->sun, spot.up, level));
+    spot.phi = welkin__azimuth_between(v, aerial->sun, spot.up);
+    spot.fade = welkin__azimuthal_fade(welkin__across(aerial->sun, spot.up, level));
     return spot;
 }
 
 /* The profiles of the constituents at an altitude from the ground on. */
-static void welkin__profiles(const welkin_air *air, double altitude, double *profile)
+static void welkin__profiles(const welkin_transmittance_profile *air, double altitude, double *profile)
 {
     size_t nk = air->file->constituents, k;
     double radius = air->file->planet_radius, bottom, top, t;
@@ -2217,20 +2248,20 @@ static void welkin__profiles(const welkin_air *air, double altitude, double *pro
                      t * t * (double)welkin__f32(d + 4 * (2 * nk + k));
 }
 
-static void welkin__attenuate(const welkin_haze *haze, const double *columns, double *transmittance)
+static void welkin__attenuate(const welkin_aerial_perspective *aerial, const double *columns, double *transmittance)
 {
-    size_t nw = haze->air.file->wavelengths, w, k;
+    size_t nw = aerial->air.file->wavelengths, w, k;
     for (w = 0; w < nw; w++) {
         double depth = 0;
-        for (k = 0; k < haze->air.file->constituents; k++) depth += columns[k] * (double)haze->extinction[k * nw + w];
+        for (k = 0; k < aerial->air.file->constituents; k++) depth += columns[k] * (double)aerial->extinction[k * nw + w];
         transmittance[w] = exp(-depth);
     }
 }
 
 /* D: the share of the disc above the horizon times the transmittance towards the centroid of that share. */
-static void welkin__sunlight(const welkin_haze *haze, const welkin__spot *spot, double *light)
+static void welkin__sunlight(const welkin_aerial_perspective *aerial, const welkin__spot *spot, double *light)
 {
-    const welkin_file *f = haze->air.file;
+    const welkin_file *f = aerial->air.file;
     double radius = f->planet_radius, h = spot->altitude, columns[WELKIN_MAX_CONSTITUENTS] = {0};
     double e = asin(spot->sine), dip = atan(sqrt(h * (2 * radius + h)) / radius);
     double c = fmin(fmax((e + dip) / WELKIN__SUN_RADIUS, -1), 1), rest = 1 - c * c, area = WELKIN__HALF_PI + c * sqrt(rest) + asin(c);
@@ -2244,8 +2275,8 @@ static void welkin__sunlight(const welkin_haze *haze, const welkin__spot *spot, 
     line.start = (radius + h) * sin(e + WELKIN__SUN_RADIUS * 2 / 3 * rest * sqrt(rest) / area);
     line.end = 4 * (radius + h + f->top_altitude);
     line.low = h + (h * h - line.start * line.start) / (2 * radius);
-    welkin__integrate(&haze->air, &line, columns);
-    welkin__attenuate(haze, columns, light);
+    welkin__integrate(&aerial->air, &line, columns);
+    welkin__attenuate(aerial, columns, light);
     for (w = 0; w < f->wavelengths; w++) light[w] *= area / WELKIN__PI;
 }
 
@@ -2266,12 +2297,12 @@ static welkin__stencil welkin__at_nodes(const unsigned char *axis, uint32_t n, d
 }
 
 /* N_lm P_lm(cos theta) fade^m cos(m phi) in the order of the file. */
-static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot, double *values)
+static void welkin__harmonics(const welkin_aerial_perspective *aerial, const welkin__spot *spot, double *values)
 {
     double diagonal = sqrt(0.25 / WELKIN__PI), cosine = 1, sine = 0, x = spot->cos_theta;
     double cp = spot->fade * spot->phi.cosine, sp = spot->fade * spot->phi.sine;
     uint32_t m, l;
-    for (m = 0; m <= haze->orders; m++) {
+    for (m = 0; m <= aerial->orders; m++) {
         double value, before = 0, last = 0;
         if (m > 0) {
             double next = cosine * cp - sine * sp;
@@ -2280,7 +2311,7 @@ static void welkin__harmonics(const welkin_haze *haze, const welkin__spot *spot,
             diagonal *= sqrt((2.0 * m + 1) / (2.0 * m)) * spot->sin_theta;
         }
         value = diagonal;
-        for (l = m; l <= haze->degree; l++) {
+        for (l = m; l <= aerial->degree; l++) {
             double next, a = sqrt((4.0 * (l + 1) * (l + 1) - 1) / ((double)(l + 1) * (l + 1) - (double)m * m));
             *values++ = value * cosine * (m > 0 ? sqrt(2) : 1);
             next = a * (x * value - before * last);
@@ -2313,13 +2344,14 @@ static void welkin__tensor_looks(const welkin__spot *spot, double (*looks)[4])
 }
 
 /* How the components of the moments look. */
-static void welkin__see(const welkin_haze *haze, const welkin__spot *spot, double (*seen)[WELKIN__MAX_MOMENTS])
+static void welkin__see(const welkin_aerial_perspective *aerial, const welkin__spot *spot,
+                        double (*seen)[WELKIN__MAX_MOMENTS])
 {
     double tensor[WELKIN__LOOKS][4], harmonics[WELKIN__MAX_HARMONICS];
-    uint32_t b, i, k, rm = haze->rank[2], nh = welkin__harmonic_count(haze->degree, haze->orders);
-    const unsigned char *factor = haze->factor[2];
+    uint32_t b, i, k, rm = aerial->rank[2], nh = welkin__harmonic_count(aerial->degree, aerial->orders);
+    const unsigned char *factor = aerial->factor[2];
     welkin__tensor_looks(spot, tensor);
-    welkin__harmonics(haze, spot, harmonics);
+    welkin__harmonics(aerial, spot, harmonics);
     for (b = 0; b < rm; b++) {
         for (k = 0; k < WELKIN__LOOKS; k++)
             for (seen[k][b] = 0, i = 0; i < 4; i++) seen[k][b] += tensor[k][i] * (double)welkin__f32(factor + 4 * ((size_t)i * rm + b));
@@ -2329,58 +2361,61 @@ static void welkin__see(const welkin_haze *haze, const welkin__spot *spot, doubl
 }
 
 /* The core of a visibility at an altitude and sun, seen in every way: [look][channel components]. */
-static void welkin__contract(const welkin_haze *haze, uint32_t visibility, const double *a, const double *s,
-                             double (*seen)[WELKIN__MAX_MOMENTS], double (*out)[WELKIN__MAX_COMPONENTS])
+static void welkin__contract(const welkin_aerial_perspective *aerial, uint32_t visibility, const double *a,
+                             const double *s, double (*seen)[WELKIN__MAX_MOMENTS],
+                             double (*out)[WELKIN__MAX_COMPONENTS])
 {
     float sum[WELKIN__MAX_MOMENTS * WELKIN__MAX_COMPONENTS];
-    const float *core = haze->core[visibility];
-    uint32_t i, j, b, c, rc = haze->rank[3], width = haze->rank[2] * rc;
+    const float *core = aerial->core[visibility];
+    uint32_t i, j, b, c, rc = aerial->rank[3], width = aerial->rank[2] * rc;
     for (c = 0; c < width; c++) sum[c] = 0;
-    for (i = 0; i < haze->rank[0]; i++)
-        for (j = 0; j < haze->rank[1]; j++, core += width) {
+    for (i = 0; i < aerial->rank[0]; i++)
+        for (j = 0; j < aerial->rank[1]; j++, core += width) {
             float weight = welkin__narrow(a[i] * s[j]);
             for (c = 0; c < width; c++) sum[c] += weight * core[c];
         }
     for (i = 0; i < WELKIN__LOOKS; i++)
         for (c = 0; c < rc; c++)
-            for (out[i][c] = 0, b = 0; b < haze->rank[2]; b++) out[i][c] += seen[i][b] * (double)sum[b * rc + c];
+            for (out[i][c] = 0, b = 0; b < aerial->rank[2]; b++) out[i][c] += seen[i][b] * (double)sum[b * rc + c];
 }
 
-static double welkin__level_at(const welkin_haze *haze, uint32_t visibility, const welkin__stencil *sun, uint32_t field, uint32_t w)
+static double welkin__level_at(const welkin_aerial_perspective *aerial, uint32_t visibility, const welkin__stencil *sun,
+                               uint32_t field, uint32_t w)
 {
     double sum = 0;
-    uint32_t i, nw = haze->air.file->wavelengths;
+    uint32_t i, nw = aerial->air.file->wavelengths;
     for (i = 0; i < sun->count; i++)
-        sum += sun->weight[i] * (double)welkin__f32(haze->level[visibility] + 4 * (((size_t)field * haze->suns + sun->node[i]) * nw + w));
+        sum += sun->weight[i] * (double)welkin__f32(aerial->level[visibility] + 4 * (((size_t)field * aerial->suns + sun->node[i]) * nw + w));
     return sum;
 }
 
 /* S_R, S_A, Q_R and U_R at every wavelength. */
-static void welkin__sources(const welkin_haze *haze, const welkin__spot *spot, double (*out)[WELKIN_MAX_WAVELENGTHS])
+static void welkin__sources(const welkin_aerial_perspective *aerial, const welkin__spot *spot,
+                            double (*out)[WELKIN_MAX_WAVELENGTHS])
 {
-    welkin__stencil altitude = welkin__at_nodes(haze->altitude, haze->altitudes, spot->altitude, WELKIN__CUBE_ROOT);
-    welkin__stencil sun = welkin__at_nodes(haze->sine, haze->suns, spot->sine, WELKIN__SINE);
+    welkin__stencil altitude = welkin__at_nodes(aerial->altitude, aerial->altitudes, spot->altitude, WELKIN__CUBE_ROOT);
+    welkin__stencil sun = welkin__at_nodes(aerial->sine, aerial->suns, spot->sine, WELKIN__SINE);
     double a[WELKIN__MAX_COMPONENTS], s[WELKIN__MAX_COMPONENTS], seen[WELKIN__LOOKS][WELKIN__MAX_MOMENTS],
         part[WELKIN__LOOKS][WELKIN__MAX_COMPONENTS];
     double logarithm[WELKIN_MAX_WAVELENGTHS] = {0};
-    uint32_t m, w, i, c, f, rc = haze->rank[3], nw = haze->air.file->wavelengths;
-    welkin__mix(haze->factor[0], haze->rank[0], &altitude, a);
-    welkin__mix(haze->factor[1], haze->rank[1], &sun, s);
-    welkin__see(haze, spot, seen);
+    uint32_t m, w, i, c, f, rc = aerial->rank[3], nw = aerial->air.file->wavelengths;
+    welkin__mix(aerial->factor[0], aerial->rank[0], &altitude, a);
+    welkin__mix(aerial->factor[1], aerial->rank[1], &sun, s);
+    welkin__see(aerial, spot, seen);
     for (i = 0; i < WELKIN__LOOKS; i++)
         for (w = 0; w < nw; w++) out[i][w] = 0;
-    for (m = 0; m < haze->visibilities; m++) {
-        welkin__contract(haze, m, a, s, seen, part);
+    for (m = 0; m < aerial->visibilities; m++) {
+        welkin__contract(aerial, m, a, s, seen, part);
         for (w = 0; w < nw; w++) {
-            double air = welkin__level_at(haze, m, &sun, 0, w), ground = welkin__level_at(haze, m, &sun, 1, w);
+            double air = welkin__level_at(aerial, m, &sun, 0, w), ground = welkin__level_at(aerial, m, &sun, 1, w);
             double share[2] = {1, 0};
-            share[1] = (double)haze->bounce[w] * exp(ground - air);
-            logarithm[w] += haze->weight[m] * air;
+            share[1] = (double)aerial->bounce[w] * exp(ground - air);
+            logarithm[w] += aerial->weight[m] * air;
             for (i = 0; i < WELKIN__LOOKS; i++)
                 for (f = 0; f < 2; f++)
                     for (c = 0; c < rc; c++)
-                        out[i][w] += haze->weight[m] * share[f] * part[i][c] *
-                                     (double)welkin__f32(haze->factor[3] + 4 * (((size_t)f * nw + w) * rc + c));
+                        out[i][w] += aerial->weight[m] * share[f] * part[i][c] *
+                                     (double)welkin__f32(aerial->factor[3] + 4 * (((size_t)f * nw + w) * rc + c));
         }
     }
     for (i = 0; i < WELKIN__LOOKS; i++)
@@ -2402,23 +2437,23 @@ static double welkin__phase_value(uint32_t phase, double p, const double v[3], c
 }
 
 /* L, Q and U per metre of what the air of a point sends along the segment. */
-static void welkin__emission(const welkin_haze *haze, const welkin__spot *spot, const welkin__sight *sight,
-                             double (*light)[WELKIN_MAX_WAVELENGTHS])
+static void welkin__emission(const welkin_aerial_perspective *aerial, const welkin__spot *spot,
+                             const welkin__sight *sight, double (*light)[WELKIN_MAX_WAVELENGTHS])
 {
     double profile[WELKIN_MAX_CONSTITUENTS], sunlight[WELKIN_MAX_WAVELENGTHS], source[WELKIN__LOOKS][WELKIN_MAX_WAVELENGTHS];
-    size_t nw = haze->air.file->wavelengths, nk = haze->air.file->constituents, w, k;
+    size_t nw = aerial->air.file->wavelengths, nk = aerial->air.file->constituents, w, k;
     uint32_t p;
-    welkin__profiles(&haze->air, spot->altitude, profile);
-    welkin__sunlight(haze, spot, sunlight);
-    welkin__sources(haze, spot, source);
+    welkin__profiles(&aerial->air, spot->altitude, profile);
+    welkin__sunlight(aerial, spot, sunlight);
+    welkin__sources(aerial, spot, source);
     for (k = 0; k < 3; k++)
         for (w = 0; w < nw; w++) light[k][w] = 0;
-    for (p = 0; p < haze->species; p++)
+    for (p = 0; p < aerial->species; p++)
         for (w = 0; w < nw; w++) {
-            double parameter = (double)haze->parameter[p * nw + w], once = sunlight[w] / (4 * WELKIN__PI), scattering = 0, dipole;
-            int molecules = haze->phase[p] == 1;
-            for (k = 0; k < nk; k++) scattering += (double)haze->scattering[(p * nk + k) * nw + w] * profile[k];
-            light[0][w] += scattering * (once * welkin__phase_value(haze->phase[p], parameter, sight->v, haze->sun) +
+            double parameter = (double)aerial->parameter[p * nw + w], once = sunlight[w] / (4 * WELKIN__PI), scattering = 0, dipole;
+            int molecules = aerial->phase[p] == 1;
+            for (k = 0; k < nk; k++) scattering += (double)aerial->scattering[(p * nk + k) * nw + w] * profile[k];
+            light[0][w] += scattering * (once * welkin__phase_value(aerial->phase[p], parameter, sight->v, aerial->sun) +
                                          source[molecules ? WELKIN__MOLECULES : WELKIN__PARTICLES][w]);
             if (!molecules) continue;
             dipole = once * 0.75 * (1 - parameter) / (1 + parameter / 2);
@@ -2427,7 +2462,8 @@ static void welkin__emission(const welkin_haze *haze, const welkin__spot *spot, 
         }
 }
 
-/* Ends of intervals between two distances from the tangent point, ever closer towards the start and towards the lowest point. */
+/* Ends of intervals between two distances from the tangent point, ever closer towards the start and towards the lowest
+ * point. */
 static uint32_t welkin__intervals(double start, double end, double *ends)
 {
     double length = end - start, lowest = fmin(fmax(0, start), end), step = 1;
@@ -2452,11 +2488,11 @@ static uint32_t welkin__intervals(double start, double end, double *ends)
 }
 
 /* The segment from an altitude along a unit vector; Gauss-Legendre rule of three points in each interval. */
-static void welkin__gather(const welkin_haze *haze, double altitude, const welkin__sight *sight, const welkin__line *segment,
-                           double (*sum)[WELKIN_MAX_WAVELENGTHS])
+static void welkin__gather(const welkin_aerial_perspective *aerial, double altitude, const welkin__sight *sight,
+                           const welkin__line *segment, double (*sum)[WELKIN_MAX_WAVELENGTHS])
 {
     static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-    const welkin_file *f = haze->air.file;
+    const welkin_file *f = aerial->air.file;
     double top = f->top_altitude + f->top_altitude * f->top_altitude / (2 * f->planet_radius), reach = welkin__crossing(segment, top);
     double ends[64], columns[WELKIN_MAX_CONSTITUENTS] = {0}, light[3][WELKIN_MAX_WAVELENGTHS], through[WELKIN_MAX_WAVELENGTHS];
     double start = fmax(segment->start, -reach), end = fmin(segment->end, reach);
@@ -2467,54 +2503,57 @@ static void welkin__gather(const welkin_haze *haze, double altitude, const welki
     for (i = 1; i < n; i++)
         for (j = 0; j < 3 && ends[i] > ends[i - 1]; j++) {
             double half = (ends[i] - ends[i - 1]) / 2, s = ends[i - 1] + half * (1 + node[j]);
-            welkin__spot spot = welkin__spot_at(haze, altitude, sight->v, s - segment->start);
+            welkin__spot spot = welkin__spot_at(aerial, altitude, sight->v, s - segment->start);
             piece.start = piece.end;
             piece.end = s;
-            welkin__integrate(&haze->air, &piece, columns);
-            welkin__attenuate(haze, columns, through);
-            welkin__emission(haze, &spot, sight, light);
+            welkin__integrate(&aerial->air, &piece, columns);
+            welkin__attenuate(aerial, columns, through);
+            welkin__emission(aerial, &spot, sight, light);
             for (k = 0; k < 3; k++)
                 for (w = 0; w < f->wavelengths; w++) sum[k][w] += 2 * half * weight[j] * through[w] * light[k][w];
         }
 }
 
 /* Sums of L, Q and U along a segment. */
-static welkin_error welkin__scattered(const welkin_haze *haze, double altitude, const double direction[3], double distance,
-                                      double (*sum)[WELKIN_MAX_WAVELENGTHS])
+static welkin_error welkin__in_scattering(const welkin_aerial_perspective *aerial, double altitude,
+                                          const double direction[3], double distance,
+                                          double (*sum)[WELKIN_MAX_WAVELENGTHS])
 {
-    double radius = haze->air.file->planet_radius;
+    double radius = aerial->air.file->planet_radius;
     welkin__line line;
     welkin__sight sight;
     int good = 1;
     uint32_t w;
     welkin_error error = welkin__segment(altitude, direction, distance, sight.v);
     if (error) return error;
-    welkin__find_sun(&sight, haze->sun);
+    welkin__find_sun(&sight, aerial->sun);
     line.radius = radius;
     line.start = (radius + altitude) * sight.v[2];
     line.end = line.start + distance;
     line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
-    welkin__gather(haze, altitude, &sight, &line, sum);
-    for (w = 0; w < haze->air.file->wavelengths; w++) good &= sum[0][w] >= 0 && sum[0][w] <= (double)FLT_MAX;
+    welkin__gather(aerial, altitude, &sight, &line, sum);
+    for (w = 0; w < aerial->air.file->wavelengths; w++) good &= sum[0][w] >= 0 && sum[0][w] <= (double)FLT_MAX;
     return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
-WELKIN_API welkin_error welkin_in_scattering(const welkin_haze *haze, double altitude, const double direction[3], double distance, float *light)
+WELKIN_API welkin_error welkin_in_scattering(const welkin_aerial_perspective *aerial, double altitude,
+                                             const double direction[3], double distance, float *light)
 {
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
-    welkin_error error = welkin__scattered(haze, altitude, direction, distance, sum);
-    for (w = 0; w < haze->air.file->wavelengths && !error; w++) light[w] = welkin__narrow(sum[0][w]);
+    welkin_error error = welkin__in_scattering(aerial, altitude, direction, distance, sum);
+    for (w = 0; w < aerial->air.file->wavelengths && !error; w++) light[w] = welkin__narrow(sum[0][w]);
     return error;
 }
 
-WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_haze *haze, double altitude, const double direction[3], double distance,
-                                                 float *light, float *q, float *u)
+WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspective *aerial, double altitude,
+                                                    const double direction[3], double distance, float *light, float *q,
+                                                    float *u)
 {
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
-    welkin_error error = welkin__scattered(haze, altitude, direction, distance, sum);
-    for (w = 0; w < haze->air.file->wavelengths && !error; w++) {
+    welkin_error error = welkin__in_scattering(aerial, altitude, direction, distance, sum);
+    for (w = 0; w < aerial->air.file->wavelengths && !error; w++) {
         light[w] = welkin__narrow(sum[0][w]);
         error = welkin__limit_polarisation(light[w], sum[1][w], sum[2][w], &q[w], &u[w]);
     }

@@ -133,7 +133,7 @@ fn values(
 fn is_rough(case: &Case, question: &Question) -> bool {
     let [.., distance] = question.cells;
     let twilight = question.cells[3] < 0.0 && distance > 100.0;
-    let jagged = case.base == "haze-negative" || distance > 1e5 || twilight;
+    let jagged = case.base == "aerial-perspective-negative" || distance > 1e5 || twilight;
     let [x, y, z] = [5, 6, 7].map(|i| question.cells[i]);
     let vertical = question.name() == "in_scattering_stokes" && x.hypot(y) <= 1e-6 * z.abs();
     question.name().starts_with("in_scattering") && (jagged || vertical)

@@ -1,7 +1,7 @@
 //! Changes of a file that follow its structure.
 
 use crate::bytes::Bytes;
-use crate::parts::{Chunk, PolarisationFrame, Parts, seal};
+use crate::parts::{Chunk, Frame, Parts, seal};
 
 /// What the changes were.
 #[derive(Default)]
@@ -346,7 +346,7 @@ fn length(bytes: &mut Bytes, chunks: &mut [Chunk]) -> Option<String> {
 fn frame(bytes: &mut Bytes, chunks: &mut [Chunk]) -> Option<String> {
     let chunk = any(bytes, chunks)?;
     let damage = (bytes.below(2) == 0).then(|| (bytes.u32(), bytes.byte()));
-    chunk.packed = Some(PolarisationFrame {
+    chunk.packed = Some(Frame {
         checksum: bytes.below(2) == 0,
         damage,
         tail: bytes.one_of(&[0, 0, 0, 0, 1, 4]),

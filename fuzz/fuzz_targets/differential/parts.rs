@@ -8,14 +8,14 @@ pub struct Chunk {
     /// The payload, decoded.
     pub payload: Vec<u8>,
     /// Stored as a frame.
-    pub packed: Option<PolarisationFrame>,
+    pub packed: Option<Frame>,
     /// Fields of the entry that follow from the payload are left as they are.
     pub stale: bool,
 }
 
 /// How a payload is compressed.
 #[derive(Clone, Copy, Default)]
-pub struct PolarisationFrame {
+pub struct Frame {
     pub checksum: bool,
     /// A byte of the frame and what it is changed by.
     pub damage: Option<(u32, u8)>,
@@ -47,7 +47,7 @@ impl Parts {
                 .filter(|_| e.encoding == ENCODING_ZSTD);
             Chunk {
                 entry: entry.try_into().expect("64 bytes"),
-                packed: packed.map(|_| PolarisationFrame::default()),
+                packed: packed.map(|_| Frame::default()),
                 payload: packed.cloned().unwrap_or_else(|| stored.to_vec()),
                 stale: false,
             }
@@ -112,7 +112,7 @@ impl Chunk {
     }
 }
 
-impl PolarisationFrame {
+impl Frame {
     fn pack(self, payload: &[u8]) -> Vec<u8> {
         let mut compressor = zstd::bulk::Compressor::new(1).expect("an encoder");
         compressor

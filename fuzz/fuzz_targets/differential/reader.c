@@ -11,7 +11,7 @@ size_t ZSTD_decompress(void *out, size_t capacity, const void *frame, size_t len
 /* More than this is not worth the time. */
 #define MOST_BYTES ((size_t)1 << 26)
 
-enum { RADIANCE, RADIANCE_AT, SPECTRAL_AT, XYZ, STOKES, STOKES_AT, TRANSMITTANCE, IN_SCATTER, IN_SCATTER_STOKES };
+enum { RADIANCE, RADIANCE_AT, SPECTRAL_AT, XYZ, STOKES, STOKES_AT, TRANSMITTANCE, IN_SCATTERING, IN_SCATTERING_STOKES };
 
 /* One question: altitude, visibility, albedo, elevation and azimuth of the sun, direction, wavelength, distance. */
 typedef struct question {
@@ -56,23 +56,23 @@ static welkin_error ask_segment(const welkin_file *file, const question *q, cons
 {
     float light[3][WELKIN_MAX_WAVELENGTHS];
     const double *direction = q->cells + 5;
-    welkin_air air;
-    welkin_haze haze;
+    welkin_transmittance_profile air;
+    welkin_aerial_perspective aerial;
     welkin_error error;
     if (q->quantity == TRANSMITTANCE) {
-        error = welkin_air_prepare(&air, file, c->visibility);
+        error = welkin_transmittance_prepare(&air, file, c->visibility);
         if (!error) error = welkin_transmittance(&air, c->altitude, direction, q->cells[9], light[0]);
         if (!error) put(a, light[0], file->wavelengths);
         return error;
     }
-    error = welkin_haze_prepare(&haze, file, c, scratch, floats);
+    error = welkin_aerial_perspective_prepare(&aerial, file, c, scratch, floats);
     if (error) return error;
-    if (q->quantity == IN_SCATTER) {
-        error = welkin_in_scattering(&haze, c->altitude, direction, q->cells[9], light[0]);
+    if (q->quantity == IN_SCATTERING) {
+        error = welkin_in_scattering(&aerial, c->altitude, direction, q->cells[9], light[0]);
         if (!error) put(a, light[0], file->wavelengths);
         return error;
     }
-    error = welkin_in_scattering_stokes(&haze, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
+    error = welkin_in_scattering_stokes(&aerial, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
     if (!error) put_three(a, light[0], light[1], light[2], file->wavelengths);
     return error;
 }
@@ -133,9 +133,9 @@ static welkin_error ask(const welkin_file *file, const question *q, float *scrat
 
 static void ask_all(const welkin_file *file, const question *questions, size_t count, answer *answers)
 {
-    size_t floats = welkin_scratch_floats(file, WELKIN_POLARISED | WELKIN_DENSE), haze = welkin_haze_floats(file), i;
+    size_t floats = welkin_scratch_floats(file, WELKIN_POLARISED | WELKIN_DENSE), aerial = welkin_aerial_perspective_floats(file), i;
     float *scratch;
-    if (floats < haze) floats = haze;
+    if (floats < aerial) floats = aerial;
     scratch = floats <= MOST_BYTES / sizeof *scratch ? malloc(floats * sizeof *scratch + 1) : NULL;
     for (i = 0; i < count; i++)
         answers[i].error = scratch ? (int32_t)ask(file, &questions[i], scratch, floats, &answers[i]) : WELKIN_ERROR_SCRATCH;

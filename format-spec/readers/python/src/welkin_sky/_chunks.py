@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _head
-from ._haze import decode_source, decode_source_basis
+from ._aerial_perspective import decode_source, decode_source_basis
 from ._head import NONE, Cursor, require, require_within, round_up
 from ._zstd import decompress
 from .errors import ChecksumError, EncodingError, InvalidValueError, MissingError

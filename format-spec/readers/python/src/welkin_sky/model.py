@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from . import _head
-from ._air import path_integrals
+from ._aerial_perspective import AerialPerspective
 from ._axes import linear_weights
 from ._chunks import Chunks
 from ._geometry import unit_vectors
-from ._haze import Haze
 from ._head import read_head
 from ._spectral import Wavelengths
+from ._transmittance import path_integrals
 from .errors import InvalidValueError, PointError, RangeError
 from .sky import Conditions, Sky, bounded_stokes
 
@@ -135,16 +135,16 @@ class Model:
         result = np.exp(-(columns @ self._extinction_at(visibility)))
         return _finite(result).reshape(*shape, -1)
 
-    def scattered(self, directions, distance, **scene):
+    def in_scattering(self, directions, distance, **scene):
         """Light that the air of straight segments scatters to an observer: (…, 3) → (…, W).
 
         It is per unit of solar spectral irradiance, sr⁻¹. `scene` is that of `sky`, but
         with any altitude; `distance` is as in `transmittance`. An integral over many points: slow for images.
         """
-        return self.scattered_stokes(directions, distance, **scene)[..., 0, :]
+        return self.in_scattering_stokes(directions, distance, **scene)[..., 0, :]
 
     @np.errstate(all="ignore")
-    def scattered_stokes(
+    def in_scattering_stokes(
         self,
         directions,
         distance,
@@ -161,12 +161,12 @@ class Model:
         """
         lowest, _ = self.altitude_range
         conditions = self._conditions(solar_elevation, visibility, albedo, lowest, solar_azimuth)
-        haze = Haze(self._head, self._chunks, conditions, float(altitude))
+        aerial = AerialPerspective(self._head, self._chunks, conditions, float(altitude))
         units = unit_vectors(directions)
         _, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
-        starts = range(0, max(1, len(units)), haze.block)
-        blocks = (slice(i, i + haze.block) for i in starts)
-        light = np.concatenate([haze.scattered(units[b], distance[b]) for b in blocks])
+        starts = range(0, max(1, len(units)), aerial.block)
+        blocks = (slice(i, i + aerial.block) for i in starts)
+        light = np.concatenate([aerial.in_scattering(units[b], distance[b]) for b in blocks])
         light = bounded_stokes(*np.moveaxis(_finite(light), 1, 0))
         return _finite(light).reshape(*np.shape(directions)[:-1], 3, -1)
 

@@ -46,7 +46,7 @@ def source_chunk(phase, scattering):
     return head + struct.pack("<I", phase) + numbers + np.array([0.5], "<f2").tobytes()
 
 
-def haze_file(phase, extinction, scattering):
+def aerial_file(phase, extinction, scattering):
     """A file with kinds 4, 5 and 8; one constituent, one visibility, two wavelengths."""
     chunks = [
         (_head.TRANSMITTANCE, _head.NONE, transmittance_chunk()),
@@ -79,36 +79,36 @@ def views():
     return np.stack([np.cos(elevation), 0.0 * elevation, np.sin(elevation)], axis=1)
 
 
-class Scattered(unittest.TestCase):
+class AerialPerspective(unittest.TestCase):
     def test_constant_source(self):
         """Where nothing absorbs, a constant source in the dark gives source · (1 − T)."""
         for phase in (1, 2):
-            model = welkin_sky.from_bytes(haze_file(phase, 1e-4, 1e-4))
+            model = welkin_sky.from_bytes(aerial_file(phase, 1e-4, 1e-4))
             for altitude in (0.0, 1e3, 2e4):
                 place = {"altitude": altitude, "visibility": 5e4}
                 for distance in (100.0, 1e4, 3e5):
                     with self.subTest(phase=phase, altitude=altitude, distance=distance):
                         night = {"solar_elevation": -1.5, "albedo": 0.0, **place}
-                        light = model.scattered(views(), distance, **night)
+                        light = model.in_scattering(views(), distance, **night)
                         through = model.transmittance(views(), distance, **place)
                         expected = SOURCE_LEVEL * (1.0 - through)
                         np.testing.assert_allclose(light, expected, rtol=0.02)
 
     def test_from_above(self):
         """An observer above the air sees all of it, and from aside nothing."""
-        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-4))
+        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-4))
         place = {"altitude": 4e7, "visibility": 5e4}
         night = {"solar_elevation": -1.5, "albedo": 0.0, **place}
-        light = model.scattered([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]], 4e7, **night)
+        light = model.in_scattering([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]], 4e7, **night)
         through = model.transmittance([0.0, 0.0, -1.0], 4e7, **place)
         np.testing.assert_allclose(light[0], SOURCE_LEVEL * (1.0 - through), rtol=0.02)
         np.testing.assert_array_equal(light[1], 0.0)
 
     def test_sunlight(self):
         """A short segment scatters its depth · phase function · sunlight / 4π."""
-        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-9))
+        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
-        light = model.scattered([1.0, 0, 0], 1.0, solar_elevation=0.5, albedo=0.0, **place)
+        light = model.in_scattering([1.0, 0, 0], 1.0, solar_elevation=0.5, albedo=0.0, **place)
         sun = [np.cos(0.5), 0.0, np.sin(0.5)]
         sunlight = model.transmittance(sun, np.inf, **place)
         expected = 1e-9 * (sunlight / (4.0 * np.pi) + SOURCE_LEVEL)
@@ -116,7 +116,7 @@ class Scattered(unittest.TestCase):
 
     def test_polarisation(self):
         """A short segment of molecules: Q and U of sunlight; the source is the same from everywhere."""
-        model = welkin_sky.from_bytes(haze_file(1, 1e-4, 1e-9))
+        model = welkin_sky.from_bytes(aerial_file(1, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "solar_azimuth": 0.3, **place}
         sun = [np.cos(0.5) * np.cos(0.3), np.cos(0.5) * np.sin(0.3), np.sin(0.5)]
@@ -126,20 +126,20 @@ class Scattered(unittest.TestCase):
         right = {"level": (sun[2], -sun[1]), "zenith": (-np.cos(0.5), 0.0)}
         for name, view in (("level", level), ("zenith", zenith)):
             p1, p2 = right[name]
-            light, q, u = model.scattered_stokes(view, 1.0, **scene)
+            light, q, u = model.in_scattering_stokes(view, 1.0, **scene)
             dipole = 1e-9 * 0.75 * sunlight / (4.0 * np.pi)
             np.testing.assert_allclose(q, dipole * (p2**2 - p1**2), rtol=1e-3)
             np.testing.assert_allclose(u, -2.0 * dipole * p1 * p2, rtol=1e-3, atol=1e-18)
-            np.testing.assert_array_equal(light, model.scattered(view, 1.0, **scene))
+            np.testing.assert_array_equal(light, model.in_scattering(view, 1.0, **scene))
 
     def test_conditions(self):
-        model = welkin_sky.from_bytes(haze_file(2, 1e-4, 1e-4))
+        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-4))
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "altitude": 0.0, "visibility": 5e4}
         with self.assertRaises(welkin_sky.DirectionError):
-            model.scattered([0.0, 0.0, 0.0], 1.0, **scene)
+            model.in_scattering([0.0, 0.0, 0.0], 1.0, **scene)
         for distance in (-1.0, 2e9):
             with self.assertRaises(welkin_sky.PointError):
-                model.scattered([0.0, 0.0, 1.0], distance, **scene)
+                model.in_scattering([0.0, 0.0, 1.0], distance, **scene)
         with self.assertRaises(welkin_sky.MissingError):
             model.sky(**scene)
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _head
-from ._air import altitude_on_line, path_integrals, profile_at
 from ._axes import linear_weights, node_weights
 from ._geometry import azimuthal_fade, elevation_of, horizon_dip, sun_across, sun_vector
 from ._head import PHASE_RAYLEIGH, check_phase, require, require_increasing, require_within
 from ._phase import Angle, phase_function, rayleigh_share
+from ._transmittance import altitude_on_line, path_integrals, profile_at
 
 SOLAR_RADIUS = 0.004654793
 TENSOR = 4
@@ -122,7 +122,7 @@ def _next_legendre(l, m, x, value, before):
     return a * (x * value - b * before)
 
 
-class Haze:
+class AerialPerspective:
     """The light that air scatters in one scene."""
 
     @np.errstate(all="ignore")
@@ -168,7 +168,7 @@ class Haze:
         widest = max(ra * rs, rm * rc, len(self._basis.moment_factor), *axes)
         return max(1, (1 << 20) // (64 * widest))
 
-    def scattered(self, units, distance):
+    def in_scattering(self, units, distance):
         """L, Q, U (N, 3, nw), sr⁻¹, of segments along units (N, 3), of lengths (N,) in m."""
         along, weights = self._quadrature(units, distance)
         n, q = along.shape
@@ -271,20 +271,20 @@ def _at_nodes(nodes, x):
 class _Points:
     """Points on lines of sight, with the local directions of the view and of the sun there."""
 
-    def __init__(self, haze, units, along):
-        radius, h = haze._head.planet_radius, haze._altitude
+    def __init__(self, aerial, units, along):
+        radius, h = aerial._head.planet_radius, aerial._altitude
         rise = units[:, 2]
         self.altitude = np.maximum(0.0, altitude_on_line(radius, h, rise, along))
-        self.angle = Angle(units, haze._sun)
+        self.angle = Angle(units, aerial._sun)
         position = along[:, None] * units
         position[:, 2] += radius + h
         up = position / np.linalg.norm(position, axis=1, keepdims=True)
-        self.sin_sun = up @ haze._sun
+        self.sin_sun = up @ aerial._sun
         self.cos_view = np.sum(up * units, axis=1)
-        self.phi = _azimuth(up, units, haze._sun)
-        self.fade = azimuthal_fade(np.linalg.norm(np.cross(up, haze._sun), axis=1))
-        start = _azimuth(np.array([[0.0, 0.0, 1.0]]), units, haze._sun)
-        elevation = elevation_of(units), np.arctan2(haze._sun[2], np.hypot(*haze._sun[:2]))
+        self.phi = _azimuth(up, units, aerial._sun)
+        self.fade = azimuthal_fade(np.linalg.norm(np.cross(up, aerial._sun), axis=1))
+        start = _azimuth(np.array([[0.0, 0.0, 1.0]]), units, aerial._sun)
+        elevation = elevation_of(units), np.arctan2(aerial._sun[2], np.hypot(*aerial._sun[:2]))
         self.sun_across = [part[:, None] for part in sun_across(*elevation, start)]
 
     @property
