@@ -1,6 +1,6 @@
 //! No more of a model than a scene needs.
 
-use crate::baked::{check_tolerance, largest_bytes};
+use crate::baked::{check_tolerance, largest_colour, largest_polarised, largest_spectral};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
 use crate::model::{Key, Model};
@@ -156,7 +156,11 @@ impl Model {
             budget: *budget,
             file_bytes: self.head_bytes() + entries().map(|entry| entry.length).sum::<usize>(),
             chunk_count: chunks.len(),
-            sky_bytes: largest_bytes(budget.channels, head),
+            sky_bytes: match budget.channels {
+                Channels::Spectral => largest_spectral(head),
+                Channels::Colour => largest_colour(),
+                Channels::Stokes => largest_polarised(head),
+            },
             error_median: worst(Kind::Radiance, median),
             error_p99: worst(Kind::Radiance, p99),
             degree_error: polarised.then(|| [median, p99].map(|e| worst(Kind::Polarisation, e))),

@@ -149,7 +149,16 @@ fn imports(root: &Path) -> Graph {
                     }
                 }
             }
-            // The root only declares.
+            // The root only declares and hands on; whoever takes types from there cannot be followed.
+            let type_of_root = path[0] == "crate"
+                && path
+                    .get(1)
+                    .is_some_and(|name| name.starts_with(char::is_uppercase));
+            assert!(
+                !type_of_root || root.ends_with("welkin"),
+                "{}: {path:?}",
+                file.display()
+            );
             to.extend(
                 modules
                     .get(&place)

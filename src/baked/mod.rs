@@ -39,16 +39,17 @@ pub use sampler::{Part, Sample, SkySampler};
 
 use crate::format::Head;
 
-/// Most bytes that a baked sky of a model holds on the heap.
-pub(crate) fn largest_bytes(channels: crate::Channels, head: &Head) -> usize {
-    let n = head.wavelengths.len();
-    match channels {
-        crate::Channels::Spectral => {
-            grid_choice::largest_table(n, 16) + baked_spectral::axis_bytes(head)
-        }
-        crate::Channels::Colour => grid_choice::largest_table(3, 4),
-        crate::Channels::Stokes => {
-            largest_bytes(crate::Channels::Spectral, head) + polarisation_table::largest_table(n)
-        }
-    }
+/// Most bytes that a baked sky with all wavelengths of a model holds on the heap.
+pub(crate) fn largest_spectral(head: &Head) -> usize {
+    grid_choice::largest_table(head.wavelengths.len(), 16) + baked_spectral::axis_bytes(head)
+}
+
+/// The same of a baked sky in colour.
+pub(crate) fn largest_colour() -> usize {
+    grid_choice::largest_table(3, 4)
+}
+
+/// The same of a baked sky with its polarisation.
+pub(crate) fn largest_polarised(head: &Head) -> usize {
+    largest_spectral(head) + polarisation_table::largest_table(head.wavelengths.len())
 }
