@@ -1,6 +1,6 @@
 //! No more of a model than a scene needs.
 
-use crate::baked::{check_tolerance, largest_bytes};
+use crate::baked::{check_tolerance, largest_colour, largest_polarised, largest_spectral};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
 use crate::model::{Key, Model};
@@ -156,7 +156,11 @@ impl Model {
             budget: *budget,
             file_bytes: self.head_bytes() + entries().map(|entry| entry.length).sum::<usize>(),
             chunk_count: chunks.len(),
-            sky_bytes: largest_bytes(budget.channels, head),
+            sky_bytes: match budget.channels {
+                Channels::Spectral => largest_spectral(head),
+                Channels::Colour => largest_colour(),
+                Channels::Stokes => largest_polarised(head),
+            },
             error_median: worst(Kind::Radiance, median),
             error_p99: worst(Kind::Radiance, p99),
             degree_error: polarised.then(|| [median, p99].map(|e| worst(Kind::Polarisation, e))),
@@ -204,7 +208,7 @@ impl Model {
     /// # Errors
     /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.
     pub fn polarised_point_query(&self, plan: &Plan) -> Result<PolarisedPointQuery<'_>> {
-        let general = self.point_query(plan)?;
+        let query = self.point_query(plan)?;
         let head = self.head();
         let visibilities = head.visibilities.len();
         let mut chunks = vec![None; head.altitudes.len() * visibilities];
@@ -221,7 +225,7 @@ impl Model {
             chunks[a * visibilities + v] = Some(self.polarisation_chunk(a, v)?);
         }
         let factors = Factors::new(self.polarisation_basis()?, chunks, visibilities)?;
-        Ok(PolarisedPointQuery::new(general, factors))
+        Ok(PolarisedPointQuery::new(query, factors))
     }
 }
 

@@ -336,7 +336,7 @@ impl fmt::Display for Error {
                 reach,
             } => write!(
                 f,
-                "the air of a segment must lie within {reach} rad (angle at the planet's centre) of where the haze was prepared, got ({x}, {y}, {z}): prepare one nearer to it"
+                "the air of a segment must lie within {reach} rad (angle at the planet's centre) of where the aerial perspective was prepared, got ({x}, {y}, {z}): prepare one nearer to it"
             ),
             Error::Direction { got: [x, y, z] } => write!(
                 f,

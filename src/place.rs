@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn the_frame_of_a_haze_is_its_own() {
+    fn the_frame_of_an_aerial_perspective_is_its_own() {
         let place = Place::new(&EARTH, [0.0, 0.0, -EARTH.radius], [0.0, 0.0, 300.0]).unwrap();
         assert_eq!(
             place.axes(),

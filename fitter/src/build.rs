@@ -5,7 +5,7 @@ use crate::dataset::{Sample, Store};
 use crate::decompose::{self, Chunk, Fit, chunk_geometry};
 use crate::finite;
 use crate::fitting::Fitting;
-use crate::pack::{self, Air, PackedBasis};
+use crate::pack::{self, AirTables, PackedBasis};
 use crate::progress::bar;
 use crate::report;
 use crate::round_trip;
@@ -272,8 +272,8 @@ pub(crate) fn radiance_file(
     places: &[Place],
     fit: &Fit,
 ) -> Result<(Head, Vec<format::Chunk>)> {
-    let air = |s: &Solved| Air::new(&s.medium, s.light.spherical_albedo);
-    let airs: Vec<Air> = solved.iter().map(air).collect();
+    let air = |s: &Solved| AirTables::new(&s.medium, s.light.spherical_albedo);
+    let airs: Vec<AirTables> = solved.iter().map(air).collect();
     let head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let medium = &solved[0].medium;

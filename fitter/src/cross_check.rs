@@ -71,12 +71,12 @@ pub fn cross_check(
         let walks = tracer.samples_for(&query, target, sample.albedo, 2 * i as u64)?;
         let estimate = tracer.estimate(&query, walks, 2 * i as u64 + 1)?;
         for w in 0..NW {
-            let judged = estimate.radiance(sample.albedo, w);
-            if judged.stokes[0] > 0.0 {
+            let traced = estimate.radiance(sample.albedo, w);
+            if traced.stokes[0] > 0.0 {
                 out.push(Difference {
                     solar_elevation: sample.solar_elevation,
-                    relative: sample.radiance[w] / judged.stokes[0] - 1.0,
-                    standard_error: judged.error[0] / judged.stokes[0],
+                    relative: sample.radiance[w] / traced.stokes[0] - 1.0,
+                    standard_error: traced.error[0] / traced.stokes[0],
                 });
             }
         }

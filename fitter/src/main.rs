@@ -77,7 +77,7 @@ fn main() -> ExitCode {
         Err(error) => {
             eprintln!(
                 "error: {}",
-                welkin::format::printable(&format!("{error:#}"))
+                welkin::output::printable(&format!("{error:#}"))
             );
             ExitCode::from(2)
         }

@@ -27,7 +27,7 @@ pub fn manifest(plan: &Plan, work: &Path) -> Result<Value> {
             "visibilities_m": plan.grid.visibilities,
             "solver": format!("{:?}", plan.settings),
             "held_out": format!("{:?}", plan.held_out),
-            "judging": format!("{:?}", plan.judging),
+            "cross_check": format!("{:?}", plan.cross_check),
         },
         "core_seconds": serde_json::Map::from_iter(totals),
         "difference_to_tracer": differences(plan, work)?,
@@ -35,7 +35,7 @@ pub fn manifest(plan: &Plan, work: &Path) -> Result<Value> {
     }))
 }
 
-/// Of all units that are judged: together, and by visibility (m).
+/// Of all units that are cross-checked: together, and by visibility (m).
 fn differences(plan: &Plan, work: &Path) -> Result<Value> {
     let store = plan.store_of(work, Kind::Check)?;
     let (mut all, mut by_visibility) = (vec![], serde_json::Map::new());

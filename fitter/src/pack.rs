@@ -16,14 +16,14 @@ use welkin::format::{
 const EFFICACY: f64 = 683.0;
 
 /// What a visibility contributes to the head.
-pub struct Air {
+pub struct AirTables {
     /// Extinction per constituent where the profile is 1, m⁻¹.
     pub extinction: Vec<Spectrum>,
     /// Spherical albedo.
     pub spherical_albedo: Spectrum,
 }
 
-impl Air {
+impl AirTables {
     /// From an atmosphere and its solution.
     pub fn new(medium: &Medium, spherical_albedo: Spectrum) -> Self {
         let extinction = medium.parts.iter().map(|part| part.extinction).collect();
@@ -35,7 +35,12 @@ impl Air {
 }
 
 /// Assembles the head. `airs` has one entry per visibility of the grid; `gatherer` gives the phase functions.
-pub fn head(grid: &Grid, airs: &[Air], gatherer: &Gatherer, metadata: String) -> Result<Head> {
+pub fn head(
+    grid: &Grid,
+    airs: &[AirTables],
+    gatherer: &Gatherer,
+    metadata: String,
+) -> Result<Head> {
     let solar = Table::parse(
         "solar_irradiance_1nm.csv",
         include_str!("../data/solar_irradiance_1nm.csv"),

@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
+use super::prepared::AerialPerspective;
+use super::prepared::sun_direction;
+use super::scatterers::Scatterers;
 use super::source_expansion::{Expansion, Fill, Scratch};
 use super::source_table::{ground_factor, overflow, reach, sun_nodes};
 use super::sun_transmittance::NODES;
-use super::{AerialPerspective, Scatterers, sun_direction};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::visibility_node;

@@ -1,7 +1,7 @@
 //! Sunlight along a segment, at the ends of its panels and between them.
 
-use super::AerialPerspective;
 use super::path_points::{BATCH, PathPoints};
+use super::prepared::AerialPerspective;
 use super::quadrature_limits::{MOST_PANELS, MOST_PATH_POINTS};
 use super::sun_transmittance::Two;
 use super::visible_disc::mean_shares;

@@ -4,8 +4,8 @@
 //! than the air should vanish in it without a seam: so where hardly any light can come from beyond a segment, the sky
 //! takes over.
 
-use super::AerialPerspective;
 use super::local_scattering::UNPOLARISED;
+use super::prepared::AerialPerspective;
 use super::segment_integral::{Block, Integral};
 use super::xyz_sum::XyzSum;
 use crate::conditions::Conditions;

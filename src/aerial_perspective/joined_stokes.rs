@@ -1,6 +1,6 @@
 //! Stokes vectors of segments that end in the observer's sky.
 
-use super::AerialPerspective;
+use super::prepared::AerialPerspective;
 use crate::error::Result;
 use crate::polarisation::{PolarisationFrame, PolarisedSky, Stokes, StokesSpectra};
 

@@ -1,7 +1,7 @@
 //! What panels of a segment do to light.
 
-use super::AerialPerspective;
 use super::direct_sunlight::{Pair, Sun};
+use super::prepared::AerialPerspective;
 use super::sun_transmittance::Two;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
@@ -14,7 +14,7 @@ pub(crate) const UNPOLARISED: usize = 2;
 pub(crate) const POLARISED: usize = 4;
 
 /// What is in two panels, for a block of wavelengths.
-pub(crate) struct Air {
+pub(crate) struct PanelAir {
     depth: Pair,
     /// What it scatters of sunlight.
     direct: Pair,
@@ -34,7 +34,7 @@ pub(crate) struct Scattered {
     pub through: Pair,
 }
 
-impl Air {
+impl PanelAir {
     /// From columns, and `sunlit` and dipoles of each constituent.
     #[inline(always)]
     pub fn new<const M: usize>(
@@ -124,4 +124,10 @@ fn mean_transmittance<const N: usize>(depth: Lanes<N>, absorbed: Lanes<N>) -> La
     const THIN: f32 = 1e-3;
     let thin = Lanes::splat(1.0) - depth * 0.5;
     depth.at_least(THIN, absorbed / depth.max(Lanes::splat(THIN)), thin)
+}
+
+/// What is left of light at these optical depths.
+#[inline(always)]
+pub(super) fn attenuated(depth: &[f32; LANES]) -> [f32; LANES] {
+    (-Lanes(*depth)).exp().0
 }

@@ -1,6 +1,5 @@
 //! How far from where it was prepared an aerial perspective holds.
 
-use super::AerialPerspective;
 use super::source_table::reach;
 use crate::error::{Error, Result};
 use crate::geometry::Planet;
@@ -10,7 +9,7 @@ use crate::transmittance::Segment;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     /// Half its opening, rad.
-    angle: f64,
+    pub angle: f64,
     /// Squared tangent of that.
     slope: f64,
 }
@@ -59,15 +58,5 @@ impl Reach {
     #[inline(always)]
     fn holds(&self, [x, y, z]: [f64; 3]) -> bool {
         z > 0.0 && x * x + y * y <= self.slope * z * z
-    }
-}
-
-impl AerialPerspective {
-    /// How far the air of segments may be from the origin, as an angle at the planet's centre, rad: twice that of the
-    /// horizon as seen from the top of the air, so all that is seen from within the air above the origin; 0.35 rad
-    /// (20°, 2200 km) for the Earth. Beyond, segments are refused: prepare an aerial perspective nearer to them, see
-    /// [`Place`](crate::Place). Transmittances ([`AerialPerspective::transmittance`]) hold everywhere.
-    pub fn reach(&self) -> f64 {
-        self.reach.angle
     }
 }

@@ -4,12 +4,12 @@
 //! so that the sunlight scattered there is a closed integral at each wavelength: exact for an exponential atmosphere.
 //! The diffuse source is taken to be constant. Whatever happens, a panel sends no less than nothing.
 
-use super::AerialPerspective;
 use super::angular_basis::{Components, MOST_VECTORS, Sightline};
 use super::direct_sunlight::{DirectSunlight, Pair, Sun, Sunlight};
 use super::light_estimate::SunEstimate;
-use super::local_scattering::{Air, POLARISED, Scattered, sunlit_beyond};
+use super::local_scattering::{POLARISED, PanelAir, Scattered, sunlit_beyond};
 use super::path_points::{BATCH, PathPoints};
+use super::prepared::AerialPerspective;
 use super::quadrature_limits::{MOST_PATH_POINTS, MOST_SOURCE_NODES};
 use super::quadrature_panels::Panels;
 use super::source_table::Spot;
@@ -103,7 +103,7 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
                     end: near.shift(&far),
                     share: sunlight.shares[i],
                 };
-                let air = Air::new::<M>(aerial, block, &panels.columns[i], sunlit, dipoles);
+                let air = PanelAir::new::<M>(aerial, block, &panels.columns[i], sunlit, dipoles);
                 walk.step::<M>(air.scatter(&sun, single, &light));
                 near = far;
             }

@@ -1,6 +1,6 @@
 //! The paper's way to the light of finite segments: the difference of two skies.
 
-use crate::aerial_perspective::AerialPerspective;
+use super::prepared::AerialPerspective;
 use crate::budget::{Budget, Channels};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};

@@ -3,9 +3,9 @@
 //! All points of a straight segment share its vertical plane, and with it the axes of polarisation: Q and U add up
 //! along it. Molecules polarise sunlight and, by the coherency tensor of the source, all other light; particles do not.
 
-use super::AerialPerspective;
 use super::joined::sky_weights;
-use super::local_scattering::POLARISED;
+use super::local_scattering::{POLARISED, attenuated};
+use super::prepared::AerialPerspective;
 use super::segment_integral::{Block, Integral};
 use crate::error::Result;
 use crate::kernel::math::{LANES, bound, finite};
@@ -226,7 +226,7 @@ impl AerialPerspective {
                 }
                 let [total, q, u] = light;
                 let [q, u] = limit(total, q, u);
-                emit(block, [total, q, u], super::attenuated(&result.depth));
+                emit(block, [total, q, u], attenuated(&result.depth));
             },
         });
         looked_up

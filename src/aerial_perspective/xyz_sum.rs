@@ -1,6 +1,6 @@
 //! CIE XYZ of what a segment does to light.
 
-use super::attenuated;
+use super::local_scattering::attenuated;
 use super::segment_integral::Block;
 use crate::kernel::math::{LANES, bound, finite};
 

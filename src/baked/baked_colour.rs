@@ -2,9 +2,11 @@
 
 use core::marker::PhantomData;
 
+use super::baked_tables::Baked;
 use super::batch::{Directions, Group, Sink, check_length};
-use super::coordinates::Frame;
-use super::{BakeError, Baked, Channels};
+use super::coordinates::LocalFrame;
+use super::fill::Channels;
+use super::grid_choice::BakeError;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
@@ -79,7 +81,7 @@ impl BakedColourSky {
         self.baked.error
     }
 
-    pub(super) fn frame(&self) -> Frame {
+    pub(super) fn frame(&self) -> LocalFrame {
         self.baked.frame
     }
 

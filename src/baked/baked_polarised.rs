@@ -2,10 +2,10 @@
 
 use core::ops::Range;
 
-use super::BakeError;
 use super::baked_spectral::{BakedSky, LANES, write};
 use super::batch::{Directions, Group, Sink};
 use super::frame_rotation::Axes;
+use super::grid_choice::BakeError;
 use super::polarisation_table::{self, PolarisationTable, turned};
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;

@@ -1,10 +1,11 @@
 //! A baked sky with all wavelengths.
 
+use super::baked_tables::Baked;
 use super::batch::{Directions, Group, Sink, check_length};
-use super::coordinates::Frame;
-use super::grid_choice::{PEAK, TAIL};
+use super::coordinates::LocalFrame;
+use super::fill::Channels;
+use super::grid_choice::{BakeError, PEAK, TAIL};
 use super::hero_wavelengths::{Heroes, WavelengthAxis};
-use super::{BakeError, Baked, Channels};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
@@ -127,7 +128,7 @@ impl BakedSky {
         self.baked.error
     }
 
-    pub(super) fn frame(&self) -> &Frame {
+    pub(super) fn frame(&self) -> &LocalFrame {
         &self.baked.frame
     }
 

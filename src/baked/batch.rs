@@ -1,6 +1,6 @@
 //! Many directions at once.
 
-use super::coordinates::{Frame, prepared};
+use super::coordinates::{LocalFrame, prepared};
 use super::spline_table::{Spots, Table};
 use crate::error::{Error, Result};
 use crate::kernel::lanes::Lanes;
@@ -80,7 +80,7 @@ pub(super) struct Group<'a, const N: usize, const W: usize> {
 
 /// Looks up directions until one is bad.
 pub(super) struct Each<'a, const N: usize, S> {
-    pub frame: &'a Frame,
+    pub frame: &'a LocalFrame,
     pub table: &'a Table<N>,
     pub directions: Directions<'a>,
     pub sink: S,
@@ -130,7 +130,7 @@ impl<const N: usize, S: Sink<N>> Each<'_, N, S> {
 
 /// Looks up one direction.
 pub(super) struct One<'a, const N: usize, S> {
-    pub frame: &'a Frame,
+    pub frame: &'a LocalFrame,
     pub table: &'a Table<N>,
     pub direction: [f32; 3],
     pub sink: S,
@@ -171,7 +171,8 @@ fn unsound(d: [Lanes<WIDTH>; 3]) -> [f32; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Baked, BakedSky};
+    use super::super::BakedSky;
+    use super::super::baked_tables::Baked;
     use super::*;
     use crate::kernel::simd::{Portable, dispatch};
     use crate::{Conditions, Model};

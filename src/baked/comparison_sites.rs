@@ -3,7 +3,7 @@
 
 use core::f64::consts::TAU;
 
-use super::coordinates::{Frame, Points, row_at_share, share_at_row};
+use super::coordinates::{LocalFrame, Points, row_at_share, share_at_row};
 use super::grid_nodes::GridNodes;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;
@@ -38,7 +38,7 @@ pub(super) struct Site {
 }
 
 /// The sites of one side of the horizon; none where there is nothing.
-pub(super) fn sites(lattice: GridNodes, frame: &Frame) -> Vec<Site> {
+pub(super) fn sites(lattice: GridNodes, frame: &LocalFrame) -> Vec<Site> {
     if lattice.is_empty() {
         return Vec::new();
     }
@@ -57,7 +57,7 @@ pub(super) fn sites(lattice: GridNodes, frame: &Frame) -> Vec<Site> {
 }
 
 /// A row of those that cover the side.
-fn even(lattice: GridNodes, frame: &Frame, i: f64, count: f64) -> Site {
+fn even(lattice: GridNodes, frame: &LocalFrame, i: f64, count: f64) -> Site {
     const GOLDEN: f64 = 0.618_033_988_749_895;
     let [low, high] = [i, i + 1.0].map(|edge| share_at_row(lattice.side, edge / count));
     let horizon = lattice.sky.dip().sin();
@@ -83,7 +83,7 @@ fn sun_row(lattice: GridNodes) -> f64 {
 
 fn site(
     lattice: GridNodes,
-    frame: &Frame,
+    frame: &LocalFrame,
     row: f64,
     columns: [f64; WIDTH],
     parts: [f32; WIDTH],

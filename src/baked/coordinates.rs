@@ -8,7 +8,7 @@ use crate::sky::Sky;
 
 /// What directions are measured against.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct LocalFrame {
     /// Unit vector towards the sun.
     sun: [f32; 3],
     /// Cosine of the sun's elevation.
@@ -124,7 +124,7 @@ fn scaled<const N: usize>(vector: [Lanes<N>; 3]) -> Option<[Lanes<N>; 3]> {
     Some(scaled)
 }
 
-impl Frame {
+impl LocalFrame {
     pub fn new(sky: &Sky) -> Self {
         let conditions = sky.conditions();
         let centre = sky.planet().radius + conditions.altitude;

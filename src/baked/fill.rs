@@ -1,7 +1,7 @@
 //! Makes the tables of a baked sky from a prepared one.
 
 use super::comparison_sites::{Site, WIDTH, sites};
-use super::coordinates::{Frame, opaque_length};
+use super::coordinates::{LocalFrame, opaque_length};
 use super::grid_choice::{BakeError, Errors, bake, difference};
 use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{grid, joined};
@@ -32,7 +32,7 @@ const FLOOR: f32 = 1e-4;
 pub(super) fn table<const N: usize>(
     sky: &Sky,
     channels: &impl Channels<N>,
-    frame: &Frame,
+    frame: &LocalFrame,
     tolerance: f64,
 ) -> Result<(Table<N>, BakeError)> {
     let envelope = dispatch(Envelope::<_, N> { sky, channels });
@@ -106,7 +106,7 @@ impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
     fn new(
         lattice: GridNodes<'a>,
         channels: &'a C,
-        frame: &Frame,
+        frame: &LocalFrame,
         envelope: &'a [Lanes<N>],
     ) -> Self {
         let mut half = Self {

@@ -1,7 +1,7 @@
 //! From the vertical frame to that of the caller, many directions at once: `polarisation::aspect` in single precision
 //! and without branches.
 
-use super::coordinates::Frame as View;
+use super::coordinates::LocalFrame;
 use crate::error::{Error, Result};
 use crate::kernel::lanes::Lanes;
 use crate::polarisation::PolarisationFrame;
@@ -44,7 +44,11 @@ impl Axes {
 
     /// For [`super::coordinates::prepared`] vectors.
     #[inline(always)]
-    pub fn turn<const W: usize>(&self, view: &View, [x, y, z]: &[Lanes<W>; 3]) -> FrameRotation<W> {
+    pub fn turn<const W: usize>(
+        &self,
+        view: &LocalFrame,
+        [x, y, z]: &[Lanes<W>; 3],
+    ) -> FrameRotation<W> {
         let (x, y, z) = (*x, *y, *z);
         let (zero, one) = (Lanes::splat(0.0), Lanes::splat(1.0));
         let [cs, ss] = view.azimuth();

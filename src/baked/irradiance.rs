@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::BakedSky;
+use super::baked_spectral::BakedSky;
 use crate::error::{Error, Result};
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 

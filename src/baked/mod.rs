@@ -10,6 +10,7 @@
 mod baked_colour;
 mod baked_polarised;
 mod baked_spectral;
+mod baked_tables;
 mod batch;
 mod comparison_sites;
 mod coordinates;
@@ -31,99 +32,24 @@ mod spline_table;
 pub use baked_colour::BakedColourSky;
 pub use baked_polarised::BakedPolarisedSky;
 pub use baked_spectral::BakedSky;
+pub(crate) use baked_tables::check_tolerance;
 pub use batch::Directions;
 pub use grid_choice::BakeError;
 pub use sampler::{Part, Sample, SkySampler};
 
-use crate::conditions::Conditions;
-use crate::error::{Error, Result};
 use crate::format::Head;
-use crate::kernel::simd::dispatch;
-use crate::sky::Sky;
-use batch::{Each, One, Sink};
-use coordinates::Frame;
-use fill::Channels;
-use spline_table::Table;
 
-/// Most bytes that a baked sky of a model holds on the heap.
-pub(crate) fn largest_bytes(channels: crate::Channels, head: &Head) -> usize {
-    let n = head.wavelengths.len();
-    match channels {
-        crate::Channels::Spectral => {
-            grid_choice::largest_table(n, 16) + baked_spectral::axis_bytes(head)
-        }
-        crate::Channels::Colour => grid_choice::largest_table(3, 4),
-        crate::Channels::Stokes => {
-            largest_bytes(crate::Channels::Spectral, head) + polarisation_table::largest_table(n)
-        }
-    }
+/// Most bytes that a baked sky with all wavelengths of a model holds on the heap.
+pub(crate) fn largest_spectral(head: &Head) -> usize {
+    grid_choice::largest_table(head.wavelengths.len(), 16) + baked_spectral::axis_bytes(head)
 }
 
-/// What baked skies have in common.
-#[derive(Clone, Debug)]
-struct Baked<const N: usize> {
-    conditions: Conditions,
-    frame: Frame,
-    table: Table<N>,
-    error: BakeError,
+/// The same of a baked sky in colour.
+pub(crate) fn largest_colour() -> usize {
+    grid_choice::largest_table(3, 4)
 }
 
-/// Smallest relative error that the largest table keeps for most skies.
-const LEAST_TOLERANCE: f64 = 3e-4;
-
-/// The one rule for what may be asked of baking, for those who bake and those who plan to.
-pub(crate) fn check_tolerance(tolerance: f64) -> Result<()> {
-    if tolerance >= LEAST_TOLERANCE && tolerance.is_finite() {
-        return Ok(());
-    }
-    Err(Error::OutOfRange {
-        parameter: "tolerance",
-        value: tolerance,
-        min: LEAST_TOLERANCE,
-        max: f64::MAX,
-        unit: "",
-    })
-}
-
-impl<const N: usize> Baked<N> {
-    fn new(sky: &Sky, channels: &impl Channels<N>, tolerance: f64) -> Result<Self> {
-        check_tolerance(tolerance)?;
-        let frame = Frame::new(sky);
-        let (table, error) = fill::table(sky, channels, &frame, tolerance)?;
-        Ok(Self {
-            conditions: *sky.conditions(),
-            frame,
-            table,
-            error,
-        })
-    }
-
-    /// Looks up one direction.
-    #[inline(always)]
-    fn one(&self, direction: [f32; 3], sink: impl Sink<N>) -> Result<()> {
-        dispatch(One {
-            frame: &self.frame,
-            table: &self.table,
-            direction,
-            sink,
-        })
-    }
-
-    /// Looks up many directions, which were checked.
-    #[inline(always)]
-    fn each(&self, directions: &Directions, sink: impl Sink<N>) -> Result<()> {
-        dispatch(Each {
-            frame: &self.frame,
-            table: &self.table,
-            directions: *directions,
-            sink,
-        })
-    }
-
-    fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
-        let moved = self.conditions.with_solar_azimuth(azimuth)?;
-        self.conditions = moved;
-        self.frame.turn(&moved);
-        Ok(())
-    }
+/// The same of a baked sky with its polarisation.
+pub(crate) fn largest_polarised(head: &Head) -> usize {
+    largest_spectral(head) + polarisation_table::largest_table(head.wavelengths.len())
 }

@@ -5,7 +5,7 @@
 //! its own, at the poles. U over the sine of the azimuth is even in it, as Q is.
 
 use super::comparison_sites::{Site, WIDTH, sites};
-use super::coordinates::Frame as View;
+use super::coordinates::LocalFrame;
 use super::frame_rotation::FrameRotation;
 use super::grid_choice::{BakeError, Errors, bake, largest};
 use super::grid_nodes::{GridNodes, Known};
@@ -48,7 +48,7 @@ struct Ratios<'a> {
 }
 
 impl<'a> Ratios<'a> {
-    fn new(sky: &'a PolarisedSky, side: Side, frame: &View) -> Self {
+    fn new(sky: &'a PolarisedSky, side: Side, frame: &LocalFrame) -> Self {
         let lattice = GridNodes {
             sky: sky.sky(),
             side,
@@ -140,7 +140,7 @@ impl PolarisationTable {
     pub fn new(
         sky: &PolarisedSky,
         grid: Grid,
-        frame: &View,
+        frame: &LocalFrame,
         tolerance: f64,
     ) -> Result<(Self, BakeError)> {
         let half = |side| bake(&mut Ratios::new(sky, side, frame), side, tolerance);

@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use super::BakedColourSky;
-use super::coordinates::{Frame, prepared};
+use super::baked_colour::BakedColourSky;
+use super::coordinates::{LocalFrame, prepared};
 use crate::error::{Error, Result};
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::finite;
@@ -94,7 +94,7 @@ pub struct Sample {
 #[derive(Clone, Debug)]
 pub struct SkySampler {
     sky: BakedColourSky,
-    frame: Frame,
+    frame: LocalFrame,
     /// z at the edges of each row, from the horizon to the pole: above, then below.
     heights: Vec<[f32; 2]>,
     /// Azimuths from the sun at the edges of the columns, 0..=π.

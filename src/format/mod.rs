@@ -25,7 +25,6 @@ cfg_if::cfg_if! {
         mod head;
         mod parse;
         mod polarisation_factors;
-        mod printable;
         mod source_function;
         mod validate;
         mod verify;
@@ -43,7 +42,6 @@ cfg_if::cfg_if! {
         pub use head::{AlphaAxis, Entry, Field, Head, Kind, PhaseFunction};
         pub use parse::{Contents, parse};
         pub use polarisation_factors::{PolarisationBasis, PolarisationFactors};
-        pub use printable::{printable, printable_json};
         pub use source_function::{
             MAX_MOMENTS, Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView,
             TENSOR, harmonics,

@@ -1,6 +1,6 @@
 //! Conditions within the ranges of a model.
 
-use super::Model;
+use super::opened::Model;
 use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
 

@@ -61,7 +61,7 @@ mod file {
     use std::fs::File;
     use std::io;
 
-    use super::ReadAt;
+    use crate::model::read_at::ReadAt;
 
     impl ReadAt for File {
         fn read_at(&self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {

@@ -4,6 +4,8 @@ use std::fs::{self, FileType, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf, is_separator};
 
+use crate::error::Error;
+
 /// As many links as the kernel follows.
 const MOST_LINKS: usize = 40;
 
@@ -109,4 +111,12 @@ impl Stream {
 #[cfg(unix)]
 fn send(path: &Path, bytes: &[u8]) -> io::Result<()> {
     std::os::unix::net::UnixStream::connect(path)?.write_all(bytes)
+}
+
+/// An error with the path of its file.
+pub(super) fn in_file(path: &Path, source: io::Error) -> Error {
+    Error::Io {
+        path: path.to_owned(),
+        source,
+    }
 }

@@ -6,6 +6,8 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
+use super::temporary::abandon;
+
 /// From now on SIGINT, SIGTERM and SIGHUP first remove the temporary files of unfinished writes, then end the process
 /// as they would have without. Those that the process was started to ignore stay ignored. For the start of `main`.
 ///
@@ -16,7 +18,7 @@ pub fn abandon_on_signals() -> io::Result<()> {
     let mut signals = Signals::new(signals.filter(|&signal| !is_ignored(signal)))?;
     std::thread::spawn(move || {
         for signal in signals.forever() {
-            super::abandon();
+            abandon();
             // Only an unknown signal is an error.
             let _ = emulate_default_handler(signal);
         }

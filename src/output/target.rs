@@ -5,9 +5,10 @@ use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use super::{check, in_file, replace_files};
+use super::path_kind::in_file;
+use super::printable::printable;
+use super::replace::{check, replace_files};
 use crate::error::Result;
-use crate::format::printable;
 
 /// Names of standard output. As a file, what the command says would go over what it writes.
 const STANDARD: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use super::in_file;
-use super::path_kind::folder;
+use super::path_kind::{folder, in_file};
 use crate::error::Result;
 
 /// Where files cannot be locked, what is older than this has no writer any more.

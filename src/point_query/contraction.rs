@@ -5,7 +5,7 @@
 
 use zerocopy::little_endian::{F32, U16};
 
-use super::WAVELENGTH_BLOCKS;
+use super::capacity::WAVELENGTH_BLOCKS;
 use crate::azimuth_fade::mean_weight;
 use crate::format::{BasisView, FactorsView};
 use crate::kernel::axis::Taps;

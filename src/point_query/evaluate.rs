@@ -2,16 +2,17 @@
 
 use zerocopy::little_endian::U16;
 
+use super::capacity::{MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
 use super::contraction::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::neighbours::{Interpolation, Share};
+use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
-use super::{MOST_CONSTITUENTS, PointQuery, WAVELENGTH_BLOCKS};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{ColumnView, FactorsView};
 use crate::geometry::Side;
 use crate::kernel::lanes::Lanes;
-use crate::kernel::simd::{Instructions, Kernel};
+use crate::kernel::simd::{Instructions, Kernel, dispatch};
 
 /// Most chunks around a query, and most altitudes.
 const MOST_AROUND: usize = 16;
@@ -34,7 +35,7 @@ impl Kernel for One<'_, '_> {
     fn run<I: Instructions>(self, instructions: I) -> Result<()> {
         let model = self.model;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = QueryCoordinates::new(model, &question);
+        let place = model.coordinates(&question);
         Query::around(model, &place)?.answer(instructions, self.out)
     }
 }
@@ -187,6 +188,50 @@ impl<'a, 'b> Query<'a, 'b> {
 }
 
 impl PointQuery<'_> {
+    /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at each of [`PointQuery::wavelengths`]; frame and meaning as of
+    /// [`Sky`](crate::Sky).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for conditions outside the model, [`Error::Direction`] for a vector that is zero or not
+    /// finite, [`Error::Length`] unless `out` has one element per wavelength, [`Error::MissingChunk`].
+    pub fn radiance(
+        &self,
+        conditions: &Conditions,
+        direction: [f32; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        self.relative_radiance(conditions, direction, out)?;
+        for (out, irradiance) in out.iter_mut().zip(&self.irradiance) {
+            *out = (*out * irradiance).min(f32::MAX);
+        }
+        Ok(())
+    }
+
+    /// Radiance per unit of solar spectral irradiance, sr⁻¹.
+    ///
+    /// # Errors
+    /// As [`PointQuery::radiance`].
+    pub fn relative_radiance(
+        &self,
+        conditions: &Conditions,
+        direction: [f32; 3],
+        out: &mut [f32],
+    ) -> Result<()> {
+        if out.len() != self.head.shape.wavelengths {
+            return Err(Error::Length {
+                what: "output",
+                expected: self.head.shape.wavelengths as u64,
+                got: out.len() as u64,
+            });
+        }
+        dispatch(One {
+            model: self,
+            conditions,
+            direction,
+            out,
+        })
+    }
+
     #[cold]
     pub(super) fn missing(
         &self,

@@ -1,15 +1,13 @@
-//! Where a query stands on the axes of a model.
+//! What a query asks, and where it stands on the axes of a model.
 
-use super::PointQuery;
 use super::contraction::{self, Components};
 use super::head_view::HeadView;
 use super::neighbours::Nodes;
-use crate::azimuth_fade::azimuthal;
 use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
 use crate::format::BasisView;
-use crate::geometry::{Ray, Side};
-use crate::kernel::axis::{Ends, Taps, alpha_coordinate, chord, spline};
+use crate::geometry::Ray;
+use crate::kernel::axis::Taps;
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 use crate::kernel::simd::Instructions;
@@ -33,10 +31,10 @@ pub(super) struct QueryCoordinates {
 
 /// What is asked, checked.
 pub(super) struct Question {
-    conditions: Conditions,
+    pub conditions: Conditions,
     /// The view direction as it came, and with length 1.
-    view: [f64; 3],
-    unit: [f64; 3],
+    pub view: [f64; 3],
+    pub unit: [f64; 3],
 }
 
 impl Question {
@@ -58,46 +56,6 @@ impl Question {
 }
 
 impl QueryCoordinates {
-    #[inline(always)]
-    pub fn new(model: &PointQuery, question: &Question) -> Self {
-        let (head, [altitudes, visibilities]) = (&model.head, &model.axes);
-        let [over_altitude, over_visibility] = model.interpolation.curves();
-        let Question {
-            conditions,
-            view: [x, y, z],
-            unit,
-        } = question;
-        let dip = head.planet.dip(conditions.altitude);
-        let elevation = z.atan2((x * x + y * y).sqrt());
-        let ray = head
-            .planet
-            .ray_with_dip(conditions.altitude, dip, elevation, unit[2]);
-        let (intervals, exponent) = head.alpha[usize::from(ray.side == Side::Down)];
-        let alpha = alpha_coordinate(ray.angle, ray.range, intervals, exponent);
-        let (sine, cosine) = conditions.solar_azimuth.sin_cos();
-        let (sun_z, sun_r) = conditions.solar_elevation.sin_cos();
-        let [across, along] = [(x * sine - y * cosine).abs(), x * cosine + y * sine];
-        // Plus zero: at the zenith the sum can be -0, of which the arc tangent is half a turn.
-        let phi = (across as f32).atan2(along as f32 + 0.0);
-        let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
-        let axis = &head.elevation;
-        let sun = axis.coordinate_between(model.suns, conditions.solar_elevation);
-        Self {
-            altitudes: altitudes.around(conditions.altitude.cbrt(), over_altitude),
-            visibilities: visibilities.around(1.0 / conditions.visibility, over_visibility),
-            curve: [
-                spline(alpha, intervals, Ends::Free),
-                spline(sun, axis.intervals, Ends::Free),
-            ],
-            chord: [chord(alpha, intervals), chord(sun, axis.intervals)],
-            phi: spline(phi, head.phi_intervals, Ends::Mirrored),
-            fade: azimuthal(sun_r),
-            angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),
-            ray,
-            albedo: conditions.albedo,
-        }
-    }
-
     /// Turns the components towards the azimuth.
     #[inline(always)]
     pub fn turn<I: Instructions>(&self, instructions: I, basis: &BasisView, sum: &mut Components) {

@@ -1,15 +1,19 @@
 //! What polarisation needs of a point query. Format specification, section 7.5.
 
-use super::contraction::{self, MOST_CHANNELS, MOST_RANK};
+use super::capacity::WAVELENGTH_BLOCKS;
+use super::chunk_table::limit;
+use super::contraction::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::evaluate::Query;
+use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
-use super::{MOST_WAVELENGTHS, PointQuery};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{BasisView, FactorsView, ceil16};
 use crate::geometry::Side;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
+
+const MOST_WAVELENGTHS: usize = WAVELENGTH_BLOCKS * WIDTH;
 
 /// Factor matrices of the polarisation.
 pub(crate) struct Factors<'a> {
@@ -26,8 +30,8 @@ impl<'a> Factors<'a> {
         chunks: Vec<Option<FactorsView<'a>>>,
         visibilities: usize,
     ) -> Result<Self> {
-        super::limit("components", basis.stride, MOST_RANK)?;
-        super::limit("channels", ceil16(basis.channels), MOST_CHANNELS)?;
+        limit("components", basis.stride, MOST_RANK)?;
+        limit("channels", ceil16(basis.channels), MOST_CHANNELS)?;
         if let Some(chunk) = chunks.iter().flatten().find(|c| c.rank > basis.rank) {
             let detail = format!("at most {} as the basis, got {}", basis.rank, chunk.rank);
             return Err(Error::invalid("rank of a polarisation chunk", detail));
@@ -86,7 +90,7 @@ impl Kernel for Polarised<'_, '_> {
         let model = self.model;
         let n = model.head.shape.wavelengths;
         let question = Question::new(&model.head, self.conditions, self.direction)?;
-        let place = QueryCoordinates::new(model, &question);
+        let place = model.coordinates(&question);
         let query = Query::around(model, &place)?;
         let mut channels = [0.0; MOST_CHANNELS];
         let level = query.sum(instructions, &mut channels)?;

@@ -6,12 +6,12 @@ use super::stokes_tables::{Mix, limit};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::math::LANES;
-use crate::point_query::{Factors, Parts, PointQuery};
+use crate::point_query::{Factors, Interpolation, Parts, PointQuery};
 use crate::sky::check_length;
 use crate::sky::spectrum;
 
 /// A model with its polarisation, evaluated where it stands: [`PointQuery`] with Stokes vectors, always with
-/// [`Interpolation::Full`](crate::Interpolation::Full).
+/// [`Interpolation::Full`](Interpolation::Full).
 ///
 /// It answers as [`PolarisedSky`](crate::PolarisedSky) does, but for rounding (some 1e-6 of the radiance), in a few
 /// microseconds and without preparation. Made by [`Model::polarised_point_query`](crate::Model::polarised_point_query).
@@ -42,7 +42,7 @@ pub struct PolarisedPointQuery<'a> {
 
 impl<'a> PolarisedPointQuery<'a> {
     pub(crate) fn new(query: PointQuery<'a>, factors: Factors<'a>) -> Self {
-        let query = query.with_interpolation(crate::Interpolation::Full);
+        let query = query.with_interpolation(Interpolation::Full);
         Self {
             wavelengths: query.wavelengths().collect(),
             query,

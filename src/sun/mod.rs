@@ -14,11 +14,9 @@ use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use cap::Cap;
+pub use cap::SOLAR_ANGULAR_RADIUS;
 use depths::Depths;
 use quadrature::each_line;
-
-/// Angular radius of the sun, rad: 0.2667°, as in the published model.
-pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 
 /// The disc of the sun as an observer sees it through the air, at the wavelengths of the model.
 ///

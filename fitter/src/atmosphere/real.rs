@@ -5,8 +5,9 @@
 //! and soot particles with Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km
 //! separates smoothly.
 
+use super::composition::{Atmosphere, Constituent, Phase, Scatterer};
+use super::mie;
 use super::table::{Curve, Table};
-use super::{Atmosphere, Constituent, Phase, Scatterer, mie};
 use anyhow::{Result, ensure};
 use std::sync::Arc;
 

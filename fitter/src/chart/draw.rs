@@ -1,6 +1,6 @@
 //! The chart as CSV and as SVG.
 
-use super::Point;
+use super::point::Point;
 use anyhow::{Result, anyhow};
 use plotters::prelude::*;
 use std::collections::BTreeMap;

@@ -6,6 +6,7 @@ mod dense;
 mod draw;
 mod log;
 mod paper;
+mod point;
 mod unrounded_fit;
 
 pub use draw::{csv, svg};
@@ -24,6 +25,7 @@ use cost::{Components, nanoseconds};
 use dense::Uncompressed;
 use log::Logarithmic;
 use paper::Paper;
+pub use point::Point;
 use std::path::Path;
 use unrounded_fit::Single;
 use welkin::Model;
@@ -40,21 +42,6 @@ pub struct Ranks {
     pub log: Vec<usize>,
     /// Tiers, each a fit of what the tiers before it leave; azimuth and channel are shared.
     pub nested: Vec<Vec<usize>>,
-}
-
-/// A scheme at one size.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// What scheme.
-    pub scheme: String,
-    /// Its rank, or its tiers.
-    pub rank: String,
-    /// Mean bytes of a chunk, with its part of what chunks share.
-    pub bytes: f64,
-    /// Nanoseconds per direction for all wavelengths; none if it was not measured.
-    pub nanoseconds: Option<f64>,
-    /// Relative errors of radiance at held-out samples.
-    pub error: Quantiles,
 }
 
 /// Everything that the schemes are given.

@@ -29,9 +29,13 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let visibility = 1e3 * args.visibility;
-    let (air, samples) =
-        Plan::default().judged_samples(&args.work, visibility, &args.altitudes, args.directions)?;
-    let progress = ProgressBar::new(samples.len() as u64).with_message("judging");
+    let (air, samples) = Plan::default().cross_check_samples(
+        &args.work,
+        visibility,
+        &args.altitudes,
+        args.directions,
+    )?;
+    let progress = ProgressBar::new(samples.len() as u64).with_message("cross-checking");
     let differences = cross_check(&air, &samples, args.target_error, &|| progress.inc(1))?;
     progress.finish();
     println!(

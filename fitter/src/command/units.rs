@@ -45,9 +45,9 @@ enum Action {
 struct UnitsArgs {
     #[command(flatten)]
     plan: PlanArgs,
-    /// Held-out samples that are judged per visibility and altitude.
+    /// Held-out samples that are cross-checked per visibility and altitude.
     #[arg(long)]
-    judged: Option<usize>,
+    checked: Option<usize>,
     /// Relative standard error of the reference tracer.
     #[arg(long)]
     target_error: Option<f64>,
@@ -56,12 +56,12 @@ struct UnitsArgs {
 impl UnitsArgs {
     fn plan(&self) -> Result<Plan> {
         let mut plan = self.plan.plan()?;
-        let judging = &mut plan.judging;
-        judging.samples = self.judged.unwrap_or(judging.samples);
-        judging.target_error = self.target_error.unwrap_or(judging.target_error);
-        ensure!(judging.samples > 0, "--judged must be positive");
+        let cross_check = &mut plan.cross_check;
+        cross_check.samples = self.checked.unwrap_or(cross_check.samples);
+        cross_check.target_error = self.target_error.unwrap_or(cross_check.target_error);
+        ensure!(cross_check.samples > 0, "--checked must be positive");
         ensure!(
-            judging.target_error > 0.0 && judging.target_error.is_finite(),
+            cross_check.target_error > 0.0 && cross_check.target_error.is_finite(),
             "--target-error must be positive"
         );
         Ok(plan)

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use welkin::format::printable;
 use welkin::output::Target;
+use welkin::output::printable;
 
 pub type Result<T, E = Failure> = std::result::Result<T, E>;
 

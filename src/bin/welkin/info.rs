@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use welkin::Model;
-use welkin::format::{Entry, Kind, VERSION_MAJOR, printable_json};
+use welkin::format::{Entry, Kind, VERSION_MAJOR};
+use welkin::output::printable_json;
 
 use crate::Source;
 use crate::failure::{Result, fixed, plain};

@@ -49,7 +49,7 @@ use clap::error::ErrorKind;
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::{Failure, Result};
 use welkin::Model;
-use welkin::format::printable;
+use welkin::output::printable;
 
 /// Clear-sky radiance from a compact model.
 #[derive(Parser)]

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use serde_json::json;
-use welkin::format::printable_json;
+use welkin::output::printable_json;
 use welkin::{Budget, Channels};
 
 use crate::failure::{Result, fixed};

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
-use welkin::format::{Problem, parse, printable, printable_json, verify};
+use welkin::format::{Problem, parse, verify};
+use welkin::output::{printable, printable_json};
 
 use crate::failure::{Failure, Result};
 

@@ -9,7 +9,7 @@ mod spectral;
 mod tests;
 mod write;
 
-use super::{Atmosphere, Constituent};
+use super::composition::{Atmosphere, Constituent};
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use species::Species;

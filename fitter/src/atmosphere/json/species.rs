@@ -1,6 +1,6 @@
 //! One gas or kind of particle of a JSON atmosphere.
 
-use super::super::{Constituent, Phase, Scatterer};
+use super::super::composition::{Constituent, Phase, Scatterer};
 use super::spectral::{Profiles, Values};
 use super::within;
 use anyhow::{Context, Result, bail};

@@ -1,6 +1,6 @@
 //! An atmosphere as a JSON file.
 
-use super::super::{Constituent, Phase, Scatterer};
+use super::super::composition::{Constituent, Phase, Scatterer};
 use super::species::Species;
 use super::spectral::{Profiles, Values};
 use super::{Case, File};

@@ -1,11 +1,18 @@
 //! The atmosphere of a run: from a JSON file, or the real one.
 
-use super::AerosolArg;
 use anyhow::{Context, Result, ensure};
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 use welkin_fitter::atmosphere::json::Case;
 use welkin_fitter::atmosphere::{Atmosphere, Particles, real_with};
+
+/// Treatment of aerosols.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum AerosolArg {
+    Depolarising,
+    Preserving,
+    Mie,
+}
 
 /// Arguments that choose it.
 #[derive(ClapArgs)]

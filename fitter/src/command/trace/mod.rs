@@ -4,6 +4,8 @@ mod atmosphere_choice;
 mod resumable_rows;
 mod rows;
 
+pub use atmosphere_choice::AerosolArg;
+
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use resumable_rows::{Answer, Work};
@@ -61,14 +63,6 @@ enum Orders {
 enum Ground {
     Black,
     Lit,
-}
-
-/// Treatment of aerosols.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum AerosolArg {
-    Depolarising,
-    Preserving,
-    Mie,
 }
 
 fn fraction(text: &str) -> Result<f64> {

@@ -1,7 +1,7 @@
 //! The equations that a fit should fulfil, and what the factors say of them.
 
+use super::factors::{Basis, row};
 use super::normal::Normal;
-use super::{Basis, row};
 use crate::decompose::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::Pcg64Mcg;

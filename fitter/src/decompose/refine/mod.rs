@@ -6,6 +6,7 @@
 //! they stand for.
 
 mod equation;
+mod factors;
 mod normal;
 mod own;
 mod shared;
@@ -13,29 +14,10 @@ mod shared;
 use super::chunk::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use equation::{ALBEDOS, Equation};
-use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{Rng, SeedableRng};
+pub use factors::{Basis, Own};
+use factors::{random, row};
+use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
-
-/// Factor matrices at the sites of one chunk, row-major with the rank contiguous.
-#[derive(Clone)]
-pub struct Own {
-    /// `[view][rank]`.
-    pub view: Vec<f32>,
-    /// `[elevation][rank]`.
-    pub elevation: Vec<f32>,
-}
-
-/// Factor matrices that all chunks share.
-#[derive(Clone)]
-pub struct Basis {
-    /// Number of components.
-    pub rank: usize,
-    /// `[phi][rank]`.
-    pub phi: Vec<f32>,
-    /// `[field][wavelength][rank]`.
-    pub channel: Vec<f32>,
-}
 
 /// One pass over all factor matrices. `seed` selects the sites.
 pub fn sweep(chunks: &[Chunk], own: &mut [Own], basis: &mut Basis, seed: u64, shared: bool) {
@@ -47,20 +29,6 @@ pub fn sweep(chunks: &[Chunk], own: &mut [Own], basis: &mut Basis, seed: u64, sh
         own::elevations(chunk, own, basis, seed);
         own::views(chunk, own, basis, seed);
     });
-}
-
-fn row(matrix: &[f32], i: usize, rank: usize) -> &[f32] {
-    &matrix[i * rank..][..rank]
-}
-
-fn add(matrix: &mut [f32], i: usize, rank: usize, step: &[f32]) {
-    for (x, s) in matrix[i * rank..][..rank].iter_mut().zip(step) {
-        *x += s;
-    }
-}
-
-fn random(seed: u64, chunk: &Chunk, what: u64) -> Pcg64Mcg {
-    Pcg64Mcg::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ chunk.seed() ^ what << 48)
 }
 
 /// Radiance relative to the traced one at random sites (albedo 0.3), unweighted.

@@ -1,8 +1,8 @@
 //! Steps of the factor matrices of a single chunk.
 
 use super::equation::equations;
+use super::factors::{Basis, Own, add, random, row};
 use super::normal::Normal;
-use super::{Basis, Own, add, random, row};
 use crate::decompose::Chunk;
 
 pub fn views(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {

@@ -1,8 +1,8 @@
 //! Steps of the factor matrices that all chunks share.
 
 use super::equation::{ALBEDOS, Equation, equations};
+use super::factors::{Basis, Own, add, random, row};
 use super::normal::Normal;
-use super::{Basis, Own, add, random, row};
 use crate::decompose::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::rand_core::Rng;

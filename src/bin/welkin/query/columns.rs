@@ -2,7 +2,7 @@
 
 use csv::ByteRecord;
 use welkin::Conditions;
-use welkin::format::printable;
+use welkin::output::printable;
 
 use super::quantity::{Quantity, Question, Ray};
 use crate::failure::{Failure, Result, plain};

@@ -1,6 +1,6 @@
 //! What a row asks for.
 
-use welkin::format::printable;
+use welkin::output::printable;
 use welkin::{AerialPerspective, Conditions};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

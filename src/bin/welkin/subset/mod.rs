@@ -10,11 +10,8 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use welkin::Model;
-use welkin::format::{
-    Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, printable, printable_json, recode,
-    unpack,
-};
-use welkin::output::{self, Target};
+use welkin::format::{Chunk, ENCODING_RAW, ENCODING_ZSTD, Payload, encode, parse, recode, unpack};
+use welkin::output::{self, Target, printable, printable_json};
 
 use crate::Source;
 use crate::failure::{Failure, Result, fixed, plain};

@@ -1,0 +1,191 @@
+//! What is traced, and how finely.
+
+use super::unit::Kind;
+use crate::atmosphere::{Atmosphere, real};
+use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
+use crate::successive_orders::{
+    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+};
+use anyhow::{Context, Result};
+use std::path::Path;
+
+/// What is traced, and how finely.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    /// The grid.
+    pub grid: Grid,
+    /// Resolution of the solver.
+    pub settings: Settings,
+    /// Held-out view directions and suns per chunk.
+    pub held_out: HeldOut,
+    /// How the traced data are compared with the unbiased tracer.
+    pub cross_check: CrossCheck,
+}
+
+/// How thoroughly a chunk is cross-checked.
+#[derive(Clone, Copy, Debug)]
+pub struct CrossCheck {
+    /// Held-out samples per chunk.
+    pub samples: usize,
+    /// Relative standard error of the reference tracer.
+    pub target_error: f64,
+}
+
+impl Default for CrossCheck {
+    fn default() -> Self {
+        Self {
+            samples: 8,
+            target_error: 0.01,
+        }
+    }
+}
+
+/// How many held-out samples a chunk has.
+#[derive(Clone, Copy, Debug)]
+pub struct HeldOut {
+    /// View directions.
+    pub views: usize,
+    /// Suns, the same for all view directions.
+    pub suns: usize,
+}
+
+impl Default for HeldOut {
+    fn default() -> Self {
+        Self {
+            views: 160,
+            suns: 24,
+        }
+    }
+}
+
+/// Length of ray segments when view rays are gathered, relative to the finest.
+const FINENESS: f64 = 1.0;
+/// Changes whenever the physics or the layout of the units does.
+const UNIT_VERSION: u32 = 3;
+
+/// A visibility, solved.
+pub struct Solved {
+    /// Visibility, m.
+    pub visibility: f64,
+    /// Its air.
+    pub medium: Medium,
+    /// The light in it.
+    pub light: LightField,
+}
+
+impl Solved {
+    /// Gathers light along view rays at production fineness.
+    pub fn gatherer(&self) -> Gatherer<'_> {
+        Gatherer::new(&self.medium, &self.light, FINENESS)
+    }
+}
+
+impl Plan {
+    /// Coarse in everything but altitude and visibility.
+    pub fn draft() -> Self {
+        let mut grid = Grid::default();
+        grid.up.0.intervals = 10;
+        grid.down.0.intervals = 8;
+        grid.phi.intervals = 6;
+        grid.elevation.intervals = 12;
+        Self {
+            grid,
+            settings: Settings {
+                up: 4,
+                down: 3,
+                azimuths: 4,
+                first: 1,
+                orders: 3,
+                fineness: 12.0,
+            },
+            held_out: HeldOut { views: 24, suns: 6 },
+            cross_check: CrossCheck::default(),
+        }
+    }
+
+    /// What the light fields depend on.
+    pub(super) fn light_key(&self) -> String {
+        format!("{UNIT_VERSION} {:?} {WAVELENGTHS:?}", self.settings)
+    }
+
+    /// What the traced tensors and samples depend on, besides altitude and visibility.
+    pub(super) fn key(&self) -> String {
+        let axes = Grid {
+            altitudes: vec![],
+            visibilities: vec![],
+            ..self.grid.clone()
+        };
+        let held_out = [self.held_out.views, self.held_out.suns];
+        format!("{} {UNIT_VERSION} {axes:?} {held_out:?}", self.light_key())
+    }
+
+    /// Units of tensors, samples and fits in the folder `work`.
+    pub fn store(&self, work: &Path) -> Result<Store> {
+        self.store_of(work, Kind::Tensor)
+    }
+
+    /// The light field of a visibility (m). `progress` is told the share that is done.
+    pub fn solve(
+        &self,
+        work: &Path,
+        visibility: f64,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Solved> {
+        let store = self.store_of(work, Kind::Light)?;
+        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SOLAR_ANGULAR_RADIUS)?;
+        let values = store.unit(&Kind::Light.unit(visibility, None), || {
+            Ok(solve(&medium, self.settings, progress).to_values())
+        })?;
+        let light = LightField::from_values(&values).context("a light field of another size")?;
+        Ok(Solved {
+            visibility,
+            medium,
+            light,
+        })
+    }
+
+    /// The traced tensor of altitude `a` of the grid.
+    pub fn tensor(&self, store: &Store, solved: &Solved, a: usize) -> Result<Tensor> {
+        let altitude = self.grid.altitudes[a];
+        let name = Kind::Tensor.unit(solved.visibility, Some(altitude));
+        let values = store.unit(&name, || {
+            Ok(trace_tensor(&solved.gatherer(), &self.grid, a).values)
+        })?;
+        let views = self.grid.up.0.len() + self.grid.down.0.len();
+        let elevations = self.grid.elevation_axis().len();
+        let shape = [views, self.grid.phi.len(), elevations, CHANNELS];
+        Ok(Tensor { shape, values })
+    }
+
+    /// Held-out samples at any altitude (m).
+    pub fn held_out(&self, store: &Store, solved: &Solved, altitude: f64) -> Result<Vec<Sample>> {
+        let seed = (solved.visibility + altitude) as u64;
+        let counts = [self.held_out.views, self.held_out.suns];
+        let name = Kind::Truth.unit(solved.visibility, Some(altitude));
+        let values = store.unit(&name, || {
+            let samples = truth(&solved.gatherer(), &solved.light, altitude, counts, seed);
+            Ok(samples.iter().flat_map(Sample::to_values).collect())
+        })?;
+        Ok(Sample::from_values(&values))
+    }
+
+    /// The atmosphere of a visibility (m) and traced samples for the reference tracer: every direction has two suns of
+    /// its own.
+    pub fn cross_check_samples(
+        &self,
+        work: &Path,
+        visibility: f64,
+        altitudes: &[f64],
+        directions: usize,
+    ) -> Result<(Atmosphere, Vec<Sample>)> {
+        let solved = self.solve(work, visibility, &|_| {})?;
+        let gatherer = solved.gatherer();
+        let one =
+            |altitude: f64, seed: u64| truth(&gatherer, &solved.light, altitude, [1, 2], seed);
+        let samples = altitudes
+            .iter()
+            .flat_map(|&h| (0..directions as u64).flat_map(move |i| one(h, 1000 * i + h as u64)))
+            .collect();
+        Ok((real(visibility, &WAVELENGTHS)?, samples))
+    }
+}
