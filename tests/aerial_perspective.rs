@@ -487,7 +487,7 @@ fn chunks_are_added_replaced_and_cropped() {
 /// Rays through all of the air by the source and by the fitted sky: two ways to the same light, with errors of their
 /// own.
 #[test]
-fn to_the_limb_the_haze_is_the_sky() {
+fn to_the_limb_the_light_of_the_air_is_the_sky() {
     let model = Model::default_model().unwrap();
     let n = model.wavelengths().len();
     let mut differences: [Vec<f64>; 4] = Default::default();
@@ -518,7 +518,7 @@ fn to_the_limb_the_haze_is_the_sky() {
         all.sort_by(f64::total_cmp);
         let quantile = |share: f64| all[(share * (all.len() - 1) as f64) as usize];
         let [median, p95, p99] = [0.5, 0.95, 0.99].map(quantile);
-        println!("{name}: haze and sky differ by {median:.4}, {p95:.4}, {p99:.4}");
+        println!("{name}: segments and sky differ by {median:.4}, {p95:.4}, {p99:.4}");
         assert!(
             median < limits[0] && p95 < limits[1],
             "{name}: {median} {p95}"

@@ -38,30 +38,30 @@ fn close(got: &[f32], expected: &[f32], tolerance: f32, of: &str) {
 }
 
 #[test]
-fn general_hazes_answer_as_hazes() {
+fn queries_answer_as_prepared_aerial_perspectives() {
     let model = Model::default_model().unwrap();
-    let mut general = model.aerial_perspective_query().unwrap();
-    let n = general.wavelengths().len();
+    let mut query = model.aerial_perspective_query().unwrap();
+    let n = query.wavelengths().len();
     let [mut a, mut b, mut c, mut d] = [0; 4].map(|_| vec![0.0; n]);
     for (conditions, from, to) in cases() {
         let of = format!("{conditions:?} {to:?}");
         let aerial = model.aerial_perspective(&conditions).unwrap();
         aerial.in_scattering(from, to, &mut a, &mut b).unwrap();
-        general
+        query
             .in_scattering(&conditions, from, to, &mut c, &mut d)
             .unwrap();
         close(&c, &a, 1e-5, &of);
         assert_eq!(b, d, "{of}");
         let way = std::array::from_fn(|k| to[k] - from[k]);
         aerial.to_end(from, way, &mut a, &mut b).unwrap();
-        general
+        query
             .to_end(&conditions, from, way, &mut c, &mut d)
             .unwrap();
         close(&c, &a, 1e-5, &of);
         assert_eq!(b, d, "{of}");
         let frame = PolarisationFrame::SunAligned;
         let light = aerial.relative_stokes_at(from, to, frame, 555.0).unwrap();
-        let other = general
+        let other = query
             .relative_stokes_at(&conditions, from, to, frame, 555.0)
             .unwrap();
         for (got, expected) in [(other.i, light.i), (other.q, light.q), (other.u, light.u)] {
@@ -73,8 +73,8 @@ fn general_hazes_answer_as_hazes() {
 #[test]
 fn a_clone_goes_its_own_way_and_errors_leave_no_trace() {
     let model = Model::default_model().unwrap();
-    let mut general = model.aerial_perspective_query().unwrap();
-    let n = general.wavelengths().len();
+    let mut query = model.aerial_perspective_query().unwrap();
+    let n = query.wavelengths().len();
     let [mut light, mut through, mut again] = [0; 3].map(|_| vec![0.0; n]);
     let (from, to) = ([0.0, 0.0, 10.0], [2e4, 3e3, 1e3]);
     let noon = Conditions::default();
@@ -82,10 +82,10 @@ fn a_clone_goes_its_own_way_and_errors_leave_no_trace() {
         solar_elevation: -0.03,
         ..noon
     };
-    general
+    query
         .in_scattering(&noon, from, to, &mut light, &mut through)
         .unwrap();
-    let mut other = general.clone();
+    let mut other = query.clone();
     other
         .in_scattering(&dusk, from, to, &mut again, &mut through)
         .unwrap();
@@ -94,7 +94,7 @@ fn a_clone_goes_its_own_way_and_errors_leave_no_trace() {
         visibility: 1e3,
         ..noon
     };
-    let refused = general.in_scattering(&outside, from, to, &mut again, &mut through);
+    let refused = query.in_scattering(&outside, from, to, &mut again, &mut through);
     assert!(matches!(
         refused,
         Err(Error::OutOfRange {
@@ -103,9 +103,9 @@ fn a_clone_goes_its_own_way_and_errors_leave_no_trace() {
         })
     ));
     let endless = [f64::INFINITY, 0.0, 0.0];
-    let refused = general.in_scattering(&dusk, from, endless, &mut again, &mut through);
+    let refused = query.in_scattering(&dusk, from, endless, &mut again, &mut through);
     assert!(matches!(refused, Err(Error::Point { .. })));
-    general
+    query
         .in_scattering(&noon, from, to, &mut again, &mut through)
         .unwrap();
     assert_eq!(light, again);

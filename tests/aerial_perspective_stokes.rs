@@ -1,9 +1,12 @@
 //! Polarised light of finite segments: consistent with itself, with the unpolarised light and with the polarised sky.
 #![cfg(feature = "default-model")]
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
+use common::unit;
 use welkin::{
     AerialPerspective, Conditions, Error, Model, PolarisationFrame, Stokes, StokesSpectra,
 };
@@ -48,11 +51,6 @@ fn along(from: [f64; 3], direction: [f64; 3], length: f64) -> [[f64; 3]; 2] {
         from,
         std::array::from_fn(|k| from[k] + length * direction[k]),
     ]
-}
-
-fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [ce * ca, ce * sa, se]
 }
 
 /// Level, rising, falling and vertical; some start away from the origin.

@@ -1,29 +1,23 @@
 //! Time-lapses: every frame once, none lost.
 #![cfg(feature = "cli")]
 
+mod common;
+
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
+use common::command::call;
 use exr::prelude::{AttributeValue, Text, read_all_flat_layers_from_file};
 
-fn run(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
 fn works(folder: &Path, line: &str) -> String {
-    let output = run(folder, line);
+    let output = call(folder, line);
     assert!(output.status.success(), "{line}: {output:?}");
     assert!(output.stderr.is_empty(), "{output:?}");
     String::from_utf8(output.stdout).unwrap()
 }
 
 fn refusal(folder: &Path, line: &str) -> String {
-    let output = run(folder, line);
+    let output = call(folder, line);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{line}: {text}");
     assert_eq!(text.lines().count(), 1, "{text}");
@@ -141,7 +135,10 @@ fn courses_that_the_model_does_not_reach_are_refused_before_the_first_frame() {
         ("animate --frames 9 --out f", "--sun-elevation"),
         ("animate --sun-elevation 1..2 --frames 0 --out f", "frames"),
         ("animate --sun-elevation 1..2 --out -", "frames need a name"),
-        ("animate --sun-elevation 1..2 --out missing/f", "missing/f"),
+        (
+            "animate --sun-elevation 1..2 --out missing/frames/f",
+            "missing/f",
+        ),
         (
             "animate --sun-elevation 1..2 --visibility 5 --out f",
             "visibility must be in",
@@ -156,12 +153,32 @@ fn courses_that_the_model_does_not_reach_are_refused_before_the_first_frame() {
     }
     assert!(names(folder).is_empty());
     // By name it is allowed.
-    let output = run(
+    let output = call(
         folder,
         "animate --sun-elevation -10..0 --frames 2 --size 4 --clamp --out f",
     );
     assert!(output.status.success(), "{output:?}");
     assert_eq!(names(folder).len(), 4);
+}
+
+#[test]
+fn the_last_folder_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let line = "animate --sun-elevation 1..2 --frames 2 --size 4 --out";
+    for _ in 0..2 {
+        works(folder, &format!("{line} frames/day.png"));
+    }
+    assert_eq!(
+        names(&folder.join("frames")),
+        ["day-0001.png", "day-0002.png"]
+    );
+    let said = refusal(folder, &format!("{line} no/frames/day.png"));
+    assert!(said.contains("no/frames: no folder can be made"), "{said}");
+    fs::write(folder.join("file"), "").unwrap();
+    let said = refusal(folder, &format!("{line} file/day.png"));
+    assert!(said.contains("file: is no folder"), "{said}");
+    assert_eq!(names(folder), ["file", "frames"]);
 }
 
 /// No flicker: the exposure is a smooth function of the sun, and one for all frames if it is given.

@@ -9,7 +9,7 @@ mod random;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use common::{on_sphere, radiance as truth, unit};
+use common::{direction, on_sphere, radiance as truth};
 use proptest::prelude::*;
 use welkin::{BakedColourSky, BakedSky, Conditions, Directions, Error, Model, Sky};
 
@@ -153,7 +153,7 @@ proptest! {
         let baked = bake(&sky);
         let dip = (6_378_000.0 / (6_378_000.0 + conditions.altitude)).acos();
         let normal = on_sphere(tilt, turn).map(f64::from);
-        let across = unit(0.0, turn + TAU / 4.0).map(f64::from);
+        let across = direction(0.0, turn + TAU / 4.0).map(f64::from);
         let third: [f64; 3] = [
             normal[1] * across[2] - normal[2] * across[1],
             normal[2] * across[0] - normal[0] * across[2],
@@ -200,7 +200,7 @@ fn largest_errors_are_honest() {
                 continue;
             }
             let part = u * u * v * elevation.cos();
-            let direction = unit(elevation, 0.5 * TAU * v * v);
+            let direction = direction(elevation, 0.5 * TAU * v * v);
             for (got, expected) in radiance(&baked, direction)
                 .into_iter()
                 .zip(truth(&sky, direction))
@@ -306,7 +306,7 @@ fn neighbours_of_the_horizon_agree_on_its_own_side() {
     let baked = bake(&sky);
     let dip = (6_378_000.0f64 / (6_378_000.0 + 800.0)).acos();
     for (near, far) in [(1e-7, 1e-6), (-1e-7, -1e-6)] {
-        let [near, far] = [near, far].map(|offset| radiance(&baked, unit(offset - dip, 0.4)));
+        let [near, far] = [near, far].map(|offset| radiance(&baked, direction(offset - dip, 0.4)));
         for (a, b) in near.into_iter().zip(far) {
             assert!(error(a, b) < 0.01, "{a} {b}");
         }
@@ -331,9 +331,9 @@ fn turning_the_sun_turns_the_sky() {
     };
     let (mut turned, straight) = (bake(&sky(0.0)), bake(&sky(0.0)));
     turned.set_solar_azimuth(1.3).unwrap();
-    for (a, b) in radiance(&turned, unit(0.3, 2.3))
+    for (a, b) in radiance(&turned, direction(0.3, 2.3))
         .into_iter()
-        .zip(radiance(&straight, unit(0.3, 1.0)))
+        .zip(radiance(&straight, direction(0.3, 1.0)))
     {
         assert!(error(a, b) < 1e-4, "{a} {b}");
     }

@@ -34,7 +34,7 @@ proptest! {
         model.load(&plan).unwrap();
         prop_assert_eq!(model.touched_bytes(), plan.file_bytes);
         let requests = model.traffic().requests;
-        let general = model.point_query(&plan).unwrap().with_interpolation(Interpolation::Full);
+        let query = model.point_query(&plan).unwrap().with_interpolation(Interpolation::Full);
         for (s, t) in places {
             let ([low, high], [hazy, clear]) = (sorted(a, b), sorted(v, w));
             let conditions = Conditions {
@@ -44,7 +44,7 @@ proptest! {
             };
             let sky = model.sky(&conditions).unwrap();
             let (mut got, mut expected) = (vec![0.0; 6], vec![0.0; 6]);
-            general.radiance(&conditions, [0.2, 0.1, 0.3], &mut got).unwrap();
+            query.radiance(&conditions, [0.2, 0.1, 0.3], &mut got).unwrap();
             sky.radiance([0.2, 0.1, 0.3], &mut expected).unwrap();
             for (got, expected) in got.iter().zip(&expected) {
                 prop_assert!((got - expected).abs() <= 3e-5 * expected, "{got} {expected}");

@@ -1,19 +1,13 @@
 //! The sun's disc in pictures: its light, all of it, in the pixels that it covers.
 #![cfg(feature = "cli")]
 
+mod common;
+
 use std::f64::consts::PI;
 use std::path::Path;
-use std::process::{Command, Output};
 
+use common::command::call;
 use exr::prelude::read_all_flat_layers_from_file;
-
-fn run(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
 
 struct Picture {
     size: [usize; 2],
@@ -28,7 +22,7 @@ impl Picture {
 }
 
 fn picture(folder: &Path, line: &str) -> Picture {
-    let output = run(folder, &format!("{line} --out p.exr"));
+    let output = call(folder, &format!("{line} --out p.exr"));
     assert!(output.status.success(), "{line}: {output:?}");
     let image = read_all_flat_layers_from_file(folder.join("p.exr")).unwrap();
     let layer = &image.layer_data[0];
@@ -81,7 +75,7 @@ fn solid_angle(projection: &str, [width, height]: [usize; 2], [column, row]: [us
 
 /// Light on a plane that faces the sun, lx in linear sRGB, or W m⁻² nm⁻¹.
 fn irradiance(folder: &Path, scene: &str, key: &str) -> Vec<f64> {
-    let output = run(folder, &format!("light --json {scene}"));
+    let output = call(folder, &format!("light --json {scene}"));
     let light: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let values = light["direct_normal"][key].as_array().unwrap();
     values.iter().map(|v| v.as_f64().unwrap()).collect()
@@ -193,13 +187,13 @@ fn the_disc_is_refused_where_it_means_nothing() {
             "--sun shows radiance only",
         ),
     ] {
-        let output = run(folder.path(), line);
+        let output = call(folder.path(), line);
         let text = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{line}: {text}");
         assert!(text.contains(word) && text.lines().count() == 1, "{text}");
     }
     // A sun that has set adds nothing.
-    let output = run(
+    let output = call(
         folder.path(),
         "render --sun --sun-elevation -3 --size 8 --out a.exr",
     );

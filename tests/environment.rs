@@ -1,24 +1,22 @@
 //! Environment maps and the lights that go with them.
 #![cfg(feature = "cli")]
 
+mod common;
+
 use std::f64::consts::PI;
 use std::path::Path;
-use std::process::Command;
 
+use common::command::run;
 use exr::prelude::read_first_flat_layer_from_file;
 use serde_json::Value;
 use welkin::{Conditions, Model};
 
-fn welkin(arguments: &[&str], folder: &Path) -> std::process::Output {
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
 fn light(arguments: &[&str]) -> Value {
-    let output = welkin(&[&["light", "--json"], arguments].concat(), Path::new("."));
+    let output = run(
+        Path::new("."),
+        &[&["light", "--json"], arguments].concat(),
+        "",
+    );
     assert!(output.status.success(), "{output:?}");
     serde_json::from_slice(&output.stdout).unwrap()
 }
@@ -31,10 +29,8 @@ fn numbers(value: &Value) -> Vec<f64> {
 /// Planes of a rendered picture in the order of their names, and its size.
 fn render(arguments: &[&str]) -> (Vec<Vec<f32>>, [usize; 2]) {
     let folder = tempfile::tempdir().unwrap();
-    let output = welkin(
-        &[&["render", "--out", "map.exr"], arguments].concat(),
-        folder.path(),
-    );
+    let arguments = [&["render", "--out", "map.exr"], arguments].concat();
+    let output = run(folder.path(), &arguments, "");
     assert!(output.status.success(), "{output:?}");
     let image = read_first_flat_layer_from_file(folder.path().join("map.exr")).unwrap();
     let size = image.layer_data.size;
@@ -151,12 +147,12 @@ fn sunlight_is_that_of_the_disc() {
     assert_eq!(night["direct_normal"]["luminous"], 0.0);
     assert_eq!(night["sun_disc_mean"]["luminous"], 0.0);
     assert!(night["diffuse_horizontal"]["luminous"].as_f64().unwrap() > 1.0);
-    let human = welkin(&["light"], Path::new("."));
+    let human = run(Path::new("."), &["light"], "");
     let text = String::from_utf8(human.stdout).unwrap();
     for word in ["direct normal", "global horizontal", "lx", "cd m^-2", "683"] {
         assert!(text.contains(word), "{text}");
     }
-    let refused = welkin(&["light", "--visibility", "5"], Path::new("."));
+    let refused = run(Path::new("."), &["light", "--visibility", "5"], "");
     assert_eq!(refused.status.code(), Some(2));
 }
 
@@ -302,7 +298,11 @@ fn grounds_are_refused_where_they_would_be_wrong() {
         &["--ground", "--quantity", "dolp"],
         &["--ground", "--terrain", "flat"],
     ] {
-        let output = welkin(&[&["render", "--size", "8"], wrong].concat(), folder.path());
+        let output = run(
+            folder.path(),
+            &[&["render", "--size", "8"], wrong].concat(),
+            "",
+        );
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");
         assert_eq!(String::from_utf8(output.stderr).unwrap().lines().count(), 1);
     }

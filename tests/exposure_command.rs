@@ -1,23 +1,17 @@
 //! What becomes of light in PNGs: as a photographer would expose and develop it. EXRs stay as they are.
 #![cfg(feature = "cli")]
 
+mod common;
+
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
-use std::process::{Command, Output};
 
+use common::command::call;
 use exr::prelude::read_all_flat_layers_from_file;
 
-fn run(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
-        .current_dir(folder)
-        .output()
-        .unwrap()
-}
-
 fn works(folder: &Path, line: &str) {
-    let output = run(folder, line);
+    let output = call(folder, line);
     assert!(output.status.success(), "{line}: {output:?}");
 }
 
@@ -99,30 +93,48 @@ fn the_automatic_exposure_is_as_documented() {
     }
 }
 
-/// A landscape towards the sun and one away from it: the mean of what the picture shows is half a stop above middle
-/// grey.
+/// Landscapes in the middle grey of their mean, away from the sun and towards it, and a slope in the shadow before a
+/// bright sky, of which no more than a twentieth of the picture is brighter than twice white.
 #[test]
 fn landscapes_are_exposed_for_what_they_show() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let mut values = Vec::new();
-    for azimuth in [0, 180] {
-        let line = format!(
-            "render --terrain hills --altitude 2000 --sun-elevation 5 --view-azimuth {azimuth} --size 24 --out l"
+    for (view, is_dark) in [
+        ("--altitude 2000 --view-azimuth 0 --pitch 0", false),
+        ("--altitude 2000 --view-azimuth 180 --pitch 0", false),
+        (
+            "--altitude 1500 --view-azimuth 0 --pitch 0 --field-of-view 22",
+            true,
+        ),
+    ] {
+        works(
+            folder,
+            &format!("render --terrain hills --sun-elevation 5 {view} --size 40 --out l"),
         );
-        works(folder, &line);
         let value: f64 = text(&folder.join("l.png"), "exposureValue")
             .parse()
             .unwrap();
+        let white = 1.2 * value.exp2();
         let light = exr(&folder.join("l.exr"));
-        let logarithms = light.iter().map(|&[r, g, b]| {
-            (0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)).ln()
-        });
-        let mean = (logarithms.sum::<f64>() / light.len() as f64).exp();
-        assert!(
-            (mean / (1.2 * value.exp2()) / 0.25 - 1.0).abs() < 1e-3,
-            "{mean} {value}"
-        );
+        let luminances: Vec<f64> = light
+            .iter()
+            .map(|rgb| {
+                let [r, g, b] = rgb.map(f64::from);
+                (0.2126 * r + 0.7152 * g + 0.0722 * b) / white
+            })
+            .collect();
+        let count = luminances.len() as f64;
+        let mean = (luminances.iter().map(|l| l.ln()).sum::<f64>() / count).exp();
+        let bright = luminances.iter().filter(|&&l| l > 2.0).count() as f64 / count;
+        match is_dark {
+            false => assert!((mean / 0.25 - 1.0).abs() < 1e-3, "{view}: {mean}"),
+            true => assert!(
+                mean < 0.2 && (0.04..=0.051).contains(&bright),
+                "{mean} {bright}"
+            ),
+        }
+        assert!(bright <= 0.051, "{view}: {bright}");
         values.push(value);
     }
     assert!(values[0] > values[1] + 0.5, "{values:?}");
@@ -166,7 +178,7 @@ fn curves_and_white_balance_change_the_png_alone() {
         let encoded = 1.055 * v.powf(1.0 / 2.4) - 0.055;
         assert!((encoded * 255.0 - f32::from(shown[k][c])).abs() < 0.6);
     }
-    let output = run(folder, "render --tone sepia --out q");
+    let output = call(folder, "render --tone sepia --out q");
     let message = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(

@@ -6,29 +6,27 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
+use common::unit;
 use proptest::prelude::*;
 use welkin::{AerialPerspective, Conditions, DEFAULT_MODEL, Error, Model, PointQuery};
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
-static HAZE: LazyLock<AerialPerspective> =
+static AERIAL: LazyLock<AerialPerspective> =
     LazyLock::new(|| MODEL.aerial_perspective(&Conditions::default()).unwrap());
 
-fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [ce * ca, ce * sa, se]
-}
-
 fn to_end(from: [f64; 3], direction: [f64; 3]) -> (Vec<f32>, Vec<f32>) {
-    let n = HAZE.wavelengths().len();
+    let n = AERIAL.wavelengths().len();
     let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
-    HAZE.to_end(from, direction, &mut light, &mut through)
+    AERIAL
+        .to_end(from, direction, &mut light, &mut through)
         .unwrap();
     (light, through)
 }
 
 fn to_space(from: [f64; 3], direction: [f64; 3]) -> Vec<f32> {
-    let mut out = vec![0.5; HAZE.wavelengths().len()];
-    HAZE.transmittance()
+    let mut out = vec![0.5; AERIAL.wavelengths().len()];
+    AERIAL
+        .transmittance()
         .transmittance_to_space(from, direction, &mut out)
         .unwrap();
     out
@@ -140,14 +138,14 @@ fn observers_in_depressions_stand_on_the_ground() {
         altitude,
         ..Conditions::default()
     };
-    let general = PointQuery::new(DEFAULT_MODEL).unwrap();
+    let query = PointQuery::new(DEFAULT_MODEL).unwrap();
     let direction = [0.4, -0.3, -0.1];
     let answers = |altitude: f64| {
         let sky = MODEL.polarised_sky(&conditions(altitude)).unwrap();
         assert_eq!(sky.sky().conditions().altitude, 0.0);
         let mut at_once = vec![0.0; MODEL.wavelengths().len()];
         let asked = conditions(altitude);
-        general
+        query
             .relative_radiance(&asked, direction, &mut at_once)
             .unwrap();
         let aerial = MODEL.aerial_perspective(&asked).unwrap();
@@ -175,7 +173,7 @@ fn observers_in_depressions_stand_on_the_ground() {
         let mut out = vec![0.0; MODEL.wavelengths().len()];
         let asked = conditions(altitude);
         assert!(refused(
-            general
+            query
                 .relative_radiance(&asked, direction, &mut out)
                 .unwrap_err()
         ));

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use common::command::fifo;
+use common::command::{fifo, welkin};
 
 struct Bench(tempfile::TempDir);
 
@@ -25,9 +25,7 @@ impl Bench {
     }
 
     fn command(&self, line: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_welkin"));
-        command.args(line.split(' ')).current_dir(self.0.path());
-        command
+        welkin(self.0.path(), &line.split(' ').collect::<Vec<_>>())
     }
 
     fn run(&self, line: &str) -> Output {

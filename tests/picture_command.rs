@@ -4,14 +4,13 @@
 mod common;
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
+use common::command::{self, welkin};
 use exr::prelude::{AttributeValue, FlatImage, Text, Vec2, read_all_flat_layers_from_file};
 
 fn run(folder: &Path, line: &str, threads: usize) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split(' '))
-        .current_dir(folder)
+    welkin(folder, &line.split(' ').collect::<Vec<_>>())
         .env("RAYON_NUM_THREADS", threads.to_string())
         .output()
         .unwrap()
@@ -209,6 +208,25 @@ fn png_files_say_the_same_as_their_exr() {
     assert_eq!(said("altitude"), "0");
 }
 
+/// From above and towards a mountain, unless something else is said.
+#[test]
+fn hills_have_a_viewpoint() {
+    let folder = folder();
+    let show = |more: &str| {
+        let line = format!("render --terrain hills --size 4 --out h.exr{more}");
+        works(folder.path(), &line, 2);
+        let image = read(&folder.path().join("h.exr"));
+        let altitude = image.layer_data[0].attributes.altitude.unwrap();
+        let view = ["viewAzimuthDeg", "pitchDeg"].map(|name| number(&image, name).round());
+        (altitude.round(), view)
+    };
+    assert_eq!(show(""), (2602.0, [104.0, -5.0]));
+    // On the ground, and so the mountain is above.
+    assert_eq!(show(" --altitude 1500"), (1585.0, [104.0, 5.0]));
+    let given = " --altitude 3000 --view-azimuth 20 --pitch -7";
+    assert_eq!(show(given), (3002.0, [20.0, -7.0]));
+}
+
 /// One byte per character would do for few names of files.
 #[test]
 fn models_may_have_any_name() {
@@ -218,20 +236,9 @@ fn models_may_have_any_name() {
         folder.path().join("空 é.welkin"),
     )
     .unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_welkin"));
-    let output = command
-        .args([
-            "render",
-            "--size",
-            "4",
-            "--out",
-            "a",
-            "--model",
-            "空 é.welkin",
-        ])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
+    let name = ["--model", "空 é.welkin"];
+    let arguments = [&["render", "--size", "4", "--out", "a"][..], &name].concat();
+    let output = command::run(folder.path(), &arguments, "");
     assert!(output.status.success(), "{output:?}");
     let image = read(&folder.path().join("a.exr"));
     let own = &image.layer_data[0].attributes.other;
@@ -282,7 +289,7 @@ fn negative_values_parse_everywhere() {
         "polariser",
     ];
     let ranges = ["altitudes", "visibilities", "tolerance"];
-    // The file has no haze: a landscape is refused as soon as its options are understood.
+    // The file has no light of segments: a landscape is refused as soon as its options are understood.
     let commands = [
         (
             "render --model m.welkin --terrain flat --size 2 --out a",

@@ -7,6 +7,7 @@ mod common;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
+use common::unit;
 use proptest::prelude::*;
 use welkin::{
     AerialPerspective, Conditions, DEFAULT_MODEL, Error, Interpolation, Model, Place, PointQuery,
@@ -14,11 +15,6 @@ use welkin::{
 };
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
-
-fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [ce * ca, ce * sa, se]
-}
 
 /// A turn of the world, from a quaternion of any length.
 fn turned([a, b, c, d]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
@@ -104,10 +100,10 @@ proptest! {
             prop_assert!((a.i - b.i).abs() < 2e-4 * a.i, "{a:?} {b:?}");
             prop_assert!((a.q - b.q).hypot(a.u - b.u) < 4e-4 * a.i, "{a:?} {b:?}");
         }
-        let general = PointQuery::new(DEFAULT_MODEL).unwrap();
-        let general = general.with_interpolation(Interpolation::Full);
+        let query = PointQuery::new(DEFAULT_MODEL).unwrap();
+        let query = query.with_interpolation(Interpolation::Full);
         let mut at_once = vec![0.0; n];
-        general.relative_radiance(&there, direction, &mut at_once).unwrap();
+        query.relative_radiance(&there, direction, &mut at_once).unwrap();
         for (a, b) in here.iter().zip(&at_once) {
             prop_assert!((a.i - b).abs() < 3e-4 * a.i, "{a:?} {b}");
         }
@@ -127,7 +123,7 @@ proptest! {
 
     /// Within its reach an aerial perspective agrees with one that is prepared where the segment is.
     #[test]
-    fn hazes_agree_as_far_as_they_reach(
+    fn aerial_perspectives_agree_as_far_as_they_reach(
         away in 0.05..0.33f64,
         around in -3.1..3.1f64,
         sun in 0.2..1.2f64,

@@ -11,7 +11,7 @@ use welkin::{Conditions, Error, Interpolation, Model, PointQuery};
 /// Relative differences from skies at random conditions of the default model: median, 95th and 99th percentile.
 fn differences(interpolation: Interpolation) -> [f64; 3] {
     let model = Model::default_model().unwrap();
-    let general = PointQuery::new(welkin::DEFAULT_MODEL)
+    let query = PointQuery::new(welkin::DEFAULT_MODEL)
         .unwrap()
         .with_interpolation(interpolation);
     let (mut places, mut views) = (
@@ -25,7 +25,7 @@ fn differences(interpolation: Interpolation) -> [f64; 3] {
         for _ in 0..4 {
             let direction = random::sphere(views.draw());
             let [mut got, mut expected] = [[0.0; 12]; 2];
-            general.radiance(&conditions, direction, &mut got).unwrap();
+            query.radiance(&conditions, direction, &mut got).unwrap();
             sky.radiance(direction, &mut expected).unwrap();
             let pairs = got.iter().zip(expected).filter(|&(_, e)| e > 0.0);
             differences.extend(pairs.map(|(&g, e)| f64::from((g - e).abs() / e)));
@@ -57,7 +57,7 @@ fn it_fits_where_there_is_no_heap() {
 
 #[test]
 fn at_the_nodes_all_interpolations_agree() {
-    let general = |i| {
+    let prepared = |i| {
         PointQuery::new(welkin::DEFAULT_MODEL)
             .unwrap()
             .with_interpolation(i)
@@ -75,8 +75,8 @@ fn at_the_nodes_all_interpolations_agree() {
             (Interpolation::Lean, &mut lean),
             (Interpolation::Full, &mut full),
         ] {
-            let general = general(interpolation);
-            general.radiance(&conditions, direction, out).unwrap();
+            let query = prepared(interpolation);
+            query.radiance(&conditions, direction, out).unwrap();
         }
         assert_eq!(lean, full);
         assert_eq!(linear, full);
@@ -103,7 +103,7 @@ fn nothing_jumps_between_intervals() {
         Interpolation::Lean,
         Interpolation::Full,
     ] {
-        let general = PointQuery::new(welkin::DEFAULT_MODEL)
+        let query = PointQuery::new(welkin::DEFAULT_MODEL)
             .unwrap()
             .with_interpolation(interpolation);
         for (&altitude, &visibility) in places[0]
@@ -117,7 +117,7 @@ fn nothing_jumps_between_intervals() {
                     visibility: visibility * (1.0 + nudge),
                     ..Conditions::default()
                 };
-                general.radiance(&conditions, [0.3, 0.4, 0.2], out).unwrap();
+                query.radiance(&conditions, [0.3, 0.4, 0.2], out).unwrap();
             }
             for (below, above) in below.into_iter().zip(above) {
                 assert!(
@@ -137,7 +137,7 @@ proptest! {
     #![proptest_config(common::cases(256))]
 
     #[test]
-    fn general_queries_agree_with_skies(
+    fn queries_agree_with_skies(
         altitude in prop_oneof![Just(0.0), Just(120.0), Just(2000.0), 0.0..2000.0f64],
         visibility in prop_oneof![Just(59.4e3), Just(20e3), Just(131.8e3), 20e3..131.8e3f64],
         albedo in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64],
@@ -146,15 +146,15 @@ proptest! {
         direction in prop::array::uniform3(-1.0..1.0f32),
         bytes in prop::sample::select(vec![common::model_bytes(), common::wide_bytes(), common::long_bytes()]),
     ) {
-        let general = PointQuery::new(&bytes).unwrap().with_interpolation(Interpolation::Full);
-        general.verify(&bytes).unwrap();
+        let query = PointQuery::new(&bytes).unwrap().with_interpolation(Interpolation::Full);
+        query.verify(&bytes).unwrap();
         let model = Model::from_bytes(bytes.clone()).unwrap();
         let solar_elevation = elevation.to_radians();
         let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
         let sky = model.sky(&conditions).unwrap();
-        let n = general.wavelengths().len();
+        let n = query.wavelengths().len();
         let (mut got, mut expected, mut zenith) = (vec![f32::NAN; n], vec![f32::NAN; n], vec![f32::NAN; n]);
-        general.radiance(&conditions, direction, &mut got).unwrap();
+        query.radiance(&conditions, direction, &mut got).unwrap();
         sky.radiance(direction, &mut expected).unwrap();
         sky.radiance([0.0, 0.0, 1.0], &mut zenith).unwrap();
         for i in 0..n {
@@ -169,11 +169,11 @@ proptest! {
         direction in prop::array::uniform3(any::<f32>()),
     ) {
         let bytes = common::model_bytes();
-        let general = PointQuery::new(&bytes).unwrap();
+        let query = PointQuery::new(&bytes).unwrap();
         let model = Model::from_bytes(bytes.clone()).unwrap();
         let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
-        let mut out = vec![f32::NAN; general.wavelengths().len()];
-        let got = general.radiance(&conditions, direction, &mut out);
+        let mut out = vec![f32::NAN; query.wavelengths().len()];
+        let got = query.radiance(&conditions, direction, &mut out);
         let expected = model.sky(&conditions).and_then(|sky| sky.radiance(direction, &mut out.clone()));
         match (&got, &expected) {
             (Ok(()), Ok(())) => prop_assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0)),
@@ -191,12 +191,12 @@ proptest! {
         if refresh {
             common::seal(&mut bytes, &original);
         }
-        if let Ok(general) = PointQuery::new(&bytes) {
-            let mut out = vec![f32::NAN; general.wavelengths().len()];
+        if let Ok(query) = PointQuery::new(&bytes) {
+            let mut out = vec![f32::NAN; query.wavelengths().len()];
             for z in [-0.5, 0.1, 1.0] {
                 for altitude in [0.0, 500.0] {
                     let conditions = Conditions { altitude, ..Conditions::default() };
-                    if general.radiance(&conditions, [0.3, 0.2, z], &mut out).is_ok() {
+                    if query.radiance(&conditions, [0.3, 0.2, z], &mut out).is_ok() {
                         prop_assert!(out.iter().all(|l| l.is_finite()), "{out:?}");
                     }
                 }
@@ -211,19 +211,19 @@ fn missing_chunks_and_wrong_lengths_are_typed_errors() {
     let mut chunks = common::chunks(&head);
     chunks.retain(|c| c.altitude != Some(1));
     let bytes = welkin::format::encode(&head, &chunks).unwrap();
-    let general = PointQuery::new(&bytes).unwrap();
-    let mut out = vec![0.0; general.wavelengths().len()];
+    let query = PointQuery::new(&bytes).unwrap();
+    let mut out = vec![0.0; query.wavelengths().len()];
     let conditions = Conditions::default();
-    general
+    query
         .radiance(&conditions, [0.0, 0.0, 1.0], &mut out)
         .unwrap();
-    let wrong = general.radiance(&conditions, [0.0, 0.0, 1.0], &mut out[1..]);
+    let wrong = query.radiance(&conditions, [0.0, 0.0, 1.0], &mut out[1..]);
     assert!(matches!(wrong, Err(Error::Length { .. })));
     let above = Conditions {
         altitude: 60.0,
         ..conditions
     };
-    let missing = general.radiance(&above, [0.0, 0.0, 1.0], &mut out);
+    let missing = query.radiance(&above, [0.0, 0.0, 1.0], &mut out);
     assert!(matches!(
         missing,
         Err(Error::MissingChunk {
@@ -238,9 +238,9 @@ fn missing_chunks_and_wrong_lengths_are_typed_errors() {
     ));
     let mut damaged = bytes.clone();
     *damaged.last_mut().unwrap() ^= 1;
-    let general = PointQuery::new(&damaged).unwrap();
+    let query = PointQuery::new(&damaged).unwrap();
     assert!(matches!(
-        general.verify(&damaged),
+        query.verify(&damaged),
         Err(Error::Checksum { .. })
     ));
 }

@@ -15,16 +15,16 @@ fn whole(model: &Model, channels: Channels) -> welkin::Plan {
     model.plan(&budget).unwrap()
 }
 
-fn general(model: &Model) -> PolarisedPointQuery<'_> {
+fn prepared(model: &Model) -> PolarisedPointQuery<'_> {
     let plan = whole(model, Channels::Stokes);
     model.polarised_point_query(&plan).unwrap()
 }
 
 #[test]
-fn general_stokes_vectors_are_those_of_prepared_skies() {
+fn stokes_vectors_are_those_of_prepared_skies() {
     let model = Model::default_model().unwrap();
-    let general = general(&model);
-    let n = general.wavelengths().len();
+    let query = prepared(&model);
+    let n = query.wavelengths().len();
     let mut prepared = vec![Stokes::default(); n];
     let mut got = prepared.clone();
     for i in 0..300u32 {
@@ -47,14 +47,12 @@ fn general_stokes_vectors_are_those_of_prepared_skies() {
         };
         let sky = model.polarised_sky(&conditions).unwrap();
         sky.stokes(direction, frame, &mut prepared).unwrap();
-        general
+        query
             .stokes(&conditions, direction, frame, &mut got)
             .unwrap();
         let nm = 320.0 + 440.0 * share(7);
         let at = sky.stokes_at(direction, frame, nm).unwrap();
-        let other = general
-            .stokes_at(&conditions, direction, frame, nm)
-            .unwrap();
+        let other = query.stokes_at(&conditions, direction, frame, nm).unwrap();
         for (got, expected) in got.iter().zip(&prepared).chain([(&other, &at)]) {
             let errors = [got.i - expected.i, got.q - expected.q, got.u - expected.u];
             let largest = errors.into_iter().fold(0.0, |m: f32, e| m.max(e.abs()));
@@ -68,19 +66,19 @@ fn general_stokes_vectors_are_those_of_prepared_skies() {
 }
 
 #[test]
-fn what_general_stokes_vectors_refuse() {
+fn what_is_refused() {
     let model = Model::default_model().unwrap();
-    let general = general(&model);
+    let query = prepared(&model);
     let (noon, up) = (Conditions::default(), [0.0, 0.0, 1.0]);
-    let mut out = vec![Stokes::default(); general.wavelengths().len()];
+    let mut out = vec![Stokes::default(); query.wavelengths().len()];
     let mut ask = |conditions: &Conditions, direction, frame, n: usize| {
-        general.stokes(conditions, direction, frame, &mut out[..n])
+        query.stokes(conditions, direction, frame, &mut out[..n])
     };
     let far = Conditions {
         visibility: 1e6,
         ..noon
     };
-    let n = general.wavelengths().len();
+    let n = query.wavelengths().len();
     let refused = ask(&far, up, PolarisationFrame::Vertical, n);
     assert!(matches!(
         refused,
@@ -95,7 +93,7 @@ fn what_general_stokes_vectors_refuse() {
     assert!(matches!(refused, Err(Error::Direction { .. })));
     let refused = ask(&noon, up, PolarisationFrame::Vertical, n - 1);
     assert!(matches!(refused, Err(Error::Length { .. })));
-    let refused = general.stokes_at(&noon, up, PolarisationFrame::Vertical, 900.0);
+    let refused = query.stokes_at(&noon, up, PolarisationFrame::Vertical, 900.0);
     assert!(matches!(
         refused,
         Err(Error::OutOfRange {

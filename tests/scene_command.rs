@@ -1,31 +1,20 @@
 //! Sun, air and observer as every command takes them.
 #![cfg(feature = "cli")]
 
+mod common;
+
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
-fn run(line: &str) -> Output {
-    run_in(Path::new("."), line, "")
-}
+use common::command;
 
-fn run_in(folder: &Path, line: &str, input: &str) -> Output {
-    use std::io::Write;
-    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(line.split_whitespace())
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // Whoever refuses reads nothing.
-    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-    child.wait_with_output().unwrap()
+fn call(line: &str) -> Output {
+    command::call(Path::new("."), line)
 }
 
 /// What `welkin light` says about its conditions.
 fn conditions(scene: &str) -> serde_json::Value {
-    let output = run(&format!("light --json {scene}"));
+    let output = call(&format!("light --json {scene}"));
     assert!(output.status.success(), "{scene}: {output:?}");
     serde_json::from_slice(&output.stdout).unwrap()
 }
@@ -35,7 +24,7 @@ fn number(value: &serde_json::Value, name: &str) -> f64 {
 }
 
 fn refusal(line: &str) -> String {
-    let output = run(line);
+    let output = call(line);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{line}: {text}");
     assert_eq!(text.lines().count(), 1, "{text}");
@@ -55,7 +44,7 @@ fn turbidity_is_that_of_the_air_of_the_model() {
             "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,wavelength_nm\n\
              transmittance,{visibility},0.2,0,20,0,0,550\n"
         );
-        let output = run_in(Path::new("."), "query", &rows);
+        let output = command::run(Path::new("."), &["query"], &rows);
         let text = String::from_utf8(output.stdout).unwrap();
         let cells: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
         let through: f64 = cells[8].parse().unwrap();
@@ -71,7 +60,7 @@ fn turbidity_is_that_of_the_air_of_the_model() {
         assert!(refusal(&format!("render --turbidity {wrong}")).contains("turbidity"));
     }
     assert!(refusal("light --turbidity 3 --visibility 40").contains("cannot be used with"));
-    let output = run("light --clamp --turbidity 8");
+    let output = call("light --clamp --turbidity 8");
     let text = String::from_utf8(output.stderr).unwrap();
     assert!(
         text.starts_with("welkin: turbidity moved from 8 to 4.4"),
@@ -182,7 +171,7 @@ fn dates_that_are_none_are_refused() {
 #[test]
 fn every_command_that_shows_a_sky_takes_all_conditions() {
     for command in ["render", "animate", "froxels", "light", "contact-sheet"] {
-        let help = String::from_utf8(run(&format!("{command} --help")).stdout).unwrap();
+        let help = String::from_utf8(call(&format!("{command} --help")).stdout).unwrap();
         for option in [
             "sun-elevation",
             "sun-azimuth",
@@ -207,7 +196,7 @@ fn every_command_that_shows_a_sky_takes_all_conditions() {
 #[test]
 fn shells_and_man_pages() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = String::from_utf8(run(&format!("completions {shell}")).stdout).unwrap();
+        let script = String::from_utf8(call(&format!("completions {shell}")).stdout).unwrap();
         assert!(
             script.contains("contact-sheet") && script.contains("turbidity"),
             "{shell}"
@@ -215,7 +204,7 @@ fn shells_and_man_pages() {
     }
     assert!(refusal("completions tcsh").contains("tcsh"));
     let folder = tempfile::tempdir().unwrap();
-    let output = run_in(folder.path(), "man --out .", "");
+    let output = command::call(folder.path(), "man --out .");
     assert!(output.status.success(), "{output:?}");
     for page in [
         "welkin.1",
@@ -228,7 +217,32 @@ fn shells_and_man_pages() {
     }
     let text = std::fs::read_to_string(folder.path().join("welkin-render.1")).unwrap();
     assert!(text.contains("turbidity") && text.contains("Preetham"));
-    assert!(refusal("man --out missing").contains("is no folder"));
+    assert!(
+        command::call(folder.path(), "man --out man1")
+            .status
+            .success()
+    );
+    assert!(folder.path().join("man1/welkin.1").is_file());
+    assert!(refusal("man --out missing/man1").contains("no folder can be made"));
+    let page = folder.path().join("welkin.1");
+    assert!(refusal(&format!("man --out {}", page.display())).contains("is no folder"));
+}
+
+/// A night says whose it is, in no more digits than anybody reads.
+#[test]
+fn suns_of_dates_beyond_the_model_are_named() {
+    let said = refusal("light --date 2026-12-21 --time 19:00Z --latitude 48 --longitude 11");
+    assert_eq!(
+        said,
+        "welkin: the sun on 2026-12-21: solar elevation must be in -4.2..=90 degrees, got -34.69 degrees\n"
+    );
+}
+
+#[test]
+fn visibilities_of_turbidities_have_no_digits_of_conversions() {
+    let output = call("light --turbidity 3");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("visibility 34.233 km,"), "{text}");
 }
 
 /// What is given is the same in all skies of a sheet, the rest varies.
@@ -236,11 +250,8 @@ fn shells_and_man_pages() {
 fn sheets_are_of_the_model_or_of_a_day() {
     let folder = tempfile::tempdir().unwrap();
     let size = |line: &str| {
-        let output = run_in(
-            folder.path(),
-            &format!("contact-sheet --size 16 --out s.png {line}"),
-            "",
-        );
+        let line = format!("contact-sheet --size 16 --out s.png {line}");
+        let output = command::call(folder.path(), &line);
         assert!(output.status.success(), "{line}: {output:?}");
         let file = std::fs::File::open(folder.path().join("s.png")).unwrap();
         let reader = png::Decoder::new(std::io::BufReader::new(file))

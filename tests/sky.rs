@@ -4,7 +4,7 @@ mod common;
 
 use std::sync::LazyLock;
 
-use common::{radiance, unit};
+use common::{direction, radiance};
 use proptest::prelude::*;
 use welkin::{Conditions, Error, Model, Sky};
 
@@ -101,12 +101,12 @@ proptest! {
     #[test]
     fn left_and_right_of_the_sun_mirror(conditions in conditions(), elevation in -1.5..1.5f64, azimuth in 0.0..3.1f64) {
         let straight = MODEL.sky(&Conditions { solar_azimuth: 0.0, ..conditions }).unwrap();
-        let [x, y, z] = unit(elevation, azimuth);
+        let [x, y, z] = direction(elevation, azimuth);
         prop_assert_eq!(radiance(&straight, [x, y, z]), radiance(&straight, [x, -y, z]));
         let turned = MODEL.sky(&conditions).unwrap();
         let sun = conditions.solar_azimuth;
-        let left = radiance(&turned, unit(elevation, sun + azimuth));
-        let right = radiance(&turned, unit(elevation, sun - azimuth));
+        let left = radiance(&turned, direction(elevation, sun + azimuth));
+        let right = radiance(&turned, direction(elevation, sun - azimuth));
         for (a, b) in left.iter().zip(&right) {
             prop_assert!((a - b).abs() <= 2e-4 * a.max(*b), "{a} {b}");
         }
@@ -125,8 +125,8 @@ proptest! {
         prop_assume!((elevation + dip).abs() > 0.03);
         let sky = MODEL.sky(&conditions).unwrap();
         let step = 1e-4;
-        let a = radiance(&sky, unit(elevation, azimuth));
-        let b = radiance(&sky, unit(elevation + step * turn.sin(), azimuth + step * turn.cos()));
+        let a = radiance(&sky, direction(elevation, azimuth));
+        let b = radiance(&sky, direction(elevation + step * turn.sin(), azimuth + step * turn.cos()));
         for (a, b) in a.iter().zip(&b) {
             prop_assert!((a - b).abs() <= 0.02 * a.max(*b) + 1e-9, "{a} {b}");
         }
@@ -184,7 +184,7 @@ fn brighter_ground_makes_a_brighter_sky() {
 fn batches_agree_with_single_queries() {
     let sky = MODEL.sky(&Conditions::default()).unwrap();
     let directions: Vec<[f32; 3]> = (0..50)
-        .map(|i| unit(0.03 * f64::from(i), f64::from(i)))
+        .map(|i| direction(0.03 * f64::from(i), f64::from(i)))
         .collect();
     let n = sky.wavelengths().len();
     let mut batch = vec![0.0; 50 * n];

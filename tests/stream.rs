@@ -116,7 +116,7 @@ fn another_visibility_or_altitude_costs_its_new_chunks_only() {
 }
 
 #[test]
-fn haze_costs_the_air_and_the_sources_of_its_visibilities() {
+fn aerial_perspective_costs_the_air_and_the_sources_of_its_visibilities() {
     let altitudes: Vec<f64> = (0..9).map(|i| 100.0 * f64::from(i)).collect();
     let head = common::head_with(&altitudes, &[20e3, 40e3, 60e3, 80e3, 130e3], 20);
     let mut chunks = common::chunks(&head);

@@ -167,11 +167,9 @@ fn absurd_files() -> Vec<(&'static str, Vec<u8>)> {
 /// Runs `welkin subset` over a file; panics if it takes more than a minute.
 fn subset_in_time(folder: &Path, bytes: &[u8], arguments: &[&str]) -> Output {
     std::fs::write(folder.join("source.welkin"), bytes).unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(["subset", "--json", "--model", "source.welkin"])
-        .args(["--out", "small.welkin"])
+    let fixed = "subset --json --model source.welkin --out small.welkin";
+    let mut child = welkin(folder, &fixed.split(' ').collect::<Vec<_>>())
         .args(arguments)
-        .current_dir(folder)
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
         .spawn()

@@ -1,4 +1,4 @@
-//! The sun's disc: one physics with transmittance and haze, light of what is visible, draws that survive rounding.
+//! The sun's disc: one physics with transmittance and aerial perspective, light of what is visible, draws that survive rounding.
 #![cfg(feature = "default-model")]
 
 mod common;
@@ -7,6 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use common::random::Random;
+use common::unit;
 use welkin::format::{Payload, encode, unpack};
 use welkin::{BakedSky, Conditions, Error, Model, Part, SOLAR_ANGULAR_RADIUS, SolarDisc};
 
@@ -23,11 +24,6 @@ const N: usize = 12;
 
 fn dip(altitude: f64) -> f64 {
     MODEL.head().planet.dip(altitude)
-}
-
-fn direction(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((z, r), (y, x)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [r * x, r * y, z]
 }
 
 fn narrow(vector: [f64; 3]) -> [f32; 3] {
@@ -82,10 +78,10 @@ fn random_conditions(random: &mut Random) -> Conditions {
 
 /// Run with --nocapture for the table.
 #[test]
-fn sun_transmittance_and_haze_are_one_physics() {
+fn sun_transmittance_and_aerial_perspective_are_one_physics() {
     let outside = outside();
     let mut random = Random(5);
-    let [mut air_errors, mut haze_errors, mut lean_errors] = [(); 3].map(|()| vec![]);
+    let [mut air_errors, mut aerial_errors, mut lean_errors] = [(); 3].map(|()| vec![]);
     for i in 0..1500 {
         let mut conditions = random_conditions(&mut random);
         if i >= 1000 {
@@ -97,7 +93,7 @@ fn sun_transmittance_and_haze_are_one_physics() {
         let from = [0.0, 0.0, conditions.altitude];
         let sun = MODEL.solar_disc(&conditions).unwrap();
         let towards = sun.direction().map(f64::from);
-        let [mut light, mut lean, mut through, mut haze_through] = [[0.0; N]; 4];
+        let [mut light, mut lean, mut through, mut aerial_through] = [[0.0; N]; 4];
         sun.radiance(sun.direction(), &mut light).unwrap();
         LEAN.solar_disc(&conditions)
             .unwrap()
@@ -121,16 +117,19 @@ fn sun_transmittance_and_haze_are_one_physics() {
             let aerial = MODEL.aerial_perspective(&conditions).unwrap();
             let mut scattered = [0.0; N];
             aerial
-                .to_end(from, towards, &mut scattered, &mut haze_through)
+                .to_end(from, towards, &mut scattered, &mut aerial_through)
                 .unwrap();
-            haze_errors.extend(seen.map(|w| {
-                (f64::from(light[w]) / (outside[w] * f64::from(haze_through[w])) - 1.0).abs()
+            aerial_errors.extend(seen.map(|w| {
+                (f64::from(light[w]) / (outside[w] * f64::from(aerial_through[w])) - 1.0).abs()
             }));
         }
     }
     println!("| sun's disc against | median | p95 | p99 | max |\n| --- | --- | --- | --- | --- |");
     let worst = row("transmittance", &mut air_errors);
-    let worst = worst.max(row("transmittance of haze", &mut haze_errors));
+    let worst = worst.max(row(
+        "transmittance of aerial perspective",
+        &mut aerial_errors,
+    ));
     row("transmittance, file without it", &mut lean_errors);
     assert!(worst < 0.005, "{worst}");
 }
@@ -151,7 +150,7 @@ fn the_disc_dims_downwards_as_the_air_says() {
         let at = |sign: f64| {
             let elevation = conditions.solar_elevation + sign * radius * y;
             let across = sign * radius * x / conditions.solar_elevation.cos();
-            narrow(direction(elevation, conditions.solar_azimuth + across))
+            narrow(unit(elevation, conditions.solar_azimuth + across))
         };
         let [mut low, mut high] = [[0.0; N]; 2];
         let [mut through_low, mut through_high] = [[0.0; N]; 2];
@@ -235,7 +234,7 @@ fn dense(sun: &SolarDisc, conditions: &Conditions, normal: [f64; 3]) -> [f64; N]
             let turn = PI * ((j as f64 + 0.5) / ACROSS as f64 - 0.5);
             let azimuth = conditions.solar_azimuth + half * turn.sin();
             let width = half * turn.cos() * PI / ACROSS as f64;
-            let point = direction(elevation, azimuth);
+            let point = unit(elevation, azimuth);
             let cosine: f64 = (0..3).map(|k| point[k] * normal[k]).sum();
             sun.radiance(narrow(point), &mut light).unwrap();
             let weight = cosine.max(0.0) * height * width * elevation.cos();
@@ -317,7 +316,7 @@ fn irradiance_of_planes_that_cut_the_disc() {
         };
         let sun = MODEL.solar_disc(&conditions).unwrap();
         let e = conditions.solar_elevation;
-        let up = direction(e + FRAC_PI_2, 0.0);
+        let up = unit(e + FRAC_PI_2, 0.0);
         for turn in [0.0f64, 0.02, 1.0, 2.5, 3.1] {
             for rise in [-0.6, -0.05, 0.0, 0.3, 0.9] {
                 let (y, x) = turn.sin_cos();

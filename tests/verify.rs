@@ -3,19 +3,17 @@
 
 mod common;
 
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Output;
 
+use common::command;
 use welkin::format::{Kind, parse, verify};
 
 fn run(bytes: &[u8], arguments: &[&str]) -> Output {
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), bytes).unwrap();
-    Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .arg("verify")
-        .arg(file.path())
-        .args(arguments)
-        .output()
-        .unwrap()
+    let file = file.path().to_str().unwrap();
+    command::run(Path::new("."), &[&["verify", file], arguments].concat(), "")
 }
 
 fn json(bytes: &[u8]) -> serde_json::Value {
@@ -95,9 +93,6 @@ fn metadata_must_be_a_json_object() {
 
 #[test]
 fn a_file_that_is_not_there_is_code_2() {
-    let output = Command::new(env!("CARGO_BIN_EXE_welkin"))
-        .args(["verify", "/nonexistent/file.welkin"])
-        .output()
-        .unwrap();
+    let output = command::call(Path::new("."), "verify /nonexistent/file.welkin");
     assert_eq!(output.status.code(), Some(2));
 }

@@ -7,6 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
 use common::oracle::{Oracle, Query};
+use common::unit;
 use proptest::prelude::*;
 use welkin::{
     AerialPerspective, Budget, Channels, Conditions, DEFAULT_MODEL, Interpolation, Model, Plan,
@@ -28,11 +29,6 @@ static PLAN: LazyLock<Plan> = LazyLock::new(|| {
 const LEFT: f64 = 1e-3;
 /// How much phase functions change light per radian that the sun moves, 20° or more away from it.
 const SLOPE: f64 = 12.0;
-
-fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [ce * ca, ce * sa, se]
-}
 
 fn conditions(zenith: f64, azimuth: f64, [altitude, visibility]: [f64; 2]) -> Conditions {
     Conditions {

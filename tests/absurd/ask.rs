@@ -87,7 +87,7 @@ impl Asker {
 
     pub fn everything(&mut self, bytes: &'static [u8]) {
         let model = Model::from_static(bytes).expect("a file that was verified");
-        let general = PointQuery::new(bytes).expect("a small model");
+        let query = PointQuery::new(bytes).expect("a small model");
         for t in [0.0, 0.4, 1.0] {
             let within = |[low, high]: [f64; 2]| (low + t * (high - low)).clamp(low, high);
             let conditions = Conditions {
@@ -98,7 +98,7 @@ impl Asker {
                 albedo: t,
             };
             let wavelength = within(model.wavelength_range());
-            self.general(&general, &conditions);
+            self.point_query(&query, &conditions);
             let sky = self.allowed("sky", model.sky(&conditions));
             if let Some(sky) = &sky {
                 let disc = self.allowed("sun", model.solar_disc(&conditions));
@@ -134,16 +134,16 @@ impl Asker {
         }
     }
 
-    fn general(&mut self, general: &PointQuery, conditions: &Conditions) {
-        let mut out = vec![0.0; general.wavelengths().len()];
+    fn point_query(&mut self, query: &PointQuery, conditions: &Conditions) {
+        let mut out = vec![0.0; query.wavelengths().len()];
         for direction in DIRECTIONS {
-            let answer = general.radiance(conditions, direction, &mut out);
-            if self.allowed("general", answer).is_some() {
-                self.light("general", &out);
+            let answer = query.radiance(conditions, direction, &mut out);
+            if self.allowed("point query", answer).is_some() {
+                self.light("point query", &out);
             }
-            let answer = general.relative_radiance(conditions, direction, &mut out);
-            if self.allowed("general", answer).is_some() {
-                self.light("general, relative", &out);
+            let answer = query.relative_radiance(conditions, direction, &mut out);
+            if self.allowed("point query", answer).is_some() {
+                self.light("point query, relative", &out);
             }
         }
         let _ = Interpolation::Full;
@@ -357,14 +357,20 @@ impl Asker {
         let (mut light, mut through) = (vec![0.0; n], vec![0.0; n]);
         for [from, to] in SEGMENTS {
             let answer = aerial.in_scattering(conditions, from, to, &mut light, &mut through);
-            if self.allowed("general in-scatter", answer).is_some() {
-                self.light("general in-scatter", &light);
-                self.share("general transmittance", &through);
+            if self
+                .allowed("aerial perspective query, in-scattering", answer)
+                .is_some()
+            {
+                self.light("aerial perspective query, in-scattering", &light);
+                self.share("aerial perspective query, transmittance", &through);
             }
             let along = [0.1, 0.2, 0.05];
             let answer = aerial.to_end(conditions, from, along, &mut light, &mut through);
-            if self.allowed("general in-scatter", answer).is_some() {
-                self.light("general in-scatter to the end", &light);
+            if self
+                .allowed("aerial perspective query, in-scattering", answer)
+                .is_some()
+            {
+                self.light("aerial perspective query, in-scattering to the end", &light);
             }
             let at = aerial.relative_stokes_at(
                 conditions,
@@ -373,8 +379,11 @@ impl Asker {
                 PolarisationFrame::Vertical,
                 wavelength,
             );
-            if let Some(stokes) = self.allowed("general Stokes", at) {
-                self.stokes("general Stokes at a wavelength", &[stokes]);
+            if let Some(stokes) = self.allowed("aerial perspective query, Stokes", at) {
+                self.stokes(
+                    "aerial perspective query, Stokes at a wavelength",
+                    &[stokes],
+                );
             }
         }
     }
@@ -415,9 +424,10 @@ impl Asker {
             let plan = plan.expect("conditions of the model");
             self.finite("plan", [plan.error_median, plan.error_p99]);
             if channels == Channels::Stokes {
-                let general = self.allowed("polarised general", model.polarised_point_query(&plan));
-                if let Some(general) = general {
-                    self.polarised_point_query(&general, conditions, wavelength);
+                let query =
+                    self.allowed("polarised point query", model.polarised_point_query(&plan));
+                if let Some(query) = query {
+                    self.polarised_point_query(&query, conditions, wavelength);
                 }
             }
         }
@@ -425,20 +435,20 @@ impl Asker {
 
     fn polarised_point_query(
         &mut self,
-        general: &PolarisedPointQuery,
+        query: &PolarisedPointQuery,
         conditions: &Conditions,
         wavelength: f64,
     ) {
-        let mut out = vec![Stokes::default(); general.wavelengths().len()];
+        let mut out = vec![Stokes::default(); query.wavelengths().len()];
         for direction in DIRECTIONS {
             for frame in FRAMES {
-                let answer = general.stokes(conditions, direction, frame, &mut out);
-                if self.allowed("polarised general", answer).is_some() {
-                    self.stokes("polarised general", &out);
+                let answer = query.stokes(conditions, direction, frame, &mut out);
+                if self.allowed("polarised point query", answer).is_some() {
+                    self.stokes("polarised point query", &out);
                 }
-                let at = general.stokes_at(conditions, direction, frame, wavelength);
-                if let Some(at) = self.allowed("polarised general", at) {
-                    self.stokes("polarised general, at a wavelength", &[at]);
+                let at = query.stokes_at(conditions, direction, frame, wavelength);
+                if let Some(at) = self.allowed("polarised point query", at) {
+                    self.stokes("polarised point query, at a wavelength", &[at]);
                 }
             }
         }

@@ -39,6 +39,11 @@ pub fn run(folder: &Path, arguments: &[&str], input: impl AsRef<[u8]>) -> Output
     output
 }
 
+/// Runs a command line, whose words have no spaces.
+pub fn call(folder: &Path, line: &str) -> Output {
+    run(folder, &line.split_whitespace().collect::<Vec<_>>(), "")
+}
+
 /// A pipe with a name.
 pub fn fifo(path: &Path) {
     let made = Command::new("mkfifo").arg(path).status().unwrap();

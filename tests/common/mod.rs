@@ -48,10 +48,15 @@ pub fn radiance(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
     out
 }
 
-/// Direction at an elevation and an azimuth, rad.
-pub fn unit(elevation: f64, azimuth: f64) -> [f32; 3] {
-    let (z, r) = elevation.sin_cos();
-    [r * azimuth.cos(), r * azimuth.sin(), z].map(|v| v as f32)
+/// Unit vector at an elevation and an azimuth, rad.
+pub fn unit(elevation: f64, azimuth: f64) -> [f64; 3] {
+    let ((z, r), (y, x)) = (elevation.sin_cos(), azimuth.sin_cos());
+    [r * x, r * y, z]
+}
+
+/// The same in single precision.
+pub fn direction(elevation: f64, azimuth: f64) -> [f32; 3] {
+    unit(elevation, azimuth).map(|v| v as f32)
 }
 
 /// A model with `altitudes` × `visibilities` radiance chunks.

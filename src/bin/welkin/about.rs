@@ -41,7 +41,7 @@ impl About {
         about.number("sunAzimuthDeg", azimuth.to_degrees());
         let direction = Value::Vector([r * x, r * y, z]);
         about.entries.push(("sunDirection", direction));
-        about.number("visibilityKm", 1e-3 * conditions.visibility);
+        about.number("visibilityKm", conditions.visibility / 1e3);
         about.number("groundAlbedo", conditions.albedo);
         about.number("viewAzimuthDeg", view_azimuth.to_degrees());
         about

@@ -17,7 +17,7 @@ const MARK: &str = "animation";
 #[derive(clap::Args)]
 // What differs from a single picture.
 #[command(
-    mut_arg("out", |out| out.help("Name of the frames: sky gives sky-0001.exr and sky-0001.png …, sky.png gives sky-0001.png …")),
+    mut_arg("out", |out| out.help("Name of the frames: sky gives sky-0001.exr and sky-0001.png …, sky.png gives sky-0001.png …; their folder is made if it is not there")),
     mut_arg("sun_elevation", |sun| sun.required_unless_present("date"))
 )]
 pub struct Options {
@@ -34,9 +34,9 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let (render, count) = (&options.render, options.frames as usize);
-    let outputs = render.outputs.numbered(count)?;
     let model = render.source.open()?;
-    let course = render.scene.course(&model, count)?;
+    let course = render.course(&model, count)?;
+    let outputs = render.outputs.numbered(count)?;
     let call = options.call()?;
     let mark = |frame: usize| format!("{call:08x} {} of {count}", frame + 1);
     let mut missing = Vec::new();

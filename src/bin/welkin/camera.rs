@@ -9,28 +9,31 @@ use crate::failure::{Failure, Result};
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Heading {
     /// Azimuth that is looked to, degrees, counter-clockwise from +x: in the middle of the picture, or at the top of
-    /// the up fish-eye.
-    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
-    view_azimuth: f64,
+    /// the up fish-eye; 0 if absent.
+    #[arg(long, value_name = "DEG")]
+    view_azimuth: Option<f64>,
 }
 
 impl Heading {
-    /// rad.
-    pub fn azimuth(&self) -> Result<f64> {
-        if !self.view_azimuth.is_finite() {
-            let text = format!("view azimuth must be finite, got {}", self.view_azimuth);
+    /// rad, as `absent` is.
+    pub fn azimuth(&self, absent: f64) -> Result<f64> {
+        let Some(degrees) = self.view_azimuth else {
+            return Ok(absent);
+        };
+        if !degrees.is_finite() {
+            let text = format!("view azimuth must be finite, got {degrees}");
             return Err(Failure::message(text));
         }
-        Ok(self.view_azimuth.to_radians())
+        Ok(degrees.to_radians())
     }
 }
 
 /// Where a perspective camera looks.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Lens {
-    /// Angle of the axis above the horizontal in perspective, degrees.
-    #[arg(long, default_value_t = 0.0, value_name = "DEG")]
-    pitch: f64,
+    /// Angle of the axis above the horizontal in perspective, degrees; 0 if absent.
+    #[arg(long, value_name = "DEG")]
+    pitch: Option<f64>,
     /// Vertical field of view in perspective, degrees.
     #[arg(long, default_value_t = 40.0, value_name = "DEG")]
     field_of_view: f64,
@@ -46,9 +49,17 @@ pub struct Camera {
 }
 
 impl Lens {
+    /// The same, tilted so far (rad) if nothing is said about it.
+    pub fn tilted(&self, pitch: f64) -> Self {
+        Self {
+            pitch: self.pitch.or(Some(pitch.to_degrees())),
+            ..*self
+        }
+    }
+
     /// A camera that looks towards `azimuth` (rad); `aspect` is width over height.
     pub fn camera(&self, azimuth: f64, aspect: f64) -> Result<Camera> {
-        let (pitch, field) = (self.pitch.to_radians(), self.field_of_view.to_radians());
+        let (pitch, field) = (self.pitch().to_radians(), self.field_of_view.to_radians());
         if !azimuth.is_finite() || pitch.is_nan() || pitch.abs() > FRAC_PI_2 {
             return Err(Failure::message(
                 "the view azimuth must be finite, the pitch within -90..90°",
@@ -70,13 +81,17 @@ impl Lens {
     /// What a picture says about it.
     pub fn describe(&self, about: &mut About) {
         about.text("projection", "perspective");
-        about.number("pitchDeg", self.pitch);
+        about.number("pitchDeg", self.pitch());
         about.number("fieldOfViewDeg", self.field_of_view);
     }
 
     /// Vertical field of view, rad.
     pub fn field(&self) -> f64 {
         self.field_of_view.to_radians()
+    }
+
+    fn pitch(&self) -> f64 {
+        self.pitch.unwrap_or(0.0)
     }
 }
 
@@ -109,7 +124,7 @@ mod tests {
     #[test]
     fn the_middle_looks_ahead_and_the_left_is_left() {
         let lens = Lens {
-            pitch: 10.0,
+            pitch: Some(10.0),
             field_of_view: 90.0,
         };
         let camera = lens.camera(FRAC_PI_2, 1.0).unwrap();
@@ -119,7 +134,7 @@ mod tests {
         assert!(camera.direction([1.0, 0.5])[0] > 0.5 && camera.direction([0.5, 0.0])[2] > z);
         assert!(
             Lens {
-                pitch: f64::NAN,
+                pitch: Some(f64::NAN),
                 ..lens
             }
             .camera(0.0, 1.0)

@@ -7,12 +7,16 @@ use welkin::Sky;
 
 use crate::about::About;
 use crate::failure::Result;
-use crate::tone::{Film, Tone, WhiteBalance};
+use crate::tone::{Film, Tone, WhiteBalance, luminance};
 
 /// Middle grey is 0.18 of white. Photographers put a clear sky one stop above it …
 const SKY: f64 = 0.36;
 /// … and a landscape with its sky half a stop.
 const LANDSCAPE: f64 = 0.25;
+/// A dark slope does not burn the sky above it: this share of a landscape may be brighter …
+const BRIGHTEST: f64 = 0.05;
+/// … than so many times white.
+const BRIGHT: f64 = 2.0;
 /// Luminance of scene white at exposure value 0 (ISO 100), cd m⁻².
 const WHITE_AT_EV_0: f64 = 1.2;
 
@@ -20,7 +24,8 @@ const WHITE_AT_EV_0: f64 = 1.2;
 pub struct Exposure {
     /// Exposure value of the PNG at ISO 100. Automatic if absent: the mean of the sky (a geometric mean over the upper
     /// hemisphere, without the disc of the sun) is 0.36 of white, one stop above middle grey; the mean of a landscape
-    /// (of all its pixels) 0.25. It changes as smoothly as the sun moves.
+    /// (of all its pixels) 0.25, or less where more than a twentieth of it would be brighter than twice white. It
+    /// changes as smoothly as the sun moves.
     #[arg(long, value_name = "EV", value_parser = value)]
     exposure: Option<f64>,
     /// Tone curve of the PNG.
@@ -51,10 +56,12 @@ impl Exposure {
     /// For the pixels of a landscape: linear sRGB, cd m⁻².
     pub fn of_landscape(&self, pixels: &[[f32; 3]]) -> Film {
         let white = self.white().unwrap_or_else(|| {
-            let luminance = |&[r, g, b]: &[f32; 3]| {
-                0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
-            };
-            geometric_mean(pixels.iter().map(luminance)) / LANDSCAPE
+            let luminances = pixels.iter().map(|&pixel| f64::from(luminance(pixel)));
+            let mut luminances: Vec<_> = luminances.collect();
+            let mean = geometric_mean(luminances.iter().copied());
+            let bright = (luminances.len() as f64 * (1.0 - BRIGHTEST)) as usize;
+            let (_, &mut bright, _) = luminances.select_nth_unstable_by(bright, f64::total_cmp);
+            (mean / LANDSCAPE).max(bright / BRIGHT)
         });
         self.film(white)
     }

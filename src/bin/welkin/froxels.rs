@@ -93,7 +93,7 @@ pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let aerial = model.aerial_perspective(&options.scene.conditions(&model)?)?;
     let [width, height, _] = options.size;
-    let azimuth = options.heading.azimuth()?;
+    let azimuth = options.heading.azimuth(0.0)?;
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
     let start = Instant::now();
     let volume = fill(options, &aerial, &camera)?;
@@ -171,7 +171,7 @@ fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Resul
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
 fn layers(options: &Options, aerial: &AerialPerspective, volume: &Volume) -> Result<Vec<u8>> {
-    let azimuth = options.heading.azimuth()?;
+    let azimuth = options.heading.azimuth(0.0)?;
     let mut about = About::scene(aerial.conditions(), azimuth);
     options.lens.describe(&mut about);
     about.number("nearM", options.near);

@@ -59,7 +59,7 @@ fn describe(model: &Model) -> Value {
         "chunk_count": chunks.len(),
         "wavelengths_nm": head.wavelengths,
         "altitudes_m": head.altitudes,
-        "visibilities_km": head.visibilities.iter().map(|v| v * 1e-3).collect::<Vec<_>>(),
+        "visibilities_km": head.visibilities.iter().map(|v| v / 1e3).collect::<Vec<_>>(),
         "solar_elevation_deg": model.solar_elevation_range().map(|e| rounded(e.to_degrees())),
         "albedo": [0, 1],
         "planet_radius_m": head.planet.radius,
@@ -103,7 +103,7 @@ fn chunk(model: &Model, entry: &Entry) -> Value {
     json!({
         "kind": entry.kind.name(),
         "altitude_m": entry.altitude.and_then(|i| head.altitudes.get(i)),
-        "visibility_km": entry.visibility.and_then(|i| head.visibilities.get(i)).map(|v| v * 1e-3),
+        "visibility_km": entry.visibility.and_then(|i| head.visibilities.get(i)).map(|v| v / 1e3),
         "offset": entry.offset,
         "bytes": entry.length,
         "encoding": entry.encoding,

@@ -23,7 +23,8 @@ pub struct Options {
     #[command(flatten)]
     lens: Lens,
     /// Render a landscape in perspective instead of the sky alone: `flat`, `hills`, or a height field (.png or .exr, +y
-    /// up).
+    /// up). Before `hills` --altitude is 2600 m, --view-azimuth 104°, and --pitch towards a mountain there, if they are
+    /// absent.
     #[arg(long, value_name = "FILE")]
     terrain: Option<PathBuf>,
     /// Width of the height field on the ground, km.
@@ -55,9 +56,15 @@ const WOOD: [f32; 3] = [0.03, 0.045, 0.02];
 const ROCK: [f32; 3] = [0.19, 0.17, 0.15];
 const SNOW: [f32; 3] = [0.75, 0.77, 0.80];
 
+/// What the built-in hills are looked at from, above the origin, m …
+const VIEWPOINT: f64 = 2600.0;
+/// … and a mountain there: azimuth (rad), distance and height (m).
+const MOUNTAIN: [f64; 3] = [104.0 * PI / 180.0, 5900.0, 2136.0];
+
 /// All that a landscape needs.
 pub struct Landscape<'a> {
     terrain: Terrain,
+    lens: Lens,
     camera: Camera,
     place: [f64; 3],
     aerial: AerialPerspective,
@@ -91,6 +98,31 @@ impl Options {
         name.filter(|path| ![Path::new("flat"), Path::new("hills")].contains(path))
     }
 
+    fn is_hills(&self) -> bool {
+        self.terrain.as_deref() == Some(Path::new("hills"))
+    }
+
+    /// Where observers are who did not say, m.
+    pub fn altitude(&self) -> Option<f64> {
+        self.is_hills().then_some(VIEWPOINT)
+    }
+
+    /// Where they look, rad.
+    pub fn azimuth(&self) -> f64 {
+        match self.is_hills() {
+            true => MOUNTAIN[0],
+            false => 0.0,
+        }
+    }
+
+    /// How far up, from so high (m), rad.
+    fn pitch(&self, height: f64) -> f64 {
+        match self.is_hills() {
+            true => (MOUNTAIN[2] - height).atan2(MOUNTAIN[1]),
+            false => 0.0,
+        }
+    }
+
     /// Prepares the landscape around an observer, if one is wanted.
     pub fn prepare<'a>(
         &self,
@@ -102,13 +134,14 @@ impl Options {
         let Some(terrain) = &self.terrain else {
             return Ok(None);
         };
-        let camera = self.lens.camera(azimuth, ASPECT)?;
         let terrain = self.read(terrain)?;
         let place = [
             0.0,
             0.0,
             conditions.altitude.max(terrain.height(0.0, 0.0)) + 2.0,
         ];
+        let lens = self.lens.tilted(self.pitch(place[2]));
+        let camera = lens.camera(azimuth, ASPECT)?;
         let aerial = model.aerial_perspective(conditions)?;
         // The sky of the place, so that what is far away vanishes in it.
         let [lowest, highest] = model.altitude_range();
@@ -124,6 +157,7 @@ impl Options {
             xyz: model.head().xyz.clone(),
             terrain,
             polariser: self.filter(model, &there, &camera)?,
+            lens,
             camera,
             place,
             sky,
@@ -190,7 +224,7 @@ impl Landscape<'_> {
         about.text("terrain", terrain.collect::<String>());
         // The camera may stand on a hill.
         about.altitude = Some(self.place[2]);
-        options.lens.describe(about);
+        self.lens.describe(about);
         if let Some(angle) = options.polariser {
             about.number("polariserDeg", angle);
         }

@@ -90,7 +90,7 @@ fn describe(model: &Model, light: &Light) -> Value {
         "conditions": {
             "solar_elevation_deg": conditions.solar_elevation.to_degrees(),
             "solar_azimuth_deg": conditions.solar_azimuth.to_degrees(),
-            "visibility_km": conditions.visibility * 1e-3,
+            "visibility_km": conditions.visibility / 1e3,
             "albedo": conditions.albedo,
             "altitude_m": conditions.altitude,
         },

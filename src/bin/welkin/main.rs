@@ -11,6 +11,7 @@ mod disc;
 mod edges;
 mod exposure;
 mod failure;
+mod folder;
 mod froxels;
 mod ground;
 mod header;

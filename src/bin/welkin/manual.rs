@@ -8,7 +8,8 @@ use clap_complete::Shell;
 use clap_mangen::Man as Page;
 use welkin::output;
 
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
+use crate::folder;
 
 #[derive(clap::Args)]
 pub struct Completions {
@@ -19,7 +20,7 @@ pub struct Completions {
 
 #[derive(clap::Args)]
 pub struct Man {
-    /// The folder: it must be there.
+    /// The folder; it is made if it is not there.
     #[arg(long, default_value = ".", value_name = "DIR")]
     out: PathBuf,
 }
@@ -31,10 +32,7 @@ pub fn complete(options: &Completions, mut command: Command) -> Result<()> {
 }
 
 pub fn write(options: &Man, mut command: Command) -> Result<()> {
-    if !options.out.is_dir() {
-        let text = format!("{}: is no folder", options.out.display());
-        return Err(Failure::message(text));
-    }
+    folder::make(&options.out)?;
     command.build();
     let subcommands = command.get_subcommands().cloned();
     let pages: Vec<_> = [command.clone()]

@@ -7,6 +7,7 @@ use welkin::output::{self, Target};
 
 use crate::about::About;
 use crate::failure::{Failure, Result};
+use crate::folder;
 use crate::naming::{self, Named};
 use crate::picture::{Picture, Wanted};
 use crate::tone::Film;
@@ -53,6 +54,7 @@ impl Options {
         let number = |frame: usize| format!("-{frame:0digits$}");
         let all = (1..=count).map(|frame| self.outputs(Some(&number(frame))));
         let all = all.collect::<Result<Vec<_>>>()?;
+        folder::make(self.out.parent().unwrap_or(Path::new("")))?;
         // The folder is the same for all.
         all[0].all().try_for_each(Target::check)?;
         Ok(all)

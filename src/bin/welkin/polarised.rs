@@ -20,9 +20,10 @@ pub enum Quantity {
     Overlay,
     /// Angle of polarisation: hue red at 0°, green at 60°, blue at 120°; dark where there is little.
     Aolp,
-    /// Q/I: green where positive, red where negative.
+    /// Q/I: green where positive, red where negative; black up to 0.001, a third of full colour more for each factor of
+    /// ten, full at 1.
     Q,
-    /// U/I: green where positive, red where negative.
+    /// U/I in the same colours.
     U,
 }
 
@@ -135,9 +136,9 @@ fn sequential(x: f32) -> [f32; 3] {
     core::array::from_fn(|c| STOPS[i][c] + t * (STOPS[i + 1][c] - STOPS[i][c]))
 }
 
-/// Green for positive, red for negative numbers in −1..=1, black for 0. The root shows what is near the neutral points.
+/// Green for positive, red for negative numbers in −1..=1, black near 0. Logarithms show what is near the neutral points.
 fn diverging(x: f32) -> [f32; 3] {
-    let strength = x.abs().sqrt();
+    let strength = (1.0 + x.abs().log10() / 3.0).clamp(0.0, 1.0);
     if x > 0.0 {
         [0.15 * strength, strength, 0.3 * strength]
     } else {
@@ -245,6 +246,15 @@ mod tests {
         let half_a_turn = [1e-9, -1e-9].map(|u| Some(Stokes { i, q, u }));
         let pixels = colouring.pixels(&half_a_turn, 1.0);
         assert_eq!(pixels, [[0, 204, 204]; 2]);
+    }
+
+    #[test]
+    fn signs_have_colours_that_can_be_read() {
+        assert_eq!(diverging(0.0), [0.0; 3]);
+        let greens = [0.001, 0.01, 0.1, 1.0].map(|x| (3.0 * diverging(x)[1]).round());
+        assert_eq!(greens, [0.0, 1.0, 2.0, 3.0]);
+        let [r, g, _] = diverging(-0.03);
+        assert!(r > 0.45 && g < 0.15);
     }
 
     #[test]

@@ -76,6 +76,17 @@ pub struct Shot {
 }
 
 impl Options {
+    /// As many conditions as there are steps in the course of the sun.
+    pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
+        let mut course = self.scene.course(model, steps)?;
+        if let (None, Some(altitude)) = (self.scene.altitude, self.landscape.altitude()) {
+            let [lowest, highest] = model.altitude_range();
+            let altitude = altitude.clamp(lowest, highest);
+            course.iter_mut().for_each(|c| c.altitude = altitude);
+        }
+        Ok(course)
+    }
+
     /// A picture under some conditions, with `marks` about it.
     pub fn shot(
         &self,
@@ -94,7 +105,7 @@ impl Options {
             None => model.sky(conditions)?,
         };
         let prepared = start.elapsed();
-        let azimuth = self.heading.azimuth()?;
+        let azimuth = self.heading.azimuth(self.landscape.azimuth())?;
         let mut about = About::scene(sky.conditions(), azimuth).with(marks);
         about.text("model", self.source.name());
         if self.sun {
@@ -200,7 +211,8 @@ pub fn run(options: &Options) -> Result<()> {
     let outputs = options.outputs.one()?;
     let start = Instant::now();
     let model = options.source.open()?;
-    let conditions = options.scene.conditions(&model)?;
+    options.scene.sun.still()?;
+    let conditions = options.course(&model, 1)?[0];
     let opened = start.elapsed();
     let shot = options.shot(&model, &conditions, &outputs, &[])?;
     let prepared = opened + shot.prepared;

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use welkin::{Conditions, Model};
 
-use crate::failure::{Failure, Result, plain};
+use crate::failure::{Result, plain};
 use crate::sun::Sun;
 use crate::turbidity;
 
@@ -35,10 +35,7 @@ pub struct Scene {
 impl Scene {
     /// Where the sun stands still.
     pub fn conditions(&self, model: &Model) -> Result<Conditions> {
-        if self.sun.is_course() {
-            let text = "the sun must stand still here: welkin animate and contact-sheet take A..B";
-            return Err(Failure::message(text));
-        }
+        self.sun.still()?;
         Ok(self.course(model, 1)?[0])
     }
 
@@ -76,7 +73,8 @@ impl Scene {
     pub fn reached(&self, model: &Model, mut all: Vec<Conditions>) -> Result<Vec<Conditions>> {
         if !self.clamp {
             for conditions in &all {
-                conditions.checked(model)?;
+                let checked = conditions.checked(model);
+                checked.map_err(|error| self.sun.failure(error))?;
             }
             return Ok(all);
         }
@@ -111,7 +109,7 @@ fn moved(from: &Conditions, to: &Conditions) -> Vec<String> {
             both(|c| c.solar_elevation.to_degrees()),
             " degrees",
         ),
-        ("visibility", both(|c| 1e-3 * c.visibility), " km"),
+        ("visibility", both(|c| c.visibility / 1e3), " km"),
         ("albedo", both(|c| c.albedo), ""),
         ("altitude", both(|c| c.altitude), " m"),
     ];

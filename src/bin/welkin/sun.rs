@@ -1,6 +1,6 @@
 //! Where the sun stands, as arguments: by its angles, or by date, time and place.
 
-use welkin::Conditions;
+use welkin::{Conditions, Error};
 
 use crate::almanac::{Instants, Observer, Time};
 use crate::failure::{Failure, Result};
@@ -61,9 +61,51 @@ impl Sun {
         angles.into_iter().any(|span| span.is_course) || self.time.is_some_and(|t| t.is_course)
     }
 
+    /// An error if it moves.
+    pub fn still(&self) -> Result<()> {
+        match self.is_course() {
+            true => Err(Failure::message(
+                "the sun must stand still here: welkin animate and contact-sheet take A..B",
+            )),
+            false => Ok(()),
+        }
+    }
+
     /// Whether anything is said about it.
     pub fn is_given(&self) -> bool {
         self.sun_elevation.is_some() || self.date.is_some()
+    }
+
+    /// What is wrong with conditions under it; where a date put it is said as people would.
+    pub fn failure(&self, error: Error) -> Failure {
+        match (&self.date, error) {
+            (
+                Some(date),
+                Error::OutOfRange {
+                    parameter: parameter @ "solar_elevation",
+                    value,
+                    min,
+                    max,
+                    unit,
+                },
+            ) => {
+                // Never into the range.
+                let hundredths = 100.0 * value.to_degrees();
+                let degrees = match value < min {
+                    true => hundredths.floor() / 100.0,
+                    false => hundredths.ceil() / 100.0,
+                };
+                let error = Error::OutOfRange {
+                    parameter,
+                    value: degrees.to_radians(),
+                    min,
+                    max,
+                    unit,
+                };
+                Failure::from(error).about(&format!("the sun on {date}"))
+            }
+            (_, error) => error.into(),
+        }
     }
 
     /// So many positions from the first to the last.

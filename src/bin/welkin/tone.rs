@@ -84,6 +84,11 @@ impl Tone {
 const FILMIC_SCALE: f32 = 2.927_523;
 const ACES_SCALE: f32 = 1.461_926;
 
+/// Of linear sRGB: the weights of Rec. 709.
+pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 fn multiply(matrix: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
     matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
@@ -94,7 +99,7 @@ fn into_gamut(rgb: [f32; 3]) -> [f32; 3] {
     if least == 0.0 {
         return rgb;
     }
-    let luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    let luminance = luminance(rgb);
     if luminance <= 0.0 {
         return [0.0; 3];
     }
@@ -160,7 +165,6 @@ mod tests {
     fn colours_beyond_the_gamut_keep_their_luminance_and_hue() {
         let deep = [-0.05f32, 0.12, 0.6];
         let mapped = into_gamut(deep);
-        let luminance = |v: [f32; 3]| 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2];
         assert!(mapped.iter().all(|&v| v >= 0.0));
         assert!((luminance(mapped) / luminance(deep) - 1.0).abs() < 1e-5);
         // Neither black nor purple.

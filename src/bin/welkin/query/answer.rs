@@ -115,8 +115,8 @@ impl<'a> Answerer<'a> {
 
     fn radiance(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {
         let (direction, out) = (question.ray.narrow(), &mut self.spectrum.values);
-        if let Some(general) = self.shared.general() {
-            return general.relative_radiance(conditions, direction, out);
+        if let Some(query) = self.shared.point_query() {
+            return query.relative_radiance(conditions, direction, out);
         }
         let model = self.shared.model;
         let sky = kept(&mut self.sky, question.place(), || model.sky(conditions))?;
@@ -169,8 +169,8 @@ impl<'a> Answerer<'a> {
         let (model, wavelength) = (self.shared.model, question.wavelength);
         let conditions = &self.shared.reachable(&question.conditions)?;
         if question.ray.is_endless() {
-            if let Some(general) = self.shared.polarised() {
-                return general.stokes_at(conditions, question.ray.narrow(), frame, wavelength);
+            if let Some(query) = self.shared.polarised() {
+                return query.stokes_at(conditions, question.ray.narrow(), frame, wavelength);
             }
             let sky = kept(&mut self.polarised, question.place(), || {
                 model.polarised_sky(conditions)

@@ -98,7 +98,7 @@ impl Question {
         [4 * self.quantity.kind() + half, v, e, r, h, y, z, d]
     }
 
-    /// What skies, hazes and discs are prepared for.
+    /// What skies, aerial perspectives and discs are prepared for.
     pub fn place(&self) -> [u64; 4] {
         let Conditions {
             visibility,

@@ -10,7 +10,7 @@ use welkin::{
 
 /// The model and what is prepared of it when it is first needed.
 ///
-/// The general evaluators verify all that they could ever read. Where that fails, because a chunk is missing or
+/// Queries at any conditions verify all that they could ever read. Where that fails, because a chunk is missing or
 /// damaged, or because the file is too large for them, there are none: then what a row needs is prepared row by row, so
 /// that only rows that need the broken chunk get an error.
 pub struct Shared<'a> {
@@ -19,7 +19,7 @@ pub struct Shared<'a> {
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     moved: AtomicBool,
-    general: OnceLock<Option<Box<PointQuery<'a>>>>,
+    point_query: OnceLock<Option<Box<PointQuery<'a>>>>,
     polarised: OnceLock<Option<Box<PolarisedPointQuery<'a>>>>,
     aerial: OnceLock<Option<AerialPerspectiveQuery<'a>>>,
 }
@@ -33,20 +33,20 @@ impl<'a> Shared<'a> {
             model,
             clamp,
             moved: AtomicBool::new(false),
-            general: OnceLock::new(),
+            point_query: OnceLock::new(),
             polarised: OnceLock::new(),
             aerial: OnceLock::new(),
         }
     }
 
     /// Radiance of any direction under any conditions, as exact as prepared skies.
-    pub fn general(&self) -> Option<&PointQuery<'a>> {
-        let prepared = self.general.get_or_init(|| {
-            let general = self
+    pub fn point_query(&self) -> Option<&PointQuery<'a>> {
+        let prepared = self.point_query.get_or_init(|| {
+            let query = self
                 .model
                 .point_query(&self.whole(Channels::Spectral).ok()?);
             Some(Box::new(
-                general.ok()?.with_interpolation(Interpolation::Full),
+                query.ok()?.with_interpolation(Interpolation::Full),
             ))
         });
         prepared.as_deref()

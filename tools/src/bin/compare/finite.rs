@@ -26,6 +26,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     let n = aerial.wavelengths().len();
     let [mut light, mut through] = [vec![0.0; n], vec![0.0; n]];
     let [mut near, mut far, mut between] = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    // Not `Model::sky_difference`, whose skies are welkin's own: these are those of the paper's scheme.
     let mut difference = |copies: usize, i: usize| -> Result<()> {
         let [from, to] = black_box(segments[i]);
         let direction = [0, 1, 2].map(|k| (to[k] - from[k]) as f32);

@@ -68,11 +68,11 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     };
     let hero = clock::duel([ROUND, SLOW], unwrapped(hero), &mut paper_all);
     let mut rows = vec![
-        paper_row("prepared_spectral_batch", batch),
-        paper_row("prepared_spectral_single", single),
+        paper_row("baked_spectral_batch", batch),
+        paper_row("baked_spectral_single", single),
         Row {
             p95_error: [Some(hero_error), Some(paper_error)],
-            ..paper_row("prepared_hero_batch", hero)
+            ..paper_row("baked_hero_batch", hero)
         },
     ];
     rows.extend(colours(scene, &directions)?);
@@ -132,8 +132,8 @@ fn colours(scene: &Scene, directions: &Directions) -> Result<Vec<Row>> {
         bytes: [scene.colour.bytes(), size_of::<SkyState>()],
     };
     Ok(vec![
-        row("prepared_rgb_batch", batch),
-        row("prepared_rgb_single", single),
+        row("baked_rgb_batch", batch),
+        row("baked_rgb_single", single),
     ])
 }
 
@@ -162,7 +162,7 @@ fn floor(scene: &Scene, error: f64) -> Result<Row> {
         }
     };
     Ok(Row {
-        name: "prepared_spectral_batch_floor",
+        name: "baked_spectral_batch_floor",
         peer: "texture 512 x 256, nearest pixel",
         ns: clock::duel([ROUND; 2], unwrapped(ours), peer),
         p95_error: [Some(error), Some(texture_error)],
