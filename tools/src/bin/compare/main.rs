@@ -4,12 +4,12 @@
 //! per query on one core; errors are 95th percentiles of relative differences from [`welkin::Sky`] (peers: from what
 //! they stand for). Only ratios mean something on another machine.
 
+mod baked;
 mod clock;
 mod finite;
 mod point_query;
 mod polarised;
 mod preparation;
-mod prepared;
 mod report;
 mod scene;
 mod types;
@@ -19,7 +19,7 @@ use scene::Scene;
 fn main() -> welkin::Result<()> {
     let json = std::env::args().any(|argument| argument == "--json");
     let scene = Scene::new()?;
-    let mut rows = prepared::rows(&scene)?;
+    let mut rows = baked::rows(&scene)?;
     rows.extend(polarised::rows(&scene)?);
     rows.extend(finite::rows(&scene)?);
     rows.extend(point_query::rows(&scene)?);
