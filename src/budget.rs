@@ -118,9 +118,9 @@ impl Model {
     /// Finds what a scene needs; reads nothing.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that baking refuses for every sky (whether
-    /// a hard sky keeps it shows when that is baked), [`Error::MissingChunk`] if the file lacks a chunk, such as those
-    /// of the polarisation.
+    /// [`Error::OutOfRange`] for a range that is not within the model or a tolerance that baking refuses for every sky
+    /// (whether a hard sky keeps it shows when that is baked), [`Error::MissingChunk`] if the file lacks a chunk, such
+    /// as those of the polarisation.
     pub fn plan(&self, budget: &Budget) -> Result<Plan> {
         let head = self.head();
         check("altitude", budget.altitude, self.altitude_range())?;

@@ -57,8 +57,8 @@
 //!
 //! # Things at a distance
 //!
-//! [`AerialPerspective`] gives the light that the air before a thing adds and what the air leaves of the thing's own light;
-//! joined to the sky of the observer, what is far vanishes in that sky.
+//! [`AerialPerspective`] gives the light that the air before a thing adds and what the air leaves of the thing's own
+//! light; joined to the sky of the observer, what is far vanishes in that sky.
 //!
 //! ```
 //! # #[cfg(feature = "default-model")]

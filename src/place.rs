@@ -9,7 +9,8 @@ use crate::kernel::real::Real;
 use crate::polarisation::PolarisationFrame;
 
 /// A place on or above the planet, with its local frame: the one that [`Conditions`], directions of skies and of
-/// [`PointQuery`](crate::PointQuery), points of [`Transmittance`](crate::Transmittance) and [`AerialPerspective`](crate::AerialPerspective), and [`PolarisationFrame::Axis`] are meant in.
+/// [`PointQuery`](crate::PointQuery), points of [`Transmittance`](crate::Transmittance) and
+/// [`AerialPerspective`](crate::AerialPerspective), and [`PolarisationFrame::Axis`] are meant in.
 ///
 /// The world frame is the caller's: any axes, any origin, metres, the planet's centre where the caller says. The local
 /// frame has +z away from the centre and its origin on the ground below the place; +x and +y are those of the world
@@ -42,7 +43,8 @@ pub struct Place {
 
 impl Place {
     /// The place at `position` on a planet with its centre in `centre`, both in world coordinates, m. The frame of
-    /// [`AerialPerspective`](crate::AerialPerspective) has its centre in (0, 0, −R). In the centre itself, up is +z of the world.
+    /// [`AerialPerspective`](crate::AerialPerspective) has its centre in (0, 0, −R). In the centre itself, up is +z of
+    /// the world.
     ///
     /// # Errors
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m.

@@ -1,4 +1,5 @@
-//! The sun's disc: one physics with transmittance and aerial perspective, light of what is visible, draws that survive rounding.
+//! The sun's disc: one physics with transmittance and aerial perspective, light of what is visible, draws that survive
+//! rounding.
 #![cfg(feature = "default-model")]
 
 mod common;

@@ -34,8 +34,8 @@ const SITES: usize = 4000;
 /// Compares a fit with its factors as the file will have them, at random sites.
 ///
 /// # Errors
-/// [`RoundingExceedsFit`] if the median or the 99th percentile of the change is larger than that of the fit's own error, or not a
-/// number.
+/// [`RoundingExceedsFit`] if the median or the 99th percentile of the change is larger than that of the fit's own
+/// error, or not a number.
 pub fn check(
     grid: &Grid,
     chunk: &Chunk,

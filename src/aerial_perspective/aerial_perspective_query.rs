@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use super::prepared::AerialPerspective;
-use super::prepared::sun_direction;
 use super::scatterers::Scatterers;
 use super::source_expansion::{Expansion, Fill, Scratch};
 use super::source_table::{ground_factor, overflow, reach, sun_nodes};
@@ -166,7 +165,7 @@ impl AerialPerspectiveQuery<'_> {
         if conditions.solar_elevation != last.solar_elevation
             || conditions.solar_azimuth != last.solar_azimuth
         {
-            self.aerial.sun = sun_direction(conditions.solar_elevation, conditions.solar_azimuth);
+            self.aerial.sun = conditions.sun_direction();
         }
         self.aerial.conditions = conditions;
         Ok(())

@@ -22,12 +22,11 @@ const REST: f32 = 0.04;
 /// The air between an observer and things before the observer's sky; see [`AerialPerspective::joined_to`].
 ///
 /// The observer stands above the origin, as high as the conditions of the sky say. The light of segments becomes that
-/// of
-/// [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air, be it before the sky or
-/// before the ground below the horizon. The sky takes over where less than 4 % of the light could come from beyond;
-/// shorter segments, and those that end on ground that is seen, are those of the aerial perspective. Points that the
-/// planet hides are not seen: from there on the way into the ground the light goes over into that of the air before it,
-/// which a volume of such points does not want.
+/// of [`Sky::radiance`] continuously as they come to the end of the air, or to where nothing is seen through the air,
+/// be it before the sky or before the ground below the horizon. The sky takes over where less than 4 % of the light
+/// could come from beyond; shorter segments, and those that end on ground that is seen, are those of the aerial
+/// perspective. Points that the planet hides are not seen: from there on the way into the ground the light goes over
+/// into that of the air before it, which a volume of such points does not want.
 ///
 /// ```
 /// use welkin::{Conditions, Model};
@@ -56,7 +55,8 @@ impl AerialPerspective {
     /// What is seen before a sky of the same conditions, but for the altitude, which the sky says.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the sky has another sun, visibility or albedo; [`Error::Length`] if it has other wavelengths.
+    /// [`Error::OutOfRange`] if the sky has another sun, visibility or albedo; [`Error::Length`] if it has other
+    /// wavelengths.
     pub fn joined_to<'a>(&'a self, sky: &'a Sky) -> Result<JoinedAerialPerspective<'a>> {
         let (own, other) = (self.conditions(), sky.conditions());
         type Parameter = (&'static str, &'static str, fn(&Conditions) -> f64);

@@ -5,7 +5,7 @@ use super::scatterers::Scatterers;
 use super::source_table::{SourceTable, blocks, ground_factor};
 use super::sun_transmittance::Beam;
 use crate::conditions::Conditions;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::format::{Head, Kind, visibility_node};
 use crate::kernel::math::LANES;
 use crate::model::Model;
@@ -64,9 +64,10 @@ impl Model {
     /// Prepares transmittance and in-scattering for a scene.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for conditions outside the model; [`Error::MissingChunk`] if the file has no transmittance
-    /// or no source; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if one is
-    /// damaged.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) for conditions outside the model;
+    /// [`Error::MissingChunk`](crate::Error::MissingChunk) if the file has no transmittance or no source;
+    /// [`Error::Checksum`](crate::Error::Checksum), [`Error::Encoding`](crate::Error::Encoding),
+    /// [`Error::Length`](crate::Error::Length) or [`Error::Invalid`](crate::Error::Invalid) if one is damaged.
     pub fn aerial_perspective(&self, conditions: &Conditions) -> Result<AerialPerspective> {
         let conditions = conditions.checked(self)?;
         let head = self.head();
@@ -83,11 +84,11 @@ impl Model {
             .map(|(v, weight)| Ok((self.source_chunk(v)?, weight)))
             .collect::<Result<_>>()?;
         let ground = ground_factor(head, conditions.visibility, conditions.albedo);
-        let (elevation, azimuth) = (conditions.solar_elevation, conditions.solar_azimuth);
+        let elevation = conditions.solar_elevation;
         Ok(AerialPerspective {
             source: SourceTable::new(self, conditions.visibility, elevation, &ground)?,
             species: Scatterers::new(head, around.into_iter()),
-            sun: sun_direction(elevation, azimuth),
+            sun: conditions.sun_direction(),
             beam: Beam::new(&air.layers, elevation),
             reach: Reach::new(&head.planet),
             grey: air.grey(),
@@ -131,19 +132,10 @@ impl AerialPerspective {
     /// The same aerial perspective with the sun at another azimuth (rad). Costs no preparation.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the azimuth is not finite.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) if the azimuth is not finite.
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
-        if !azimuth.is_finite() {
-            return Err(Error::OutOfRange {
-                parameter: "solar_azimuth",
-                value: azimuth,
-                min: f64::MIN,
-                max: f64::MAX,
-                unit: "rad",
-            });
-        }
-        self.conditions.solar_azimuth = azimuth;
-        self.sun = sun_direction(self.conditions.solar_elevation, azimuth);
+        self.conditions = self.conditions.with_solar_azimuth(azimuth)?;
+        self.sun = self.conditions.sun_direction();
         Ok(())
     }
 
@@ -154,11 +146,6 @@ impl AerialPerspective {
     pub fn reach(&self) -> f64 {
         self.reach.angle
     }
-}
-
-pub(super) fn sun_direction(elevation: f64, azimuth: f64) -> [f64; 3] {
-    let ((se, ce), (sa, ca)) = (elevation.sin_cos(), azimuth.sin_cos());
-    [ce * ca, ce * sa, se]
 }
 
 fn irradiance(head: &Head) -> Vec<f64> {

@@ -15,8 +15,8 @@ impl AerialPerspective {
     /// them, at each of [`AerialPerspective::wavelengths`].
     ///
     /// # Errors
-    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`AerialPerspective::reach`];
-    /// [`Error::Length`] unless both outputs have one element per wavelength.
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond
+    /// [`AerialPerspective::reach`]; [`Error::Length`] unless both outputs have one element per wavelength.
     pub fn in_scattering(
         &self,
         from: [f64; 3],
@@ -78,7 +78,8 @@ impl AerialPerspective {
     /// things in the colour of the sun.
     ///
     /// # Errors
-    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond [`AerialPerspective::reach`].
+    /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond
+    /// [`AerialPerspective::reach`].
     pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
         let segment = self.segment(from, to)?;
         let mut colours = XyzSum::default();

@@ -89,8 +89,8 @@ impl SkyDifference<'_> {
     /// The difference from `from` to `to`, m.
     ///
     /// # Errors
-    /// [`Error::Length`] unless `out` has one element per wavelength; [`Error::OutOfRange`] for a point above the altitudes of the model
-    /// and below the end of the air; [`Error::Point`], [`Error::Direction`].
+    /// [`Error::Length`] unless `out` has one element per wavelength; [`Error::OutOfRange`] for a point above the
+    /// altitudes of the model and below the end of the air; [`Error::Point`], [`Error::Direction`].
     pub fn in_scattering(&self, from: [f64; 3], to: [f64; 3], out: &mut [f32]) -> Result<()> {
         let mut far = [0.0; MOST_WAVELENGTHS];
         self.terms(from, to, out, &mut far)?;

@@ -36,7 +36,8 @@ impl AerialPerspective {
         self.in_scattering_stokes_batch(from, &[to], frame, in_scattering, transmittance)
     }
 
-    /// [`AerialPerspective::in_scattering_stokes`] from one camera to many points; the outputs are `[points][wavelengths]`.
+    /// [`AerialPerspective::in_scattering_stokes`] from one camera to many points; the outputs are
+    /// `[points][wavelengths]`.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering_stokes`]. What precedes a bad point is written.
@@ -80,7 +81,8 @@ impl AerialPerspective {
         Ok(())
     }
 
-    /// [`AerialPerspective::in_scattering_stokes`] at any wavelength (nm) within the range of the model, per unit of solar spectral irradiance, sr⁻¹.
+    /// [`AerialPerspective::in_scattering_stokes`] at any wavelength (nm) within the range of the model, per unit of
+    /// solar spectral irradiance, sr⁻¹.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering_stokes`]; [`Error::OutOfRange`](crate::Error::OutOfRange) for the

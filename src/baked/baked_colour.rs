@@ -111,8 +111,8 @@ impl BakedColourSky {
     /// [`BakedColourSky::xyz`] for many directions.
     ///
     /// # Errors
-    /// [`crate::Error::Direction`]; [`crate::Error::Length`] for components of different lengths, or unless `out` has one element
-    /// per direction. What precedes a bad direction may or may not be written.
+    /// [`crate::Error::Direction`]; [`crate::Error::Length`] for components of different lengths, or unless `out` has
+    /// one element per direction. What precedes a bad direction may or may not be written.
     pub fn xyz_batch(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
         self.batch::<CieXyz>(directions, out)
     }

@@ -75,9 +75,8 @@ pub(super) fn axis_bytes(head: &Head) -> usize {
 impl Sky {
     /// Bakes the sky into tables that add a relative error of at most `tolerance`, e.g. [`BakedSky::TOLERANCE`], at 95
     /// % of the directions and wavelengths above the horizon, and at 95 % below it; and of at most [`BakedSky::TAIL`]
-    /// times as much at 99.9 %, and
-    /// [`BakedSky::PEAK`] times as much where it is largest of some 660 compared directions. (The largest table keeps the first and may miss the
-    /// other two: at dusk in the stratosphere.)
+    /// times as much at 99.9 %, and [`BakedSky::PEAK`] times as much where it is largest of some 660 compared
+    /// directions. (The largest table keeps the first and may miss the other two: at dusk in the stratosphere.)
     ///
     /// What is baked is continuous in the conditions, as the sky is: sizes of tables go over into each other, and no
     /// small step of the sun or the observer makes a picture jump.

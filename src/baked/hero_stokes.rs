@@ -19,7 +19,8 @@ impl BakedPolarisedSky {
     /// radiance is that of [`BakedSky::hero`].
     ///
     /// # Errors
-    /// [`Error::Direction`] for a direction or an axis that is zero or not finite, [`Error::OutOfRange`] for a wavelength.
+    /// [`Error::Direction`] for a direction or an axis that is zero or not finite, [`Error::OutOfRange`] for a
+    /// wavelength.
     ///
     /// [`PolarisedSky::stokes_at`]: crate::PolarisedSky::stokes_at
     /// [`BakedSky::hero`]: crate::BakedSky::hero

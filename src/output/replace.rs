@@ -10,9 +10,9 @@ use crate::error::Result;
 /// disk, a killed process or a power cut.
 ///
 /// # Errors
-/// [`Error::Io`](crate::Error::Io) with `path`: of kind [`std::io::ErrorKind::InvalidInput`] if it names no file (it is empty, or ends in a separator, `.`
-/// or `..`), of kind [`std::io::ErrorKind::IsADirectory`] if it is a folder. The temporary file is removed, and the old file
-/// is as it was.
+/// [`Error::Io`](crate::Error::Io) with `path`: of kind [`std::io::ErrorKind::InvalidInput`] if it names no file (it is
+/// empty, or ends in a separator, `.` or `..`), of kind [`std::io::ErrorKind::IsADirectory`] if it is a folder. The
+/// temporary file is removed, and the old file is as it was.
 pub fn replace_file(path: impl AsRef<Path>, bytes: &[u8]) -> Result<()> {
     replace_files(&[(path.as_ref(), bytes)])
 }

@@ -118,7 +118,8 @@ impl PolarisedSky {
     /// Stokes vector in W m⁻² sr⁻¹ nm⁻¹ at any wavelength (nm) within the range of the model.
     ///
     /// # Errors
-    /// [`Error::Direction`](crate::Error::Direction); [`Error::OutOfRange`](crate::Error::OutOfRange) for the wavelength.
+    /// [`Error::Direction`](crate::Error::Direction); [`Error::OutOfRange`](crate::Error::OutOfRange) for the
+    /// wavelength.
     pub fn stokes_at(
         &self,
         direction: [f32; 3],

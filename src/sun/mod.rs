@@ -1,7 +1,7 @@
 //! The disc of the sun: limb darkening, the air before it and the planet's edge. Format specification, section 7.8.
 //!
-//! `cap` knows where the disc is and what of it is above the horizon, `depths` the air before it, `limb` how bright it
-//! is without air; `quadrature` sums over it.
+//! `cap` knows where the disc is and what of it is above the horizon, `depths` the air before it, `limb_darkening` how
+//! bright it is without air; `quadrature` sums over it.
 
 mod cap;
 mod depths;
@@ -22,9 +22,8 @@ use quadrature::each_line;
 ///
 /// Its radiance is that outside the air, which follows from the solar irradiance of the model, with limb darkening from
 /// Neckel & Labs 1994, times the transmittance to space, the same as that of [`Transmittance`](crate::Transmittance)
-/// and
-/// [`AerialPerspective`](crate::AerialPerspective). Light is not refracted. The part of the disc below the geometric horizon is black. Queries do
-/// not allocate. `Send + Sync`.
+/// and [`AerialPerspective`](crate::AerialPerspective). Light is not refracted. The part of the disc below the
+/// geometric horizon is black. Queries do not allocate. `Send + Sync`.
 ///
 /// In a file without transmittance the air before the disc is what the sky takes it for, which is much less exact where
 /// the sun is low: see `tests/sun.rs`.

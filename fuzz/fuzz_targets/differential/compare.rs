@@ -119,7 +119,7 @@ fn values(
     let mut floors: Vec<f64> = zenith.iter().map(|l| l * OF_ZENITH).collect();
     if case.base == "negative" {
         // Where a sum passes through zero, f32 has few digits: the terms are some tenths, their rounding 1e-8 each.
-        floors.fill(1e-6);
+        floors.fill(3e-7);
     }
     let tolerances = tolerances(question, a, &floors)?;
     let mut all = a.iter().zip(b).zip(tolerances);

@@ -108,7 +108,7 @@ fn complain(complaint: &str) {
     }
 }
 
-/// The general evaluator does not look at checksums and numbers of chunks: where others refuse them it may say
+/// A point query does not look at checksums and numbers of chunks: where others refuse them it may say
 /// anything.
 fn check_general(check: &dyn Fn(&str, Report), library: &Report, mut general: Report) {
     if let (Ok(library), Ok(general)) = (library, &mut general) {

@@ -136,7 +136,8 @@ fn sequential(x: f32) -> [f32; 3] {
     core::array::from_fn(|c| STOPS[i][c] + t * (STOPS[i + 1][c] - STOPS[i][c]))
 }
 
-/// Green for positive, red for negative numbers in −1..=1, black near 0. Logarithms show what is near the neutral points.
+/// Green for positive, red for negative numbers in −1..=1, black near 0. Logarithms show what is near the neutral
+/// points.
 fn diverging(x: f32) -> [f32; 3] {
     let strength = (1.0 + x.abs().log10() / 3.0).clamp(0.0, 1.0);
     if x > 0.0 {

@@ -1,4 +1,5 @@
-//! Writes the figures in `docs/figures` into README.md, DESIGN.md and the book: `cargo run -p welkin-tools --bin figures`.
+//! Writes the figures in `docs/figures` into README.md, DESIGN.md and the book: `cargo run -p welkin-tools --bin
+//! figures`.
 //!
 //! `bash docs/figures/measure` measures them first. `welkin_tools::figures` says how a page asks for them.
 
