@@ -1,15 +1,33 @@
 //! Where the sky is sampled: the axes of the model and the points on them.
 
+use crate::atmosphere::Monochromatic;
 use crate::successive_orders::NW;
 use anyhow::{Result, ensure};
 use std::f64::consts::{FRAC_PI_2, PI};
 use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
 use welkin::geometry::{Planet, Side};
 
-/// Wavelength nodes, nm: 320, 360 … 760, so that any wavelength of the paper's 11 bands can be asked.
-pub const WAVELENGTHS: [f64; NW] = [
-    320.0, 360.0, 400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0, 720.0, 760.0,
-];
+/// The nodes, by increasing wavelength: provisional.
+pub const NODES: [Monochromatic; NW] = {
+    let mut out = [Monochromatic::beside_lines(300.0); NW];
+    let mut i = 0;
+    while i < NW {
+        out[i].wavelength = 300.0 + 20.0 * i as f64;
+        i += 1;
+    }
+    out
+};
+
+/// Their wavelengths, nm.
+pub const WAVELENGTHS: [f64; NW] = {
+    let mut out = [0.0; NW];
+    let mut i = 0;
+    while i < NW {
+        out[i] = NODES[i].wavelength;
+        i += 1;
+    }
+    out
+};
 
 /// Observer altitudes, m: densest about the inversion at 2 km and where the aerosol ends, at 12 km.
 pub const ALTITUDES: [f64; 24] = [
