@@ -20,4 +20,22 @@ impl Monochromatic {
             mixed: 0.0,
         }
     }
+
+    /// Light that oxygen absorbs: `depth` of all air above the ground.
+    pub const fn oxygen(wavelength: f64, depth: f64) -> Self {
+        Self {
+            wavelength,
+            water: 0.0,
+            mixed: depth,
+        }
+    }
+
+    /// Light that water vapour absorbs: `depth` per cm of precipitable water.
+    pub const fn vapour(wavelength: f64, depth: f64) -> Self {
+        Self {
+            wavelength,
+            water: depth,
+            mixed: 0.0,
+        }
+    }
 }

@@ -4,3 +4,4 @@
 
 pub mod cells;
 pub mod training;
+pub mod weights;

@@ -109,7 +109,7 @@ fn segment(medium: &Medium, h: f64, cosine: f64, passed: &Spectrum, fineness: f6
     let slope = cosine.abs();
     let by_height = 2.0 * climb / (slope + (slope * slope + 2.0 * climb / r).sqrt());
     by_height
-        .min(fineness * 0.5 / f64::from(extinction).max(1e-12))
+        .min(fineness / f64::from(extinction).max(1e-12))
         .min(fineness * LONGEST)
 }
 
