@@ -131,7 +131,8 @@ class Model:
         altitude, visibility: m, numbers; any altitude
         """
         weights = self._visibility_weights(visibility)
-        columns = self._columns(directions, distance, altitude)
+        profiles = self._chunks.get(_head.TRANSMITTANCE)
+        columns = self._columns(profiles, directions, distance, altitude)
         result = np.exp(-(columns @ np.tensordot(weights, self._head.extinction, 1)))
         return _finite(result).reshape(*np.shape(directions)[:-1], -1)
 
@@ -144,10 +145,9 @@ class Model:
         of a segment is not that of the whole.
         """
         weights = self._visibility_weights(visibility)
-        spectrum = self._wavelengths.spectrum
-        wavelength = self._wavelengths.checked(wavelength)
-        columns = self._columns(directions, distance, altitude)
-        result = spectrum.transmittance(columns, weights, wavelength)
+        profiles, spectrum = self._chunks.get(_head.TRANSMITTANCE), self._wavelengths.spectrum
+        columns = self._columns(profiles, directions, distance, altitude)
+        result = spectrum.transmittance(columns, weights, self._wavelengths.checked(wavelength))
         return _finite(result).reshape(*np.shape(directions)[:-1], -1)
 
     def _visibility_weights(self, visibility):
@@ -155,9 +155,8 @@ class Model:
         visibility = _clamp(visibility, self.visibility_range, "visibility")
         return linear_weights(-1.0 / self._head.visibility, [-1.0 / visibility])[0]
 
-    def _columns(self, directions, distance, altitude):
+    def _columns(self, profiles, directions, distance, altitude):
         """Integrals (N, nk) of the profiles along segments."""
-        profiles = self._chunks.get(_head.TRANSMITTANCE)
         units = unit_vectors(directions)
         altitude, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
         radius = self._head.planet_radius
@@ -178,8 +177,9 @@ class Model:
     @np.errstate(all="ignore")
     def in_scattering_stokes_at(self, directions, distance, wavelength, **scene):
         """The same light as Stokes components at wavelengths in nm: (…, 3) → (…, 3, K)."""
+        aerial = self._aerial_perspective(**scene)
         wavelength = self._wavelengths.checked(wavelength)
-        nodes = self.in_scattering_stokes(directions, distance, **scene)
+        nodes = self._gathered(aerial, directions, distance)
         light = interpolate_stokes(self._wavelengths, nodes.reshape(-1, *nodes.shape[-2:]), wavelength)
         return _finite(light).reshape(*nodes.shape[:-1], -1)
 
@@ -199,11 +199,20 @@ class Model:
 
         They are those of the vertical frame at the observer, as in `Sky.stokes`.
         """
+        scene = (solar_elevation, visibility, albedo, altitude, solar_azimuth)
+        return self._gathered(self._aerial_perspective(*scene), directions, distance)
+
+    def _aerial_perspective(
+        self, solar_elevation, visibility, albedo, altitude, solar_azimuth=0.0
+    ):
         lowest, _ = self.altitude_range
         conditions = self._conditions(solar_elevation, visibility, albedo, lowest, solar_azimuth)
-        aerial = AerialPerspective(self._head, self._chunks, conditions, float(altitude))
+        return AerialPerspective(self._head, self._chunks, conditions, float(altitude))
+
+    def _gathered(self, aerial, directions, distance):
+        """L, Q, U (…, 3, W) of segments."""
         units = unit_vectors(directions)
-        _, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
+        _, distance = _segments(aerial.altitude, units, distance, np.shape(directions)[:-1])
         starts = range(0, max(1, len(units)), aerial.block)
         blocks = (slice(i, i + aerial.block) for i in starts)
         light = np.concatenate([aerial.in_scattering(units[b], distance[b]) for b in blocks])
