@@ -1825,35 +1825,22 @@ WELKIN_API welkin_error welkin_wavelength_range(const welkin_file *f, double ran
     return WELKIN_OK;
 }
 
-/* The nodes or cells next to a wavelength. */
-static welkin_error welkin__spectral_neighbours(const welkin_file *f, double wavelength, welkin__stencil *linear)
+static welkin_error welkin__check_wavelength(const welkin_file *f, double wavelength)
 {
     const unsigned char *axis;
     uint32_t n;
     welkin_error error = welkin__spectral_axis(f, &axis, &n);
     if (error) return error;
-    if (!welkin__is_on_axis(axis, n, wavelength)) return WELKIN_ERROR_RANGE;
-    *linear = welkin__linear(axis, n, wavelength, WELKIN__PLAIN);
-    return WELKIN_OK;
+    return welkin__is_on_axis(axis, n, wavelength) ? WELKIN_OK : WELKIN_ERROR_RANGE;
 }
 
-static double welkin__weight_of(const welkin__stencil *s, uint32_t node)
-{
-    uint32_t i;
-    double weight = 0;
-    for (i = 0; i < s->count; i++)
-        if (s->node[i] == node) weight += s->weight[i];
-    return weight;
-}
-
-/* What a wavelength is made of: nodes with their weights in ln L, and in L where one of them is dark. */
+/* What ln L at a wavelength is made of. */
 typedef struct welkin__blend {
     uint32_t count, node[2 * WELKIN__MAX_TAPS];
-    double weight[2 * WELKIN__MAX_TAPS], plain[2 * WELKIN__MAX_TAPS];
+    double weight[2 * WELKIN__MAX_TAPS];
 } welkin__blend;
 
-static void welkin__blend_nodes(const welkin_file *f, double wavelength, const welkin__stencil *linear,
-                                welkin__blend *blend)
+static void welkin__blend_nodes(const welkin_file *f, double wavelength, welkin__blend *blend)
 {
     welkin__stencil cubic = welkin__cubic(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
     uint32_t i;
@@ -1861,7 +1848,6 @@ static void welkin__blend_nodes(const welkin_file *f, double wavelength, const w
     for (i = 0; i < cubic.count; i++) {
         blend->node[i] = cubic.node[i];
         blend->weight[i] = cubic.weight[i];
-        blend->plain[i] = welkin__weight_of(linear, cubic.node[i]);
     }
 }
 
@@ -1876,52 +1862,65 @@ static uint32_t welkin__place_in(welkin__blend *blend, uint32_t node)
 }
 
 /* Sums the taps of each cell first, so that those that cancel leave exactly nothing. */
-static welkin_error welkin__blend_cells(const welkin_file *f, const welkin__stencil *cells, welkin__blend *blend)
+static welkin_error welkin__blend_cells(const welkin_file *f, double wavelength, welkin__blend *blend)
 {
     const welkin_spectrum *s = &f->spectrum;
-    double sum[2 * WELKIN__MAX_TAPS][2] = {{0, 0}}, lit = 0;
+    welkin__stencil cells = welkin__linear(s->wavelength, s->cells, wavelength, WELKIN__PLAIN);
+    double sum[2 * WELKIN__MAX_TAPS][2] = {{0, 0}};
     uint32_t c, j, i;
     blend->count = 0;
-    for (c = 0; c < cells->count; c++)
+    for (c = 0; c < cells.count; c++)
         for (j = 0; j < s->taps; j++) {
-            size_t tap = 4 * ((size_t)cells->node[c] * s->taps + j);
+            size_t tap = 4 * ((size_t)cells.node[c] * s->taps + j);
             uint32_t node = welkin__u32(s->tap_node + tap);
             if (node >= f->wavelengths) return WELKIN_ERROR_VALUE; /* a mapped file that changed */
             sum[welkin__place_in(blend, node)][c] += (double)welkin__f32(s->tap_weight + tap);
         }
-    for (i = 0; i < blend->count; i++) {
-        blend->weight[i] = cells->weight[0] * sum[i][0] + cells->weight[1] * sum[i][1];
-        lit += fmax(0, blend->weight[i]);
-    }
-    for (i = 0; i < blend->count; i++) blend->plain[i] = blend->weight[i] > 0 ? blend->weight[i] / lit : 0;
+    for (i = 0; i < blend->count; i++) blend->weight[i] = cells.weight[0] * sum[i][0] + cells.weight[1] * sum[i][1];
     return WELKIN_OK;
 }
 
 static welkin_error welkin__blend_at(const welkin_file *f, double wavelength, welkin__blend *blend)
 {
-    welkin__stencil linear;
-    welkin_error error = welkin__spectral_neighbours(f, wavelength, &linear);
+    welkin_error error = welkin__check_wavelength(f, wavelength);
     if (error) return error;
-    if (f->spectrum.error == WELKIN_OK) return welkin__blend_cells(f, &linear, blend);
-    welkin__blend_nodes(f, wavelength, &linear, blend);
+    if (f->spectrum.error == WELKIN_OK) return welkin__blend_cells(f, wavelength, blend);
+    welkin__blend_nodes(f, wavelength, blend);
     return WELKIN_OK;
 }
 
-static welkin_error welkin__blend_radiance(const welkin__blend *blend, const float *radiance, double *value)
+/* L where it is 0 at a node of the blend. */
+static double welkin__dark_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance, double wavelength)
 {
-    double logarithm = 0, plain = 0;
+    double sum = 0, lit = 0;
+    uint32_t i;
+    if (f->spectrum.error == WELKIN_ERROR_MISSING) {
+        welkin__stencil linear = welkin__linear(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
+        for (i = 0; i < linear.count; i++) sum += linear.weight[i] * (double)radiance[linear.node[i]];
+        return sum;
+    }
+    for (i = 0; i < blend->count; i++) {
+        sum += fmax(0, blend->weight[i]) * (double)radiance[blend->node[i]];
+        lit += fmax(0, blend->weight[i]);
+    }
+    return lit > 0 ? sum / lit : 0;
+}
+
+static welkin_error welkin__blend_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance,
+                                           double wavelength, double *value)
+{
+    double logarithm = 0;
     int dark = 0;
     uint32_t i;
     for (i = 0; i < blend->count; i++) {
         double node = (double)radiance[blend->node[i]];
-        plain += blend->plain[i] * node;
         if (blend->weight[i] == 0) continue;
         if (node > 0)
             logarithm += blend->weight[i] * log(node);
         else
             dark = 1;
     }
-    *value = dark ? plain : exp(logarithm);
+    *value = dark ? welkin__dark_radiance(f, blend, radiance, wavelength) : exp(logarithm);
     return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
@@ -1930,7 +1929,7 @@ WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *ra
 {
     welkin__blend blend;
     welkin_error error = welkin__blend_at(f, wavelength, &blend);
-    return error ? error : welkin__blend_radiance(&blend, radiance, value);
+    return error ? error : welkin__blend_radiance(f, &blend, radiance, wavelength, value);
 }
 
 WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u,
@@ -1940,7 +1939,7 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radi
     double share[2] = {0, 0}, degree;
     uint32_t i;
     welkin_error error = welkin__blend_at(f, wavelength, &blend);
-    if (!error) error = welkin__blend_radiance(&blend, radiance, &stokes[0]);
+    if (!error) error = welkin__blend_radiance(f, &blend, radiance, wavelength, &stokes[0]);
     if (error) return error;
     for (i = 0; i < blend.count; i++) {
         double node = (double)radiance[blend.node[i]];
@@ -1956,11 +1955,10 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radi
 WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavelength, double *value)
 {
     const unsigned char *p = f->bytes + f->solar_range_at, *samples = f->bytes + f->solar_at;
-    welkin__stencil neighbours;
     welkin__spline at;
     double u, t;
     uint32_t i;
-    welkin_error error = welkin__spectral_neighbours(f, wavelength, &neighbours);
+    welkin_error error = welkin__check_wavelength(f, wavelength);
     if (error) return error;
     u = (wavelength - welkin__f64(p)) / welkin__f64(p + 8);
     at = welkin__free_spline(u, f->solar_samples - 1); /* for its clamped interval */
@@ -2153,23 +2151,23 @@ WELKIN_API welkin_error welkin_transmittance_at(const welkin_transmittance_profi
                                                 const double direction[3], double distance, const double *wavelengths,
                                                 size_t count, float *transmittance)
 {
+    const welkin_spectrum *s = &air->file->spectrum;
     double columns[WELKIN_MAX_CONSTITUENTS];
     size_t w;
     uint32_t c;
-    welkin_error error = air->file->spectrum.error;
+    welkin_error error = s->error;
     if (!error) error = welkin__segment_columns(air, altitude, direction, distance, columns);
-    if (error) return error;
-    for (w = 0; w < count; w++) {
+    for (w = 0; w < count && !error; w++) error = welkin__check_wavelength(air->file, wavelengths[w]);
+    for (w = 0; w < count && !error; w++) {
+        welkin__stencil cells = welkin__linear(s->wavelength, s->cells, wavelengths[w], WELKIN__PLAIN);
         double depth = 0, lines = 0;
-        welkin__stencil cells;
-        if (welkin__spectral_neighbours(air->file, wavelengths[w], &cells)) return WELKIN_ERROR_RANGE;
         for (c = 0; c < cells.count; c++) {
             depth += cells.weight[c] * welkin__cell_depth(air, columns, cells.node[c]);
             lines += cells.weight[c] * welkin__cell_lines(air->file, columns, cells.node[c]);
         }
         transmittance[w] = (float)fmin(exp(-depth) * lines, 1); /* the sum of shares is only about 1 */
     }
-    return WELKIN_OK;
+    return error;
 }
 
 /* ---- light that segments scatter ---- */
@@ -2332,6 +2330,15 @@ static int welkin__same_species(const welkin_aerial_perspective *aerial, const w
     for (i = 0; i < aerial->species; i++)
         if (welkin__u32(source->phase + 4 * (size_t)i) != aerial->phase[i]) return 0;
     return 1;
+}
+
+static double welkin__weight_of(const welkin__stencil *s, uint32_t node)
+{
+    uint32_t i;
+    double weight = 0;
+    for (i = 0; i < s->count; i++)
+        if (s->node[i] == node) weight += s->weight[i];
+    return weight;
 }
 
 static welkin_error welkin__read_sources(welkin_aerial_perspective *aerial, const welkin__entry *entries,
