@@ -32,7 +32,12 @@ fn main() -> anyhow::Result<()> {
     for &v in &t.visibilities {
         for set in 0..l.len().div_ceil(24) {
             let start = std::time::Instant::now();
-            t.unit(&store, v, &l, set)?;
+            t.unit(
+                &store,
+                v,
+                &l[set * 24..l.len().min(set * 24 + 24)],
+                &set.to_string(),
+            )?;
             eprintln!("{v} {set} {:.1} s", start.elapsed().as_secs_f64());
         }
     }

@@ -2,6 +2,7 @@
 
 use super::factors::{Basis, row};
 use super::normal::Normal;
+use crate::dataset::WAVELENGTHS;
 use crate::decompose::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::Pcg64Mcg;
@@ -11,6 +12,21 @@ use rand_pcg::rand_core::Rng;
 pub const ALBEDOS: [f32; 3] = [0.0, 0.3, 1.0];
 /// Weight of the relative error of a single field against that of the radiance.
 const FIELD_WEIGHT: f32 = 0.4;
+
+/// Field without phase function.
+const DIFFUSE: usize = 3;
+/// Radiance below this share of its level counts less: nobody sees it, and it would cost what all see.
+const DARK: f32 = 1e-4;
+/// Nodes of visible light.
+const VISIBLE: std::ops::RangeInclusive<f64> = 375.0..=745.0;
+
+/// Root of the weight of a node.
+fn importance(wavelength: usize) -> f32 {
+    match VISIBLE.contains(&WAVELENGTHS[wavelength]) {
+        true => 1.0,
+        false => 0.75,
+    }
+}
 
 /// A linear equation: the radiance (or one field) at a site, a wavelength and an albedo, relative to what was traced.
 pub struct Equation {
@@ -28,11 +44,12 @@ impl Equation {
     /// All fields together are the radiance.
     pub fn radiance(chunk: &Chunk, site: usize, wavelength: usize, albedo: f32) -> Self {
         let (wavelength, share) = chunk.radiance_equation(site, wavelength, albedo);
+        let brightness = share[DIFFUSE].recip();
         Self {
             wavelength,
             share,
             target: 1.0,
-            weight: chunk.weight(site),
+            weight: chunk.weight(site) * importance(wavelength) * (brightness / DARK).min(1.0),
         }
     }
 
@@ -76,13 +93,16 @@ impl Equation {
     }
 }
 
+/// A third of the wavelengths.
+const THIRD: usize = NW / 3;
+
 /// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one
 /// of them.
 pub fn equations(chunk: &Chunk, site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
     let draw = rng.next_u64() as usize;
     let radiance = |k: usize| {
         let albedo = ALBEDOS[(draw >> (8 + 8 * k)) % 3];
-        Equation::radiance(chunk, site, draw % 4 + 4 * k, albedo)
+        Equation::radiance(chunk, site, draw % THIRD + THIRD * k, albedo)
     };
     let field = radiance(draw % 3).field(chunk, site, (draw >> 40) % FIELDS);
     [radiance(0), radiance(1), radiance(2), field]
