@@ -3,6 +3,7 @@
 
 mod aerial_perspective_query;
 mod angular_basis;
+mod any_wavelength;
 mod direct_sunlight;
 mod joined;
 mod joined_stokes;

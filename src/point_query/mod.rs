@@ -1,6 +1,7 @@
 //! Radiance straight from the bytes of a file: nothing is prepared, nothing is allocated, everything may change from
 //! query to query. Format specification, section 7. Works without the standard library.
 
+mod any_wavelength;
 mod capacity;
 mod chunk_directory;
 mod chunk_table;
