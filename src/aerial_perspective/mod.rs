@@ -3,7 +3,6 @@
 
 mod aerial_perspective_query;
 mod angular_basis;
-mod any_wavelength;
 mod direct_sunlight;
 mod joined;
 mod joined_stokes;
@@ -21,6 +20,7 @@ mod sky_difference;
 mod source_expansion;
 mod source_nodes;
 mod source_table;
+mod spectral_light;
 mod spherical_harmonics;
 mod stokes_integral;
 mod sun_transmittance;

@@ -1,7 +1,6 @@
 //! Radiance straight from the bytes of a file: nothing is prepared, nothing is allocated, everything may change from
 //! query to query. Format specification, section 7. Works without the standard library.
 
-mod any_wavelength;
 mod capacity;
 mod chunk_directory;
 mod chunk_table;
@@ -15,6 +14,7 @@ mod neighbours;
 mod opened;
 mod optics;
 mod query_coordinates;
+mod spectral_query;
 #[cfg(feature = "std")]
 mod stokes_query;
 

@@ -1,8 +1,8 @@
 //! The air alone: transmittance between any two points. Format specification, section 7.6.
 
-mod any_wavelength;
 mod layers;
 mod segment;
+mod spectral_transmittance;
 
 pub(crate) use layers::{Amounts, Layers, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
