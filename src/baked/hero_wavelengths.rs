@@ -1,10 +1,14 @@
 //! Radiance at a few wavelengths that differ from query to query, as hero wavelength sampling asks (Wilkie et al.
-//! 2014). Format specification, section 7.3, with the weights of each interval as polynomials.
+//! 2014). Format specification, section 7.3, with the weights of each interval as polynomials: of four nodes, or of the
+//! cells around it.
+
+use std::sync::Arc;
 
 use super::batch::{Group, Sink};
 use crate::kernel::axis::hermite;
 use crate::kernel::lanes::Lanes;
 use crate::sky::Sky;
+use crate::spectrum::SpectralInterpolation;
 
 /// Wavelengths of a table that are computed together.
 const LANES: usize = 16;
@@ -21,6 +25,8 @@ pub(super) struct WavelengthAxis {
     /// First wavelength and samples per nanometre of the solar spectrum.
     solar_axis: [f32; 2],
     range: [f32; 2],
+    /// What lies between the wavelengths, where that is more than a curve.
+    cells: Option<Arc<SpectralInterpolation>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +55,8 @@ impl WavelengthAxis {
                 .collect(),
             solar: solar.to_vec(),
             solar_axis: [start as f32, (1.0 / step) as f32],
-            range: [wavelengths[0] as f32, wavelengths[inner.len()] as f32],
+            range: sky.interpolation().range().map(|l| l as f32),
+            cells: (sky.interpolation().has_cells()).then(|| sky.interpolation().clone()),
         }
     }
 
@@ -162,13 +169,33 @@ impl WavelengthAxis {
             self.mix(wavelengths, logarithms.as_flattened())
         };
         let irradiance = Lanes(wavelengths.map(|wavelength| self.irradiance(wavelength)));
-        let radiance = mixed.exp2() * irradiance * spots.opacity.0[i];
+        let opacity = self.opacity(wavelengths, spots.opacity.0[i]);
+        let radiance = mixed.exp2() * irradiance * opacity;
         radiance.min(Lanes::splat(f32::MAX))
+    }
+
+    /// What radiance was divided by. Weights of cells need not add up to 1, and then logarithms are not those of
+    /// quotients.
+    #[inline(always)]
+    fn opacity(&self, wavelengths: &[f32; 4], opacity: f32) -> Lanes<4> {
+        if self.cells.is_none() || opacity == 1.0 || opacity == 0.0 {
+            return Lanes::splat(opacity);
+        }
+        let whole = self.mix(wavelengths, &[1.0; BLOCKS * LANES]);
+        (whole
+            * Lanes::splat(opacity)
+                .max(Lanes::splat(f32::MIN_POSITIVE))
+                .log2())
+        .exp2()
     }
 
     /// Values at the nodes, interpolated.
     #[inline(always)]
     pub fn mix(&self, wavelengths: &[f32; 4], values: &[f32]) -> Lanes<4> {
+        if let Some(cells) = self.cells.as_ref().and_then(|cells| cells.cell_weights()) {
+            let at = |&wavelength: &f32| cells.sum(f64::from(wavelength), values);
+            return Lanes(wavelengths.each_ref().map(at));
+        }
         let mut mixed = Lanes::splat(0.0);
         for (lane, &wavelength) in wavelengths.iter().enumerate() {
             let (interval, t) = self.locate(wavelength);

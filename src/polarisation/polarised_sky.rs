@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
 use crate::kernel::math::{LANES, finite};
-use crate::model::Model;
+use crate::model::{Model, SPECTRUM};
 use crate::phase_function::SunAngle;
 use crate::sky::prepare::NodeWeights;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
@@ -53,7 +53,7 @@ impl Model {
         let place = NodeWeights::new(self.head(), &conditions);
         let basis = (Kind::PolarisationBasis, None, None);
         let chunks = place.keys_of(Kind::Polarisation);
-        self.prefetch(place.keys().chain(chunks).chain([basis]))?;
+        self.prefetch(place.keys().chain(chunks).chain([basis, SPECTRUM]))?;
         let sky = Sky::prepare(self, &conditions)?;
         let polarisation = prepare(self, &place, conditions.albedo, &sky.tables().layout)?;
         Ok(PolarisedSky { sky, polarisation })
@@ -128,11 +128,12 @@ impl PolarisedSky {
     ) -> Result<Stokes> {
         let i = self.sky.radiance_at(direction, wavelength)?;
         let mut values = [Stokes::default(); MOST_WAVELENGTHS];
-        let nodes = self.sky.wavelengths();
+        let values = &mut values[..self.sky.wavelengths().len()];
         self.evaluate(direction, frame, |block, light| {
-            store(&mut values[..nodes.len()], block, [1.0; LANES], &light);
+            store(values, block, [1.0; LANES], &light);
         })?;
-        Ok(between(nodes, &values[..nodes.len()], wavelength, i))
+        let weights = self.sky.interpolation().taps(wavelength);
+        Ok(between(&weights, values, i))
     }
 
     /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².

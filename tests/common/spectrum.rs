@@ -8,8 +8,8 @@ pub const CELLS: usize = 9;
 pub const TAPS: usize = 3;
 pub const TERMS: usize = 2;
 
-/// Cells between 2 nm before the first node and 2 nm after the last but one, one of them at a node. Each has three taps
-/// whose weights are not the same as a curve through the nodes would have, and a term that absorbs more than the other.
+/// Cells from 2 nm before the first node to 2 nm after the last at most, one of them in the middle between those. Each has
+/// three taps with weights that no curve through the nodes has, and a term that absorbs more than the other.
 pub fn spectrum(head: &Head) -> Spectrum {
     let (nodes, nk) = (head.wavelengths.len(), head.constituents);
     let (first, last) = (head.wavelengths[0], head.wavelengths[nodes - 1]);
