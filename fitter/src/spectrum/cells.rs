@@ -21,14 +21,17 @@ const STEPS: [(f64, f64, f64); 4] = [
     (780.0, 1100.0, 5.0),
 ];
 
-/// The cells of a model, 300..1100 nm.
+/// Shortest and longest wavelength of a model, nm.
+pub const RANGE: [f64; 2] = [STEPS[0].0, STEPS[STEPS.len() - 1].1];
+
+/// The cells of a model.
 pub fn cells() -> Result<Vec<Cell>> {
     let bands = AbsorptionBands::new()?;
     let steps = STEPS.iter().flat_map(|&(from, to, step)| {
         let n = ((to - from) / step).round() as usize;
         (0..n).map(move |i| from + step * i as f64)
     });
-    let wavelengths = steps.chain([STEPS[STEPS.len() - 1].1]);
+    let wavelengths = steps.chain([RANGE[1]]);
     Ok(wavelengths
         .map(|wavelength| Cell {
             wavelength,

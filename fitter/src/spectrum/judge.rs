@@ -113,7 +113,7 @@ impl Judge<'_> {
         let direction = sample.direction();
         let got = sky.sky().relative_radiance_at(direction, wavelength)?;
         out.radiance.push(at(f64::from(got) / want - 1.0));
-        let stokes = sky.stokes_at(direction, wavelength, PolarisationFrame::Vertical)?;
+        let stokes = sky.stokes_at(direction, PolarisationFrame::Vertical, wavelength)?;
         if stokes.i > 0.0 {
             let degree = f64::from(stokes.q.hypot(stokes.u) / stokes.i);
             out.degree.push(at(degree - q.hypot(u) / want));

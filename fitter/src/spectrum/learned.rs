@@ -2,21 +2,13 @@
 
 use super::cells::Cell;
 use super::training::{Training, lights};
-use super::weights::{Taps, Target, floored, learn, value};
+use super::weights::{FLOOR, Taps, Target, floored, learn, value};
+use crate::assess::Quantiles;
+use crate::atmosphere::Monochromatic;
 use crate::dataset::{NODES, Sample, Store};
 use crate::progress::bar;
 use anyhow::Result;
 use rayon::prelude::*;
-
-/// Traced spectra of one visibility.
-struct Spectra {
-    /// Without light of their own: where they look.
-    samples: Vec<Sample>,
-    /// ln L of the nodes as a reader takes it, `[sample][node]`.
-    nodes: Vec<Vec<f64>>,
-    /// Radiance of each term, `[term][sample]`.
-    terms: Vec<Vec<f64>>,
-}
 
 /// What was learned.
 pub struct Learned {
@@ -48,128 +40,221 @@ const EXAMPLES: usize = 96;
 /// Darker samples teach nothing.
 const DARK: f64 = 1e-13;
 
-impl Training {
-    /// Learns weights from spectra in `store`, which are traced if need be.
-    pub fn learn(&self, store: &Store, cells: Vec<Cell>) -> Result<Learned> {
-        let spectra = self.spectra(store, &cells)?;
-        let lights = lights(&cells);
-        let x = &spectra.nodes;
-        let cell_of: Vec<usize> = cells
-            .iter()
-            .enumerate()
-            .flat_map(|(c, cell)| cell.terms.iter().map(move |_| c))
-            .collect();
-        let weight: Vec<f64> = cells
-            .iter()
-            .flat_map(|c| c.terms.iter().map(|t| t.weight))
-            .collect();
-        let whole = sums(&cell_of, &weight, &spectra.terms, cells.len());
-        // Every third sun is held out for the table of errors.
-        let held_out: Vec<bool> = (0..x.len()).map(|s| s / self.counts[0] % 3 == 2).collect();
-        let learned = |all: bool| -> Vec<Taps> {
-            let used: Vec<usize> = (0..x.len())
-                .filter(|&s| all || !held_out[s])
-                .filter(|&s| whole.iter().all(|cell| cell[s] > DARK))
-                .collect();
-            let x: Vec<Vec<f64>> = used.iter().map(|&s| x[s].clone()).collect();
-            let one = |g: usize| {
-                let radiance = |s: &usize| spectra.terms[g][*s];
-                let logarithm: Vec<f64> = used
-                    .iter()
-                    .zip(&x)
-                    .map(|(s, x)| {
-                        let least =
-                            x.iter().copied().fold(f64::MIN, f64::max) + super::weights::FLOOR.ln();
-                        radiance(s).max(f64::MIN_POSITIVE).ln().max(least)
-                    })
-                    .collect();
-                let share = |s: &usize| weight[g] * radiance(s) / whole[cell_of[g]][*s];
-                let share: Vec<f64> = used.iter().map(share).collect();
-                let target = Target {
-                    light: lights[g],
-                    logarithm: &logarithm,
-                    share: &share,
-                };
-                learn(&NODES, &x, &target)
-            };
-            (0..lights.len()).into_par_iter().map(one).collect()
-        };
-        let judged = learned(false);
-        let errors = (0..x.len()).filter(|&s| held_out[s]).flat_map(|s| {
-            let made: Vec<f64> = judged.iter().map(|taps| value(taps, &x[s]).exp()).collect();
-            let mut cell = vec![0.0; cells.len()];
-            for (g, l) in made.iter().enumerate() {
-                cell[cell_of[g]] += weight[g] * l;
-            }
-            let solar_elevation = spectra.samples[s].solar_elevation;
-            let (cells, whole) = (&cells, &whole);
-            let lit = cell
-                .into_iter()
-                .enumerate()
-                .filter(move |(c, _)| whole[*c][s] > DARK);
-            lit.map(move |(c, l)| HeldOut {
-                wavelength: cells[c].wavelength,
-                solar_elevation,
-                error: l / whole[c][s] - 1.0,
-            })
-            .collect::<Vec<_>>()
-        });
-        let errors = errors.collect();
-        let lit = |s: &usize| whole.iter().all(|cell| cell[*s] > DARK);
-        let skies: Vec<Vec<f64>> = (0..x.len()).filter(lit).map(|s| x[s].clone()).collect();
-        let example = |i: usize| skies[i * skies.len() / EXAMPLES].clone();
-        Ok(Learned {
-            taps: learned(true),
-            cells,
-            examples: (0..EXAMPLES).map(example).collect(),
-            skies,
-            errors,
-        })
-    }
+/// Traced spectra, ready to be learned from.
+pub struct Lesson {
+    cells: Vec<Cell>,
+    lights: Vec<Monochromatic>,
+    /// Weight of each term, and the cell that it belongs to.
+    terms: Vec<(f64, usize)>,
+    /// Without light of their own: where they look.
+    samples: Vec<Sample>,
+    /// ln L of the nodes as a reader takes it, `[sample][node]`.
+    nodes: Vec<Vec<f64>>,
+    /// Radiance of each term, `[term][sample]`.
+    radiance: Vec<Vec<f64>>,
+    /// Radiance of each cell, `[cell][sample]`.
+    whole: Vec<Vec<f64>>,
+    /// Every third sun is held out.
+    held_out: Vec<bool>,
+}
 
-    /// Traces what is not in `store`.
-    fn spectra(&self, store: &Store, cells: &[Cell]) -> Result<Spectra> {
-        let lights = lights(cells);
+impl Training {
+    /// Spectra from `store`, which are traced if need be.
+    pub fn lesson(&self, store: &Store, cells: Vec<Cell>) -> Result<Lesson> {
+        let lights = lights(&cells);
         let sets = lights.len().div_ceil(NODES.len());
         let progress = bar(self.visibilities.len() * (sets + 1), "tracing spectra");
-        let mut out = Spectra {
-            samples: vec![],
-            nodes: vec![],
-            terms: vec![vec![]; lights.len()],
-        };
+        let (mut samples, mut nodes) = (vec![], vec![]);
+        let mut radiance = vec![vec![]; lights.len()];
         for &visibility in &self.visibilities {
-            let nodes = self.unit(store, visibility, &NODES, &nodes_name())?;
+            let traced = self.unit(store, visibility, &NODES, &nodes_name())?;
             progress.inc(1);
-            out.nodes.extend(nodes.iter().map(|s| floored(&s.radiance)));
-            for set in 0..sets {
-                let part = &lights[set * NODES.len()..lights.len().min((set + 1) * NODES.len())];
+            nodes.extend(traced.iter().map(|s| floored(&s.radiance)));
+            samples.extend(traced);
+            for (set, part) in lights.chunks(NODES.len()).enumerate() {
                 let traced = self.unit(store, visibility, part, &set.to_string())?;
-                for (k, _) in part.iter().enumerate() {
-                    let term = &mut out.terms[set * NODES.len() + k];
+                for (k, term) in radiance[set * NODES.len()..]
+                    .iter_mut()
+                    .take(part.len())
+                    .enumerate()
+                {
                     term.extend(traced.iter().map(|s| s.radiance[k]));
                 }
                 progress.inc(1);
             }
-            out.samples.extend(nodes);
         }
         progress.finish();
-        Ok(out)
+        let of_cell = |(c, cell): (usize, &Cell)| {
+            cell.terms
+                .iter()
+                .map(move |t| (t.weight, c))
+                .collect::<Vec<_>>()
+        };
+        let terms: Vec<(f64, usize)> = cells.iter().enumerate().flat_map(of_cell).collect();
+        Ok(Lesson {
+            whole: sums(&terms, &radiance, cells.len()),
+            held_out: (0..samples.len())
+                .map(|s| s / self.counts[0] % 3 == 2)
+                .collect(),
+            cells,
+            lights,
+            terms,
+            samples,
+            nodes,
+            radiance,
+        })
+    }
+}
+
+impl Lesson {
+    /// Learns from everything; errors are those of learning without what is held out.
+    pub fn learn(self) -> Learned {
+        let all: Vec<usize> = (0..NODES.len()).collect();
+        let errors = self.errors(&all);
+        let used = self.used(|_| true);
+        let taps = self.taps(&all, &used);
+        let skies: Vec<Vec<f64>> = used.iter().map(|&s| self.nodes[s].clone()).collect();
+        let example = |i: usize| skies[i * skies.len() / EXAMPLES].clone();
+        Learned {
+            taps,
+            examples: (0..EXAMPLES).map(example).collect(),
+            skies,
+            errors,
+            cells: self.cells,
+        }
+    }
+
+    /// Errors at what is held out if these nodes are all there is.
+    pub fn errors(&self, nodes: &[usize]) -> Vec<HeldOut> {
+        let taps = self.taps(nodes, &self.used(|s| !self.held_out[s]));
+        let judged: Vec<usize> = (0..self.samples.len())
+            .filter(|&s| self.held_out[s])
+            .collect();
+        let one = |&s: &usize| {
+            let mut made = vec![0.0; self.cells.len()];
+            for (&(weight, cell), taps) in self.terms.iter().zip(&taps) {
+                made[cell] += weight * value(taps, &self.nodes[s]).exp();
+            }
+            let lit = made
+                .into_iter()
+                .enumerate()
+                .filter(|&(c, _)| self.whole[c][s] > DARK);
+            lit.map(|(c, l)| HeldOut {
+                wavelength: self.cells[c].wavelength,
+                solar_elevation: self.samples[s].solar_elevation,
+                error: l / self.whole[c][s] - 1.0,
+            })
+            .collect::<Vec<_>>()
+        };
+        judged.par_iter().flat_map_iter(one).collect()
+    }
+
+    /// The nodes without the one that is used least, beside all lines and at the ends not to be missed.
+    pub fn without_least(&self, nodes: &[usize]) -> Vec<usize> {
+        let taps = self.taps(nodes, &self.used(|s| !self.held_out[s]));
+        let use_of = |n: usize| -> f64 {
+            let terms = self.terms.iter().zip(&taps);
+            let shares = terms.map(|(&(weight, _), taps)| {
+                let mine = taps.iter().filter(|t| t.0 == n);
+                weight * mine.map(|t| t.1.abs()).sum::<f64>()
+            });
+            shares.sum()
+        };
+        let least = nodes
+            .iter()
+            .copied()
+            .min_by(|&a, &b| use_of(a).total_cmp(&use_of(b)));
+        nodes
+            .iter()
+            .copied()
+            .filter(|&n| Some(n) != least)
+            .collect()
+    }
+
+    /// Samples in which all cells are lit.
+    fn used(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
+        let lit = |s: &usize| self.whole.iter().all(|cell| cell[*s] > DARK);
+        (0..self.samples.len())
+            .filter(|&s| wanted(s))
+            .filter(lit)
+            .collect()
+    }
+
+    /// Taps of all terms, learned from the samples `used`.
+    fn taps(&self, nodes: &[usize], used: &[usize]) -> Vec<Taps> {
+        let lights: Vec<Monochromatic> = nodes.iter().map(|&n| NODES[n]).collect();
+        let pick = |&s: &usize| nodes.iter().map(|&n| self.nodes[s][n]).collect();
+        let x: Vec<Vec<f64>> = used.iter().map(pick).collect();
+        let one = |g: usize| {
+            let (weight, cell) = self.terms[g];
+            let radiance = |s: &usize| self.radiance[g][*s];
+            let brightest = |x: &Vec<f64>| x.iter().copied().fold(f64::MIN, f64::max);
+            let logarithm = |(s, x): (&usize, &Vec<f64>)| {
+                let least = brightest(x) + FLOOR.ln();
+                radiance(s).max(f64::MIN_POSITIVE).ln().max(least)
+            };
+            let logarithm: Vec<f64> = used.iter().zip(&x).map(logarithm).collect();
+            let share = |s: &usize| weight * radiance(s) / self.whole[cell][*s];
+            let share: Vec<f64> = used.iter().map(share).collect();
+            let target = Target {
+                light: self.lights[g],
+                logarithm: &logarithm,
+                share: &share,
+            };
+            let taps = learn(&lights, &x, &target);
+            taps.into_iter().map(|(n, w)| (nodes[n], w)).collect()
+        };
+        (0..self.terms.len()).into_par_iter().map(one).collect()
     }
 }
 
 /// Units of other nodes have other names.
 fn nodes_name() -> String {
-    format!("nodes-{:08x}", crc32fast::hash(format!("{NODES:?}").as_bytes()))
+    format!(
+        "nodes-{:08x}",
+        crc32fast::hash(format!("{NODES:?}").as_bytes())
+    )
 }
 
 /// Radiance of the cells, `[cell][sample]`.
-fn sums(cell_of: &[usize], weight: &[f64], terms: &[Vec<f64>], cells: usize) -> Vec<Vec<f64>> {
-    let mut out = vec![vec![0.0; terms[0].len()]; cells];
-    for ((&cell, w), term) in cell_of.iter().zip(weight).zip(terms) {
+fn sums(terms: &[(f64, usize)], radiance: &[Vec<f64>], cells: usize) -> Vec<Vec<f64>> {
+    let mut out = vec![vec![0.0; radiance[0].len()]; cells];
+    for (&(weight, cell), term) in terms.iter().zip(radiance) {
         out[cell]
             .iter_mut()
             .zip(term)
-            .for_each(|(sum, l)| *sum += w * l);
+            .for_each(|(sum, l)| *sum += weight * l);
     }
     out
+}
+
+/// Quantiles of errors by 20 nm, as CSV.
+pub fn held_out_table(errors: &[HeldOut]) -> String {
+    let mut out = String::from(
+        "from_nm,to_nm,day_median,day_p95,day_p99,twilight_median,twilight_p95,twilight_p99\n",
+    );
+    let wavelengths = || errors.iter().map(|e| e.wavelength);
+    let last = wavelengths().fold(0.0, f64::max);
+    let mut from = wavelengths().fold(f64::MAX, f64::min);
+    while from < last {
+        let cells = quantiles(errors, [from, from + BAND]).map(|v| format!("{v:.5}"));
+        out += &format!("{from},{},{}\n", from + BAND, cells.join(","));
+        from += BAND;
+    }
+    out
+}
+
+/// Width of the bands of the table, nm.
+const BAND: f64 = 20.0;
+
+/// Median, p95 and p99 by day, then in twilight, of the errors from one wavelength to another (nm).
+pub fn quantiles(errors: &[HeldOut], [from, to]: [f64; 2]) -> [f64; 6] {
+    let class = |day: bool| {
+        let band = errors.iter().filter(|e| (from..to).contains(&e.wavelength));
+        let band = band.filter(|e| (e.solar_elevation > 0.0) == day);
+        let found = Quantiles::of(band.map(|e| e.error.abs()));
+        found.map_or([f64::NAN; 3], |q| [q.median, q.p95, q.p99])
+    };
+    let ([a, b, c], [d, e, f]) = (class(true), class(false));
+    [a, b, c, d, e, f]
 }

@@ -4,6 +4,7 @@
 
 pub mod cells;
 pub mod colour;
+pub mod g173;
 pub mod judge;
 pub mod learned;
 mod pack;
@@ -11,4 +12,6 @@ pub mod training;
 pub mod walk;
 pub mod weights;
 
-pub use pack::{Packed, learn, pack};
+pub use cells::RANGE;
+pub use learned::{Lesson, held_out_table, quantiles};
+pub use pack::{Packed, lesson, pack};

@@ -2,7 +2,7 @@
 
 use super::cells::{Cell, cells};
 use super::colour::{self, Observer};
-use super::learned::Learned;
+use super::learned::{Learned, Lesson};
 use super::training::Training;
 use super::weights::TAPS;
 use crate::atmosphere::{Monochromatic, Particles, real_at};
@@ -22,24 +22,33 @@ pub struct Packed {
 
 /// Learns what lies between the nodes, keeping traced spectra in the folder `work`, for the visibilities of `solved`.
 pub fn pack(work: &Path, solved: &[Solved]) -> Result<Packed> {
-    let learned = learn(work)?;
+    let learned = lesson(work)?.learn();
     let cells = &learned.cells;
     let mut spectrum = Spectrum {
         taps: TAPS,
         wavelength: cells.iter().map(|c| c.wavelength).collect(),
         first_term: first_terms(cells),
-        example: learned.examples.iter().flatten().map(|&l| l as f32).collect(),
+        example: learned
+            .examples
+            .iter()
+            .flatten()
+            .map(|&l| l as f32)
+            .collect(),
         ..Spectrum::default()
     };
     for solved in solved {
         let beside = beside_lines(solved.visibility, cells)?;
-        spectrum.extinction.extend(beside.into_iter().flatten().map(|k| k as f32));
+        spectrum
+            .extinction
+            .extend(beside.into_iter().flatten().map(|k| k as f32));
     }
     let terms = cells.iter().flat_map(|c| &c.terms).zip(&learned.taps);
     for (term, taps) in terms {
         spectrum.term_weight.push(term.weight as f32);
         let lines = lines(solved[0].visibility, term.light)?;
-        spectrum.term_extinction.extend(lines.into_iter().map(|k| k as f32));
+        spectrum
+            .term_extinction
+            .extend(lines.into_iter().map(|k| k as f32));
         for t in 0..TAPS {
             let (node, weight) = taps.get(t).copied().unwrap_or((0, 0.0));
             spectrum.tap_node.push(node as u32);
@@ -50,12 +59,12 @@ pub fn pack(work: &Path, solved: &[Solved]) -> Result<Packed> {
     Ok(Packed { spectrum, xyz })
 }
 
-/// Learns from all visibilities.
-pub fn learn(work: &Path) -> Result<Learned> {
+/// Spectra of all visibilities that are learned from.
+pub fn lesson(work: &Path) -> Result<Lesson> {
     let training = Training::default();
     let cells = cells()?;
     let store = Store::open(work, training.key(&cells))?;
-    training.learn(&store, cells)
+    training.lesson(&store, cells)
 }
 
 fn first_terms(cells: &[Cell]) -> Vec<u32> {
@@ -79,7 +88,10 @@ fn beside_lines(visibility: f64, cells: &[Cell]) -> Result<Vec<Vec<f64>>> {
 fn lines(visibility: f64, light: Monochromatic) -> Result<Vec<f64>> {
     let pair = [light, Monochromatic::beside_lines(light.wavelength)];
     let air = real_at(visibility, &pair, Particles::HenyeyGreenstein)?;
-    let added = air.constituents.iter().map(|c| (c.extinction[0] - c.extinction[1]).max(0.0));
+    let added = air
+        .constituents
+        .iter()
+        .map(|c| (c.extinction[0] - c.extinction[1]).max(0.0));
     Ok(added.collect())
 }
 
@@ -89,7 +101,13 @@ fn colour_weights(learned: &Learned) -> Result<Vec<[f64; 3]>> {
     let terms: Vec<Vec<_>> = learned
         .cells
         .iter()
-        .map(|c| c.terms.iter().map(|t| t.weight).zip(taps.by_ref()).collect())
+        .map(|c| {
+            c.terms
+                .iter()
+                .map(|t| t.weight)
+                .zip(taps.by_ref())
+                .collect()
+        })
         .collect();
     let cells: Vec<Vec<f64>> = learned
         .skies
@@ -102,5 +120,10 @@ fn colour_weights(learned: &Learned) -> Result<Vec<[f64; 3]>> {
         .iter()
         .map(|sky| sky.iter().map(|l| l.exp()).collect())
         .collect();
-    Ok(colour::weights(&Observer::new()?, &wavelengths, &cells, &nodes))
+    Ok(colour::weights(
+        &Observer::new()?,
+        &wavelengths,
+        &cells,
+        &nodes,
+    ))
 }
