@@ -4,7 +4,7 @@
 mod common;
 
 use common::aerial;
-use common::spectrum::{CELLS, spectrum, with_spectrum};
+use common::spectrum::{CELLS, TAPS, TERMS, spectrum, with_spectrum};
 use proptest::prelude::*;
 use welkin::format::{Chunk, Head, Payload, Spectrum, encode};
 use welkin::{
@@ -50,16 +50,47 @@ fn conditions() -> Conditions {
 /// A spectrum of unit vectors: each cell is a node.
 fn selecting(head: &Head) -> Spectrum {
     let mut chosen = spectrum(head);
-    for (taps, weights) in chosen
-        .tap_node
-        .chunks_mut(chosen.taps)
-        .zip(chosen.tap_weight.chunks_mut(chosen.taps))
-    {
-        weights.fill(0.0);
-        weights[1] = 1.0;
-        taps[0] = 0;
+    for cell in 0..CELLS {
+        for term in terms(&chosen, cell) {
+            let row = term * TAPS..(term + 1) * TAPS;
+            chosen.tap_node[row.clone()].copy_from_slice(&[0, node(cell), 0]);
+            chosen.tap_weight[row].copy_from_slice(&[0.0, 1.0, 0.0]);
+        }
     }
     chosen
+}
+
+/// The node that a cell is in [`selecting`].
+fn node(cell: usize) -> u32 {
+    [0, 1, 1, 2, 3, 3, 4, 4, 5][cell]
+}
+
+fn terms(spectrum: &Spectrum, cell: usize) -> std::ops::Range<usize> {
+    spectrum.first_term[cell] as usize..spectrum.first_term[cell + 1] as usize
+}
+
+/// Q/I of a wavelength from I and Q/I at the nodes, in double precision.
+fn ratio(spectrum: &Spectrum, light: &[f32], ratios: &[f32], wavelength: f64) -> f64 {
+    let cells = &spectrum.wavelength;
+    let c = cells.iter().filter(|l| **l <= wavelength).count();
+    let c = c.clamp(1, cells.len() - 1) - 1;
+    let t = (wavelength - cells[c]) / (cells[c + 1] - cells[c]);
+    let dot = |term: usize, value: &dyn Fn(usize) -> f64| -> f64 {
+        let row = term * TAPS..(term + 1) * TAPS;
+        let taps = row.map(|j| (spectrum.tap_weight[j], spectrum.tap_node[j] as usize));
+        taps.map(|(w, n)| f64::from(w) * value(n)).sum()
+    };
+    let of_cell = |cell| {
+        let (mut above, mut below) = (0.0, 0.0);
+        for term in terms(spectrum, cell) {
+            let light = dot(term, &|n| f64::from(light[n]).ln()).exp();
+            let light = light * f64::from(spectrum.term_weight[term]);
+            above += light * dot(term, &|n| f64::from(ratios[n]));
+            below += light;
+        }
+        above / below
+    };
+    (1.0 - t) * of_cell(c) + t * of_cell(c + 1)
 }
 
 fn close(got: f32, expected: f32, tolerance: f32) -> bool {
@@ -78,7 +109,7 @@ fn unit_vectors_give_the_nodes_back() {
     let frame = PolarisationFrame::Vertical;
     sky.relative_stokes(ZENITH, frame, &mut stokes).unwrap();
     for (cell, &wavelength) in chosen.wavelength.iter().enumerate() {
-        let node = chosen.tap_node[cell * chosen.taps + 1] as usize;
+        let node = node(cell) as usize;
         let got = sky.sky().relative_radiance_at(ZENITH, wavelength).unwrap();
         assert!(close(got, radiance[node], 1e-6), "{wavelength} nm");
         let light = sky.stokes_at(ZENITH, frame, wavelength).unwrap();
@@ -196,7 +227,7 @@ fn wavelengths_beyond_the_cells_are_refused() {
     }
 }
 
-/// Weights of both signs among zeros: the mean of those that are positive.
+/// Darkness counts as 2⁻²⁷ of the brightest, and where all is dark there is nothing.
 #[test]
 fn darkness_at_a_node_is_no_logarithm() {
     let head = head();
@@ -207,12 +238,43 @@ fn darkness_at_a_node_is_no_logarithm() {
     let model = model_with(dark);
     let interpolation = model.spectral_interpolation().unwrap();
     let at = |values: &[f32]| interpolation.between(values, cell).unwrap();
-    assert!(close(at(&[1.0, 2.0, 0.0, 9.0, 9.0, 9.0]), 1.75, 1e-6));
-    assert!(close(at(&[0.0, 2.0, 4.0, 9.0, 9.0, 9.0]), 1.5, 1e-6));
-    assert_eq!(at(&[0.0, 0.0, 3.0, 9.0, 9.0, 9.0]), 0.0);
-    // Without a zero among the taps the logarithms count.
     let expected = 2f32.powf(1.5) / 4.0;
     assert!(close(at(&[1.0, 2.0, 4.0, 0.0, 0.0, 0.0]), expected, 1e-6));
+    let bright = 8.0;
+    let floor = bright * 2f32.powi(-27);
+    let expected = 2f32.powf(1.5) / floor;
+    assert!(close(
+        at(&[1.0, 2.0, 0.0, bright, 0.0, 0.0]),
+        expected,
+        1e-5
+    ));
+    let expected = floor.powf(0.5) * 2f32.powf(1.5) / 4.0;
+    assert!(close(
+        at(&[0.0, 2.0, 4.0, bright, 0.0, 0.0]),
+        expected,
+        1e-5
+    ));
+    assert_eq!(at(&[0.0; 6]), 0.0);
+}
+
+/// A band is the mean of its terms, not what the mean of the terms' weights makes.
+#[test]
+fn bands_are_means() {
+    let head = head();
+    let mut band = spectrum(&head);
+    // The second cell has the terms 1 and 2.
+    band.tap_node[3..9].copy_from_slice(&[0, 0, 0, 1, 1, 1]);
+    band.tap_weight[3..9].copy_from_slice(&[1.0, 0.0, 0.0, 0.5, 0.5, 0.0]);
+    band.term_weight[1..3].copy_from_slice(&[0.25, 0.75]);
+    let cell = band.wavelength[1];
+    let model = model_with(band);
+    let interpolation = model.spectral_interpolation().unwrap();
+    let values = [8.0, 1.0, 3.0, 3.0, 3.0, 3.0];
+    assert!(close(
+        interpolation.between(&values, cell).unwrap(),
+        2.75,
+        1e-6
+    ));
 }
 
 #[test]
@@ -220,6 +282,7 @@ fn heroes_are_the_baked_nodes_with_the_weights_of_the_sky() {
     let model = model();
     let sky = model.polarised_sky(&conditions()).unwrap();
     let baked = sky.bake(0.01).unwrap();
+    let cells = spectrum(model.head());
     let [first, last] = model.wavelength_range().unwrap().map(|l| l as f32);
     let interpolation = model.spectral_interpolation().unwrap();
     let n = model.wavelengths().len();
@@ -258,12 +321,10 @@ fn heroes_are_the_baked_nodes_with_the_weights_of_the_sky() {
                     close(light.i, expected as f32, 2e-4),
                     "{direction:?} {wavelength}"
                 );
-                let weights = interpolation.weights(wavelength).unwrap();
-                let (mut q, mut u) = (0.0, 0.0);
-                for (k, w) in weights {
-                    q += w as f32 * stokes[k][1] / stokes[k][0];
-                    u += w as f32 * stokes[k][2] / stokes[k][0];
-                }
+                let light_of =
+                    |part: usize| -> Vec<f32> { stokes.iter().map(|v| v[part] / v[0]).collect() };
+                let [q, u] =
+                    [1, 2].map(|part| ratio(&cells, &relative, &light_of(part), wavelength) as f32);
                 let most = q.hypot(u).max(1.0);
                 assert!((light.q / light.i - q / most).abs() < 1e-4);
                 assert!((light.u / light.i - u / most).abs() < 1e-4);
@@ -365,27 +426,26 @@ fn without_a_spectrum_neighbours_count() {
         assert!(close(got, expected, 1e-6));
         let interpolation: &SpectralInterpolation = model.spectral_interpolation().unwrap();
         assert_eq!(interpolation.between(&nodes, wavelength).unwrap(), expected);
-        let weights: f64 = interpolation
-            .weights(wavelength)
-            .unwrap()
-            .map(|(_, w)| w)
-            .sum();
-        assert!((weights - 1.0).abs() < 1e-12);
     }
 }
 
 /// Any sound spectrum of the synthetic head.
 fn any_spectrum() -> impl Strategy<Value = Spectrum> {
-    let weights = prop::collection::vec(-1.0..1.5f32, CELLS * 3);
-    let nodes = prop::collection::vec(0u32..6, CELLS * 3);
+    let weights = prop::collection::vec(-1.0..1.5f32, TERMS * TAPS);
+    let nodes = prop::collection::vec(0u32..6, TERMS * TAPS);
     let shares = prop::collection::vec(0.0..1.0f32, CELLS);
-    let lines = prop::collection::vec(prop_oneof![Just(0.0), 0.0..1e-3f32], CELLS * 4);
+    let lines = prop::collection::vec(prop_oneof![Just(0.0), 0.0..1e-3f32], 2 * TERMS);
     (weights, nodes, shares, lines).prop_map(|(weights, nodes, shares, lines)| {
         let mut spectrum = spectrum(&head());
         spectrum.tap_weight = weights;
         spectrum.tap_node = nodes;
-        spectrum.term_weight = shares.iter().flat_map(|s| [1.0 - s, *s]).collect();
         spectrum.term_extinction = lines;
+        for (cell, share) in shares.into_iter().enumerate() {
+            let terms = terms(&spectrum, cell);
+            if terms.len() == 2 {
+                spectrum.term_weight[terms].copy_from_slice(&[1.0 - share, share]);
+            }
+        }
         spectrum
     })
 }

@@ -105,9 +105,10 @@ impl AerialPerspective {
                 relative[block * LANES + lane] = i;
             }
         })?;
-        let total = self.relative_at(&relative[..nodes.len()], wavelength);
-        let weights = self.air.interpolation().taps(wavelength);
-        Ok(between(&weights, &lights[..nodes.len()], total))
+        let relative = &relative[..nodes.len()];
+        let total = self.relative_at(relative, wavelength);
+        let shares = self.air.interpolation().shares(relative, wavelength);
+        Ok(between(&shares, &lights[..nodes.len()], total))
     }
 
     /// As [`AerialPerspective::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the aerial

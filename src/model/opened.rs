@@ -184,7 +184,10 @@ impl Model {
         if let Some(known) = self.interpolation.get() {
             return Ok(known);
         }
-        let made = SpectralInterpolation::new(self.head(), self.spectrum_chunk()?.as_ref());
+        let made = match self.contents.index.get(&SPECTRUM) {
+            Some(&i) => SpectralInterpolation::of_cells(self.head(), self.chunk(i)?)?,
+            None => SpectralInterpolation::of_nodes(self.head()),
+        };
         Ok(self.interpolation.get_or_init(|| Arc::new(made)))
     }
 

@@ -6,7 +6,7 @@ use super::opened::PointQuery;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::axis::hermite;
-use crate::spectrum::{SpectralWeights, between, check, mixed};
+use crate::spectrum::{MOST_WAVELENGTHS, between, cells, check};
 
 const MOST: usize = WAVELENGTH_BLOCKS * WIDTH;
 
@@ -69,10 +69,7 @@ impl PointQuery<'_> {
     /// Relative radiance at a wavelength in range, from that at the nodes.
     pub(crate) fn relative_between(&self, values: &[f32], wavelength: f64) -> f64 {
         match &self.spectrum {
-            Some(spectrum) => {
-                let weights = SpectralWeights::of_cells(spectrum, wavelength);
-                mixed(|| weights.taps(), values)
-            }
+            Some(spectrum) => cells::radiance(spectrum, values, wavelength),
             None => {
                 let (nodes, count) = self.nodes();
                 between(&nodes[..count], values, wavelength)
@@ -80,15 +77,16 @@ impl PointQuery<'_> {
         }
     }
 
-    /// Weights of the nodes at a wavelength in range.
-    pub(crate) fn weights(&self, wavelength: f64) -> SpectralWeights {
-        match &self.spectrum {
-            Some(spectrum) => SpectralWeights::of_cells(spectrum, wavelength),
-            None => {
-                let (nodes, count) = self.nodes();
-                SpectralWeights::of_nodes(&hermite(&nodes[..count], wavelength))
-            }
+    /// The shares that nodes have in light at a wavelength in range, given its radiance at the nodes.
+    pub(crate) fn shares(&self, values: &[f32], wavelength: f64) -> [f64; MOST_WAVELENGTHS] {
+        if let Some(spectrum) = &self.spectrum {
+            return cells::shares(spectrum, values, wavelength);
         }
+        let mut shares = [0.0; MOST_WAVELENGTHS];
+        let (nodes, count) = self.nodes();
+        let stencil = hermite(&nodes[..count], wavelength);
+        stencil.taps().for_each(|(n, w)| shares[n] = w);
+        shares
     }
 
     fn nodes(&self) -> ([f64; MOST], usize) {

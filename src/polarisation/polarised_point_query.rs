@@ -104,7 +104,8 @@ impl<'a> PolarisedPointQuery<'a> {
         let relative = self.query.relative_between(radiance, wavelength);
         let irradiance = f64::from(self.query.solar_irradiance(wavelength));
         let i = (relative * irradiance).min(f64::from(f32::MAX)) as f32;
-        Ok(between(&self.query.weights(wavelength), values, i))
+        let shares = self.query.shares(radiance, wavelength);
+        Ok(between(&shares, values, i))
     }
 
     /// Writes Q and U over I beside an I of 1.

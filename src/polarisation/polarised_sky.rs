@@ -128,12 +128,16 @@ impl PolarisedSky {
     ) -> Result<Stokes> {
         let i = self.sky.radiance_at(direction, wavelength)?;
         let mut values = [Stokes::default(); MOST_WAVELENGTHS];
-        let values = &mut values[..self.sky.wavelengths().len()];
+        let mut relative = [0.0; MOST_WAVELENGTHS];
+        let nodes = self.sky.wavelengths().len();
+        let (values, relative) = (&mut values[..nodes], &mut relative[..nodes]);
         self.evaluate(direction, frame, |block, light| {
             store(values, block, [1.0; LANES], &light);
+            let out = relative[block * LANES..].iter_mut();
+            out.zip(light.radiance).for_each(|(out, l)| *out = l);
         })?;
-        let weights = self.sky.interpolation().taps(wavelength);
-        Ok(between(&weights, values, i))
+        let shares = self.sky.interpolation().shares(relative, wavelength);
+        Ok(between(&shares, values, i))
     }
 
     /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².

@@ -3,7 +3,6 @@
 use crate::error::Result;
 use crate::kernel::math::finite;
 use crate::sky::check_length;
-use crate::spectrum::SpectralWeights;
 
 /// Intensity and linear polarisation of light, against an axis `e1` across the view direction `w` and `e2 = w × e1`.
 ///
@@ -111,15 +110,14 @@ impl Stokes {
     }
 }
 
-/// Light of the radiance `i` at a wavelength to which the nodes, where it is polarised as `values` are, belong with these
-/// weights. Format specification, section 7.5.
-pub(crate) fn between(weights: &SpectralWeights, values: &[Stokes], i: f32) -> Stokes {
+/// Light of the radiance `i` in which the nodes, where it is polarised as `values` are, have these shares. Format specification, section 7.5.
+pub(crate) fn between(shares: &[f64], values: &[Stokes], i: f32) -> Stokes {
     let (mut q, mut u) = (0.0, 0.0);
-    for (k, weight) in weights.taps() {
+    for (&weight, value) in shares.iter().zip(values) {
         // Nodes without light count 0.
-        let share = weight as f32 / values[k].i.max(f32::MIN_POSITIVE);
-        q += share * values[k].q;
-        u += share * values[k].u;
+        let share = weight as f32 / value.i.max(f32::MIN_POSITIVE);
+        q += share * value.q;
+        u += share * value.u;
     }
     // Weights of both signs can overshoot.
     let share = i / (q.hypot(u) * (1.0 + 4.0 * f32::EPSILON)).max(1.0);

@@ -1,15 +1,14 @@
 //! Light and air of a model at any wavelength.
 
-use super::band_extinction::BandExtinction;
-use super::between::{between, between_wavelengths, check};
-use super::cell_weights::CellWeights;
-use super::node_weights::{SpectralWeights, mixed};
+use super::between::{MOST_WAVELENGTHS, between, between_wavelengths, check};
+use super::cell_table::CellTable;
+use super::cells;
 use crate::error::{Error, Result};
-use crate::format::{Head, SpectrumView};
+use crate::format::{Head, Shape, SpectrumView};
 use crate::kernel::axis::{Stencil, hermite, sample};
 
-/// How values at the wavelengths of a model make values at any wavelength: by the weights of its spectrum chunk, or
-/// where it has none by a curve through the neighbours ([`between_wavelengths`]).
+/// How values at the wavelengths of a model make values at any wavelength: by the cells of its spectrum chunk, or where it
+/// has none by a curve through the neighbours ([`between_wavelengths`]).
 ///
 /// Of [`Model::spectral_interpolation`](crate::Model::spectral_interpolation); skies and the like share it. Queries do
 /// not allocate. `Send + Sync`.
@@ -33,27 +32,49 @@ pub struct SpectralInterpolation {
     nodes: Vec<f64>,
     solar: Vec<f32>,
     solar_axis: [f64; 2],
-    cells: Option<Cells>,
+    spectrum: Option<Spectrum>,
 }
 
-/// What a spectrum chunk knows.
+/// A spectrum chunk that was checked, and what its view needs.
 #[derive(Clone, Debug)]
-struct Cells {
-    weights: CellWeights,
-    extinction: BandExtinction,
+struct Spectrum {
+    payload: Box<[u8]>,
+    shape: Shape,
+    visibilities: usize,
+    range: [f64; 2],
+    table: CellTable,
 }
 
 impl SpectralInterpolation {
-    pub(crate) fn new(head: &Head, spectrum: Option<&SpectrumView>) -> Self {
+    /// Of a file without a spectrum.
+    pub(crate) fn of_nodes(head: &Head) -> Self {
         Self {
             nodes: head.wavelengths.clone(),
             solar: head.solar_irradiance.clone(),
             solar_axis: [head.solar_start, head.solar_step],
-            cells: spectrum.map(|view| Cells {
-                weights: CellWeights::new(view),
-                extinction: BandExtinction::new(view, head.constituents),
-            }),
+            spectrum: None,
         }
+    }
+
+    /// Of a file with this spectrum chunk.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] if it breaks the specification.
+    pub(crate) fn of_cells(head: &Head, payload: &[u8]) -> Result<Self> {
+        let (shape, visibilities) = (head.shape(), head.visibilities.len());
+        let view = SpectrumView::new(payload, &shape, visibilities, head.solar_range())?;
+        let ends = [0, view.wavelength.len() - 1];
+        let spectrum = Some(Spectrum {
+            range: ends.map(|i| view.wavelength[i].get()),
+            table: CellTable::new(&view),
+            payload: payload.into(),
+            shape,
+            visibilities,
+        });
+        Ok(Self {
+            spectrum,
+            ..Self::of_nodes(head)
+        })
     }
 
     /// Wavelengths of the values, nm.
@@ -63,15 +84,10 @@ impl SpectralInterpolation {
 
     /// Shortest and longest wavelength, nm.
     pub fn range(&self) -> [f64; 2] {
-        match &self.cells {
-            Some(cells) => cells.weights.range(),
+        match &self.spectrum {
+            Some(spectrum) => spectrum.range,
             None => [self.nodes[0], self.nodes[self.nodes.len() - 1]],
         }
-    }
-
-    /// Whether the model has a spectrum chunk.
-    pub fn has_cells(&self) -> bool {
-        self.cells.is_some()
     }
 
     /// Radiance per unit of solar irradiance at a wavelength (nm) from `values` at the wavelengths of the model.
@@ -80,7 +96,7 @@ impl SpectralInterpolation {
     /// [`Error::OutOfRange`] for the wavelength; [`Error::Length`] unless there is one value per wavelength;
     /// [`Error::Invalid`] for values that are not finite.
     pub fn between(&self, values: &[f32], wavelength: f64) -> Result<f32> {
-        let Some(cells) = &self.cells else {
+        let Some(view) = self.view() else {
             return between_wavelengths(&self.nodes, values, wavelength);
         };
         if values.len() != self.nodes.len() {
@@ -94,18 +110,8 @@ impl SpectralInterpolation {
         if !values.iter().all(|v| v.is_finite()) {
             return Err(Error::invalid("values", "must be finite"));
         }
-        let value = mixed(|| cells.weights.taps(wavelength), values);
+        let value = cells::radiance(&view, values, wavelength);
         Ok(value.min(f64::from(f32::MAX)) as f32)
-    }
-
-    /// The wavelengths of the model that count at a wavelength (nm): their indices and weights, each index once. With
-    /// these the logarithms of radiance are summed, and the shares of light that are polarised.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the wavelength.
-    pub fn weights(&self, wavelength: f64) -> Result<impl Iterator<Item = (usize, f64)>> {
-        self.check(wavelength)?;
-        Ok(self.taps(wavelength).into_taps())
     }
 
     /// Solar spectral irradiance (W m⁻² nm⁻¹) outside the air at a wavelength, nm.
@@ -120,23 +126,26 @@ impl SpectralInterpolation {
 
     /// Radiance at a wavelength in range.
     pub(crate) fn radiance(&self, values: &[f32], wavelength: f64) -> f64 {
-        match &self.cells {
-            Some(cells) => mixed(|| cells.weights.taps(wavelength), values),
+        match self.view() {
+            Some(view) => cells::radiance(&view, values, wavelength),
             None => between(&self.nodes, values, wavelength),
         }
     }
 
-    /// Nodes and weights at a wavelength in range.
-    pub(crate) fn taps(&self, wavelength: f64) -> SpectralWeights {
-        match &self.cells {
-            Some(cells) => cells.weights.taps(wavelength).collect(),
-            None => SpectralWeights::of_nodes(&hermite(&self.nodes, wavelength)),
+    /// The shares that nodes have in light at a wavelength in range, given its radiance at the nodes.
+    pub(crate) fn shares(&self, values: &[f32], wavelength: f64) -> [f64; MOST_WAVELENGTHS] {
+        if let Some(view) = self.view() {
+            return cells::shares(&view, values, wavelength);
         }
+        let mut shares = [0.0; MOST_WAVELENGTHS];
+        let stencil = hermite(&self.nodes, wavelength);
+        stencil.taps().for_each(|(n, w)| shares[n] = w);
+        shares
     }
 
-    /// Weights of cells, if there are any.
-    pub(crate) fn cell_weights(&self) -> Option<&CellWeights> {
-        self.cells.as_ref().map(|cells| &cells.weights)
+    /// The cells, if there are any.
+    pub(crate) fn table(&self) -> Option<&CellTable> {
+        self.spectrum.as_ref().map(|spectrum| &spectrum.table)
     }
 
     /// Transmittance of columns (m, one per constituent) at a wavelength in range, if there are cells.
@@ -144,10 +153,24 @@ impl SpectralInterpolation {
         &self,
         wavelength: f64,
         visibility: &Stencil,
-        columns: impl Fn(usize) -> f32,
+        column: impl Fn(usize) -> f32,
     ) -> Option<f64> {
-        let cells = self.cells.as_ref()?;
-        let place = cells.weights.locate(wavelength);
-        Some(cells.extinction.transmittance(place, visibility, columns))
+        let view = self.view()?;
+        let constituents = self.spectrum.as_ref()?.shape.constituents;
+        let mut columns = [0.0; MOST_CONSTITUENTS];
+        let columns = &mut columns[..constituents];
+        for (k, out) in columns.iter_mut().enumerate() {
+            *out = column(k);
+        }
+        Some(cells::transmittance(&view, wavelength, visibility, columns))
+    }
+
+    /// The chunk, which was checked.
+    fn view(&self) -> Option<SpectrumView<'_>> {
+        let spectrum = self.spectrum.as_ref()?;
+        SpectrumView::divide(&spectrum.payload, &spectrum.shape, spectrum.visibilities).ok()
     }
 }
+
+/// Most constituents that a file can have.
+const MOST_CONSTITUENTS: usize = 16;

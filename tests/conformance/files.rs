@@ -440,8 +440,8 @@ fn odd_spectrum(head: &Head) -> Spectrum {
     };
     Spectrum {
         taps,
-        terms: 1,
         wavelength: vec![400.0, 700.0],
+        first_term: vec![0, 1, 2],
         tap_node: (0..cells * taps)
             .map(|i| node(i / taps, i % taps))
             .collect(),
@@ -521,8 +521,8 @@ fn unknown_kinds(raw: &[u8]) -> Vec<u8> {
         entry
     };
     chunks.insert(0, (unknown(0), &[]));
-    chunks.insert(2, (unknown(9), b"twice"));
-    chunks.insert(3, (unknown(9), b"twice"));
+    chunks.insert(2, (unknown(10), b"twice"));
+    chunks.insert(3, (unknown(10), b"twice"));
     chunks.push((unknown(u32::MAX), &[]));
     let mut bytes = raw[..directory].to_vec();
     bytes.resize(directory + 64 * chunks.len(), 0);

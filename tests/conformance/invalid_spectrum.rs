@@ -1,6 +1,6 @@
 //! Files whose spectrum breaks a rule of section 6.9, or is not declared as section 3 says.
 
-use welkin::format::{Head, Kind, encode, parse};
+use welkin::format::{Chunk, Head, Kind, Payload, encode, parse};
 
 use crate::common;
 use crate::common::spectrum::{CELLS, TAPS, TERMS, with_spectrum};
@@ -10,30 +10,33 @@ use crate::invalid::{Case, forged};
 /// Where the arrays of the synthetic spectrum start in its payload.
 struct Offsets {
     wavelength: usize,
+    first_term: usize,
+    term_weight: usize,
+    term_extinction: usize,
     tap_node: usize,
     tap_weight: usize,
     extinction: usize,
-    term_weight: usize,
-    term_extinction: usize,
     example: usize,
 }
 
 impl Offsets {
     fn of(head: &Head) -> Self {
         let wavelength = 16;
-        let tap_node = wavelength + 8 * CELLS;
-        let tap_weight = tap_node + 4 * CELLS * TAPS;
-        let extinction = tap_weight + 4 * CELLS * TAPS;
-        let term_weight = extinction + 4 * head.visibilities.len() * head.constituents * CELLS;
-        let term_extinction = term_weight + 4 * CELLS * TERMS;
+        let first_term = wavelength + 8 * CELLS;
+        let term_weight = first_term + 4 * (CELLS + 1);
+        let term_extinction = term_weight + 4 * TERMS;
+        let tap_node = term_extinction + 4 * TERMS * head.constituents;
+        let tap_weight = tap_node + 4 * TERMS * TAPS;
+        let extinction = tap_weight + 4 * TERMS * TAPS;
         Self {
             wavelength,
+            first_term,
+            term_weight,
+            term_extinction,
             tap_node,
             tap_weight,
             extinction,
-            term_weight,
-            term_extinction,
-            example: term_extinction + 4 * CELLS * TERMS * head.constituents,
+            example: extinction + 4 * head.visibilities.len() * head.constituents * CELLS,
         }
     }
 }
@@ -163,8 +166,13 @@ fn counts() -> Vec<Case> {
         count("spectrum-cells-huge", "2^32 - 1 cells", 0, u32::MAX),
         count("spectrum-no-taps", "no taps", 1, 0),
         count("spectrum-17-taps", "17 taps", 1, 17),
-        count("spectrum-no-terms", "no terms", 2, 0),
-        count("spectrum-17-terms", "17 terms", 2, 17),
+        count(
+            "spectrum-few-terms",
+            "fewer terms than cells",
+            2,
+            CELLS as u32 - 1,
+        ),
+        count("spectrum-terms", "more than 65536 terms", 2, 65_537),
         count("spectrum-examples", "more than 1024 examples", 3, 1025),
     ]
 }
@@ -268,9 +276,13 @@ fn tables() -> Vec<Case> {
     let cell = |name, shows, i: usize, nm: f64| {
         forge(name, shows, at.wavelength + 8 * i, &nm.to_le_bytes())
     };
+    // Of the second cell.
     let shares = |name, shows, shares: [f32; 2]| {
         let change = shares.map(f32::to_le_bytes).concat();
-        forge(name, shows, at.term_weight, &change)
+        forge(name, shows, at.term_weight + 4, &change)
+    };
+    let first = |name, shows, i: usize, term: u32| {
+        forge(name, shows, at.first_term + 4 * i, &term.to_le_bytes())
     };
     let end = head.solar_range()[1];
     vec![
@@ -299,9 +311,50 @@ fn tables() -> Vec<Case> {
             CELLS - 1,
             end + 1e-6,
         ),
+        first(
+            "spectrum-first-term",
+            "terms before those of the first cell",
+            0,
+            1,
+        ),
+        first(
+            "spectrum-last-term",
+            "a term after those of the last cell",
+            CELLS,
+            TERMS as u32 - 1,
+        ),
+        first("spectrum-terms-none", "a cell without terms", 1, 0),
+        first("spectrum-terms-fall", "cells whose terms go back", 3, 2),
+        first("spectrum-terms-huge", "terms beyond the last", 4, u32::MAX),
+        many_terms(),
         shares("spectrum-shares", "shares of sum 1.00002", [0.5, 0.500_02]),
         shares("spectrum-shares-low", "shares of sum 0.9", [0.5, 0.4]),
         shares("spectrum-share-negative", "a negative share", [1.1, -0.1]),
         shares("spectrum-share-nan", "a share that is NaN", [1.0, f32::NAN]),
     ]
+}
+
+/// Of two cells with 64 terms the first gets one of the second's.
+fn many_terms() -> Case {
+    let head = small_spectral(&[0.0], &[50e3]);
+    let mut spectrum = common::spectrum::spectrum(&head);
+    spectrum.wavelength = vec![330.0, 750.0];
+    spectrum.first_term = vec![0, 64, 128];
+    spectrum.term_weight = [[1.0].as_slice(), &[0.0; 64], &[1.0], &[0.0; 62]].concat();
+    spectrum.term_extinction = vec![0.0; 128 * head.constituents];
+    spectrum.tap_node = vec![0; 128 * TAPS];
+    spectrum.tap_weight = vec![0.3; 128 * TAPS];
+    spectrum.extinction = vec![1e-5; 2 * head.constituents];
+    let mut chunks = common::chunks(&head);
+    let payload = Payload::Spectrum(spectrum);
+    chunks.push(Chunk::new(None, None, payload));
+    let good = encode(&head, &chunks).expect("64 terms are allowed");
+    let contents = parse(&good).expect("a valid file");
+    let entry = contents.directory[contents.index[&(Kind::Spectrum, None, None)]];
+    let bound = entry.offset + 16 + 8 * 2 + 4;
+    case(
+        "spectrum-65-terms",
+        "a cell of 65 terms",
+        forged(&good, bound, &65u32.to_le_bytes()),
+    )
 }

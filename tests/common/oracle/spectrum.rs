@@ -6,35 +6,34 @@ use super::{Oracle, Query, hermite, piecewise};
 pub(super) struct Spectrum {
     cells: usize,
     taps: usize,
-    terms: usize,
     wavelength: usize,
+    first_term: usize,
+    term_weight: usize,
+    term_extinction: usize,
     tap_node: usize,
     tap_weight: usize,
     extinction: usize,
-    term_weight: usize,
-    term_extinction: usize,
 }
 
 impl Oracle<'_> {
     pub(super) fn spectrum(&self) -> Option<Spectrum> {
         let at = self.find(9, 65535, 65535)?.0;
         let [cells, taps, terms] = [0, 1, 2].map(|i| self.integer(at, i));
-        let wavelength = at + 16;
-        let tap_node = wavelength + 8 * cells;
-        let tap_weight = tap_node + 4 * cells * taps;
-        let extinction = tap_weight + 4 * cells * taps;
-        let term_weight = extinction + 4 * self.n.v * self.n.k * cells;
-        let term_extinction = term_weight + 4 * cells * terms;
+        let mut next = at + 16;
+        let mut place = |bytes: usize| {
+            next += bytes;
+            next - bytes
+        };
         Some(Spectrum {
             cells,
             taps,
-            terms,
-            wavelength,
-            tap_node,
-            tap_weight,
-            extinction,
-            term_weight,
-            term_extinction,
+            wavelength: place(8 * cells),
+            first_term: place(4 * (cells + 1)),
+            term_weight: place(4 * terms),
+            term_extinction: place(4 * terms * self.n.k),
+            tap_node: place(4 * terms * taps),
+            tap_weight: place(4 * terms * taps),
+            extinction: place(4 * self.n.v * self.n.k * cells),
         })
     }
 
@@ -53,16 +52,29 @@ impl Oracle<'_> {
         spectrum.map_or(Vec::new(), |s| self.axis(s.wavelength, s.cells, |l| l))
     }
 
-    /// A weight for every node, `W_n`.
-    fn weights(&self, spectrum: &Spectrum, wavelength: f64) -> Vec<f64> {
+    /// Weights of the nodes of a term, `W_g,n`.
+    fn weights(&self, spectrum: &Spectrum, term: usize) -> Vec<f64> {
         let mut weights = vec![0.0; self.n.w];
-        for (cell, share) in piecewise(&self.cells(), wavelength) {
-            for tap in cell * spectrum.taps..(cell + 1) * spectrum.taps {
-                let node = self.integer(spectrum.tap_node, tap);
-                weights[node] += share * self.f32(spectrum.tap_weight, tap);
-            }
+        for tap in term * spectrum.taps..(term + 1) * spectrum.taps {
+            let node = self.integer(spectrum.tap_node, tap);
+            weights[node] += self.f32(spectrum.tap_weight, tap);
         }
         weights
+    }
+
+    /// The terms of a cell with `term_weight_g`.
+    fn terms(&self, spectrum: &Spectrum, cell: usize) -> Vec<(usize, f64)> {
+        let [first, end] = [cell, cell + 1].map(|c| self.integer(spectrum.first_term, c));
+        let weight = |g| (g, self.f32(spectrum.term_weight, g));
+        (first..end).map(weight).collect()
+    }
+
+    /// `L_g`, from radiance at the nodes that is not zero everywhere.
+    fn term(&self, spectrum: &Spectrum, term: usize, values: &[f64]) -> f64 {
+        let brightest = values.iter().copied().fold(0.0, f64::max);
+        let weights = self.weights(spectrum, term).into_iter().zip(values);
+        let logarithms = weights.map(|(w, l)| w * l.max(brightest * 2f64.powi(-27)).ln());
+        logarithms.sum::<f64>().exp()
     }
 
     /// Radiance between the nodes, from that at the nodes.
@@ -70,14 +82,17 @@ impl Oracle<'_> {
         let Some(spectrum) = self.spectrum() else {
             return self.curve(values, wavelength);
         };
-        let weights = self.weights(&spectrum, wavelength);
-        let pairs = || weights.iter().zip(values).filter(|(w, _)| **w != 0.0);
-        if pairs().all(|(_, l)| *l > 0.0) {
-            return pairs().map(|(w, l)| w * l.ln()).sum::<f64>().exp();
+        if values.iter().all(|l| *l == 0.0) {
+            return 0.0;
         }
-        let above: f64 = pairs().map(|(w, l)| w.max(0.0) * l).sum();
-        let below: f64 = pairs().map(|(w, _)| w.max(0.0)).sum();
-        if below > 0.0 { above / below } else { 0.0 }
+        let cell = |c| -> f64 {
+            let terms = self.terms(&spectrum, c).into_iter();
+            terms
+                .map(|(g, share)| share * self.term(&spectrum, g, values))
+                .sum()
+        };
+        let around = piecewise(&self.cells(), wavelength).into_iter();
+        around.map(|(c, t)| t * cell(c).ln()).sum::<f64>().exp()
     }
 
     fn curve(&self, values: &[f64], wavelength: f64) -> f64 {
@@ -97,23 +112,36 @@ impl Oracle<'_> {
     pub fn mixed_stokes(&self, values: &[[f64; 3]], wavelength: f64) -> [f64; 3] {
         let lights: Vec<f64> = values.iter().map(|v| v[0]).collect();
         let light = self.mixed(&lights, wavelength);
-        let weights = match self.spectrum() {
-            Some(spectrum) => self.weights(&spectrum, wavelength),
-            None => {
-                let nodes = self.nodes();
-                let mut weights = vec![0.0; self.n.w];
-                for (i, w) in hermite(&nodes, wavelength) {
-                    weights[i] = w;
-                }
-                weights
-            }
-        };
+        if light == 0.0 {
+            return [0.0; 3];
+        }
         let [q, u] = [1, 2].map(|part| -> f64 {
-            let lit = weights.iter().zip(values).filter(|(_, v)| v[0] > 0.0);
-            lit.map(|(w, v)| w * v[part] / v[0]).sum()
+            let ratio = |v: &[f64; 3]| if v[0] > 0.0 { v[part] / v[0] } else { 0.0 };
+            let ratios: Vec<f64> = values.iter().map(ratio).collect();
+            self.mixed_ratio(&ratios, &lights, wavelength)
         });
         let share = light / q.hypot(u).max(1.0);
         [light, share * q, share * u]
+    }
+
+    /// Q/L or U/L between the nodes.
+    fn mixed_ratio(&self, ratios: &[f64], lights: &[f64], wavelength: f64) -> f64 {
+        let Some(spectrum) = self.spectrum() else {
+            let curve = hermite(&self.nodes(), wavelength).into_iter();
+            return curve.map(|(i, w)| w * ratios[i]).sum();
+        };
+        let cell = |c| -> f64 {
+            let (mut above, mut below) = (0.0, 0.0);
+            for (g, share) in self.terms(&spectrum, c) {
+                let light = share * self.term(&spectrum, g, lights);
+                let weights = self.weights(&spectrum, g).into_iter().zip(ratios);
+                above += light * weights.map(|(w, r)| w * r).sum::<f64>();
+                below += light;
+            }
+            above / below
+        };
+        let around = piecewise(&self.cells(), wavelength).into_iter();
+        around.map(|(c, t)| t * cell(c)).sum()
     }
 
     /// Transmittance over a distance from the observer at a wavelength of the cells.
@@ -133,16 +161,12 @@ impl Oracle<'_> {
             (0..self.n.k).map(|k| coefficient(k) * columns[k]).sum()
         };
         let lines = |cell: usize| -> f64 {
-            let terms = cell * spectrum.terms..(cell + 1) * spectrum.terms;
-            terms
-                .map(|g| {
-                    let along = |k: usize| {
-                        self.f32(spectrum.term_extinction, g * self.n.k + k) * columns[k]
-                    };
-                    let depth: f64 = (0..self.n.k).map(along).sum();
-                    self.f32(spectrum.term_weight, g) * (-depth).exp()
-                })
-                .sum()
+            let passed = |(g, share): (usize, f64)| {
+                let along =
+                    |k: usize| self.f32(spectrum.term_extinction, g * self.n.k + k) * columns[k];
+                share * (-(0..self.n.k).map(along).sum::<f64>()).exp()
+            };
+            self.terms(&spectrum, cell).into_iter().map(passed).sum()
         };
         let mean = |of: &dyn Fn(usize) -> f64| -> f64 {
             cells.iter().map(|&(cell, share)| share * of(cell)).sum()
