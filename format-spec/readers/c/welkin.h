@@ -3,9 +3,11 @@
  * In exactly one C file: #define WELKIN_IMPLEMENTATION, then include this header. Link with -lm.
  *
  * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and
- * every number of the file is checked before use. What a file stores for its own wavelengths (nodes) comes as arrays,
- * what lies between them one wavelength at a time, from functions with names in _at. Bytes may be unaligned; the host may have either byte order.
+ * every number of the file is checked before use. Bytes may be unaligned; the host may have either byte order.
  * Numbers must be IEEE 754, so do not compile the implementation with -ffast-math.
+ *
+ * Arrays of results belong to the wavelengths that the file stores, its nodes. Functions whose names end in _at answer
+ * at any wavelength in its range.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
@@ -787,7 +789,8 @@ static int welkin__terms_are_good(const welkin_file *f, const welkin_spectrum *s
         for (g = 0; g < s->terms; g++) sum += (double)welkin__f32(s->term_weight + 4 * (i + g));
         if (!welkin__within(sum - 1, -1e-5, 1e-5)) return 0;
     }
-    return welkin__f32s_are_within(s->term_weight, terms, 0, 1) && welkin__f32s_are_within(s->term_extinction, terms * f->constituents, 0, 1e6);
+    return welkin__f32s_are_within(s->term_weight, terms, 0, 1) &&
+           welkin__f32s_are_within(s->term_extinction, terms * f->constituents, 0, 1e6);
 }
 
 /* Sets where the tables are, and checks them; the counts are in their ranges and the length is right. */
@@ -850,7 +853,8 @@ static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t le
     welkin__find_ranks(file);
     if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
     file->spectrum.error = welkin__read_spectrum(file, &file->spectrum);
-    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM)) return WELKIN_ERROR_VALUE;
+    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM))
+        return WELKIN_ERROR_VALUE;
     file->metadata = (const char *)(file->bytes + file->metadata_at);
     return WELKIN_OK;
 }
