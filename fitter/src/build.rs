@@ -41,7 +41,7 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let fit = fit_all(plan, fitting, &store, &chunks)?;
     let polarisation = fit_polarisation(plan, fitting, &store, &solved, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
-    let spectrum = spectrum::pack(work, &solved)?;
+    let spectrum = spectrum::pack(plan, work, &solved)?;
     let (mut head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
     head.xyz = spectrum.xyz;
     let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
@@ -279,7 +279,12 @@ pub(crate) fn radiance_file(
 ) -> Result<(Head, Vec<format::Chunk>)> {
     let air = |s: &Solved| AirTables::new(&s.medium, s.light.spherical_albedo);
     let airs: Vec<AirTables> = solved.iter().map(air).collect();
-    let head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
+    let head = pack::head(
+        (&plan.grid, &plan.coverage),
+        &airs,
+        &solved[0].gatherer(),
+        "{}".into(),
+    )?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let medium = &solved[0].medium;
     let planet = crate::column::planet(&medium.atmosphere);

@@ -1,9 +1,8 @@
 //! What goes into a model file: the head with axes, optics and colour, and the factor matrices as splines.
 
 use crate::atmosphere::table::Table;
-use crate::dataset::{Grid, WAVELENGTHS};
+use crate::dataset::{Coverage, Grid};
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
-use crate::spectrum;
 use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
 use faer::Mat;
@@ -34,7 +33,7 @@ impl AirTables {
 /// Assembles the head, without colour. `airs` has one entry per visibility of the grid; `gatherer` gives the phase
 /// functions.
 pub fn head(
-    grid: &Grid,
+    (grid, coverage): (&Grid, &Coverage),
     airs: &[AirTables],
     gatherer: &Gatherer,
     metadata: String,
@@ -44,7 +43,7 @@ pub fn head(
         include_str!("../data/solar_irradiance_1nm.csv"),
     )?;
     let sun = solar.curve("wavelength_nm", "g173")?;
-    let [first, last] = spectrum::RANGE;
+    let [first, last] = coverage.range();
     let samples = (last - first) as usize + 1;
     let wide = |s: &Spectrum| s.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
     Ok(Head {
@@ -59,7 +58,7 @@ pub fn head(
         },
         phi_intervals: grid.phi.intervals,
         elevation: grid.elevation,
-        wavelengths: WAVELENGTHS.to_vec(),
+        wavelengths: coverage.wavelengths().to_vec(),
         altitudes: grid.altitudes.clone(),
         visibilities: grid.visibilities.clone(),
         constituents: airs[0].extinction.len(),

@@ -1,15 +1,17 @@
 //! `welkin-fit spectrum`: what lies between the nodes, learned and judged.
 
+use super::plan::PlanArgs;
 use anyhow::{Context, Result};
 use clap::Subcommand;
 use std::path::PathBuf;
 use welkin::Model;
 use welkin::output::replace_file;
-use welkin_fitter::dataset::{NODES, Store};
+use welkin_fitter::dataset::Store;
 use welkin_fitter::spectrum::g173;
 use welkin_fitter::spectrum::judge::{csv, judge};
 use welkin_fitter::spectrum::walk::Walk;
 use welkin_fitter::spectrum::{Lesson, held_out_table, lesson, quantiles};
+use welkin_fitter::successive_orders::NW;
 
 /// Learns what lies between the nodes, or judges a model there.
 #[derive(clap::Args)]
@@ -22,15 +24,13 @@ pub struct Args {
 enum Action {
     /// Learn the weights of the nodes from traced spectra, and print how far spectra are off that were held out.
     Learn {
-        /// Folder for finished work units.
-        #[arg(long, default_value = "work")]
-        work: PathBuf,
+        #[command(flatten)]
+        plan: PlanArgs,
     },
     /// Leave out the nodes that are used least, one after the other, and print what that costs: CSV.
     Nodes {
-        /// Folder for finished work units.
-        #[arg(long, default_value = "work")]
-        work: PathBuf,
+        #[command(flatten)]
+        plan: PlanArgs,
         /// Where to stop.
         #[arg(long, default_value_t = 10)]
         fewest: usize,
@@ -86,11 +86,17 @@ struct JudgeArgs {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     match &args.action {
-        Action::Learn { work } => {
-            let all: Vec<usize> = (0..NODES.len()).collect();
-            print!("{}", held_out_table(&lesson(work)?.errors(&all)));
+        Action::Learn { plan } => {
+            let all: Vec<usize> = (0..NW).collect();
+            print!(
+                "{}",
+                held_out_table(&lesson(&plan.plan()?, &plan.work)?.errors(&all))
+            );
         }
-        Action::Nodes { work, fewest } => print!("{}", fewer_nodes(&lesson(work)?, *fewest)),
+        Action::Nodes { plan, fewest } => {
+            let lesson = lesson(&plan.plan()?, &plan.work)?;
+            print!("{}", fewer_nodes(&lesson, *fewest));
+        }
         Action::G173 { work } => {
             let store = Store::open(work, "g173 1")?;
             print!("{}", g173::csv(&g173::compare(&store)?));
@@ -105,7 +111,7 @@ fn fewer_nodes(lesson: &Lesson, fewest: usize) -> String {
     let mut out = String::from(
         "nodes,from_nm,to_nm,day_median,day_p95,day_p99,twilight_median,twilight_p95,twilight_p99\n",
     );
-    let mut nodes: Vec<usize> = (0..NODES.len()).collect();
+    let mut nodes: Vec<usize> = (0..NW).collect();
     loop {
         let errors = lesson.errors(&nodes);
         for [from, to] in [

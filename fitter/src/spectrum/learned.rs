@@ -5,8 +5,9 @@ use super::training::{Training, lights};
 use super::weights::{FLOOR, Taps, Target, floored, learn, value};
 use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
-use crate::dataset::{NODES, Sample, Store};
+use crate::dataset::{Coverage, Sample, Store};
 use crate::progress::bar;
+use crate::successive_orders::NW;
 use anyhow::Result;
 use rayon::prelude::*;
 
@@ -42,6 +43,7 @@ const DARK: f64 = 1e-13;
 
 /// Traced spectra, ready to be learned from.
 pub struct Lesson {
+    coverage: Coverage,
     cells: Vec<Cell>,
     lights: Vec<Monochromatic>,
     /// Weight of each term, and the cell that it belongs to.
@@ -60,24 +62,21 @@ pub struct Lesson {
 
 impl Training {
     /// Spectra from `store`, which are traced if need be.
-    pub fn lesson(&self, store: &Store, cells: Vec<Cell>) -> Result<Lesson> {
+    pub fn lesson(&self, store: &Store, coverage: &Coverage, cells: Vec<Cell>) -> Result<Lesson> {
+        let name = nodes_name(coverage);
         let lights = lights(&cells);
-        let sets = lights.len().div_ceil(NODES.len());
+        let sets = lights.len().div_ceil(NW);
         let progress = bar(self.visibilities.len() * (sets + 1), "tracing spectra");
         let (mut samples, mut nodes) = (vec![], vec![]);
         let mut radiance = vec![vec![]; lights.len()];
         for &visibility in &self.visibilities {
-            let traced = self.unit(store, visibility, &NODES, &nodes_name())?;
+            let traced = self.unit(store, visibility, &coverage.nodes, &name)?;
             progress.inc(1);
             nodes.extend(traced.iter().map(|s| floored(&s.radiance)));
             samples.extend(traced);
-            for (set, part) in lights.chunks(NODES.len()).enumerate() {
+            for (set, part) in lights.chunks(NW).enumerate() {
                 let traced = self.unit(store, visibility, part, &set.to_string())?;
-                for (k, term) in radiance[set * NODES.len()..]
-                    .iter_mut()
-                    .take(part.len())
-                    .enumerate()
-                {
+                for (k, term) in radiance[set * NW..].iter_mut().take(part.len()).enumerate() {
                     term.extend(traced.iter().map(|s| s.radiance[k]));
                 }
                 progress.inc(1);
@@ -92,6 +91,7 @@ impl Training {
         };
         let terms: Vec<(f64, usize)> = cells.iter().enumerate().flat_map(of_cell).collect();
         Ok(Lesson {
+            coverage: *coverage,
             whole: sums(&terms, &radiance, cells.len()),
             held_out: (0..samples.len())
                 .map(|s| s / self.counts[0] % 3 == 2)
@@ -109,7 +109,7 @@ impl Training {
 impl Lesson {
     /// Learns from everything; errors are those of learning without what is held out.
     pub fn learn(self) -> Learned {
-        let all: Vec<usize> = (0..NODES.len()).collect();
+        let all: Vec<usize> = (0..NW).collect();
         let errors = self.errors(&all);
         let used = self.used(|_| true);
         let taps = self.taps(&all, &used);
@@ -182,7 +182,7 @@ impl Lesson {
 
     /// Taps of all terms, learned from the samples `used`.
     fn taps(&self, nodes: &[usize], used: &[usize]) -> Vec<Taps> {
-        let lights: Vec<Monochromatic> = nodes.iter().map(|&n| NODES[n]).collect();
+        let lights: Vec<Monochromatic> = nodes.iter().map(|&n| self.coverage.nodes[n]).collect();
         let pick = |&s: &usize| nodes.iter().map(|&n| self.nodes[s][n]).collect();
         let x: Vec<Vec<f64>> = used.iter().map(pick).collect();
         let one = |g: usize| {
@@ -209,10 +209,10 @@ impl Lesson {
 }
 
 /// Units of other nodes have other names.
-fn nodes_name() -> String {
+fn nodes_name(coverage: &Coverage) -> String {
     format!(
         "nodes-{:08x}",
-        crc32fast::hash(format!("{NODES:?}").as_bytes())
+        crc32fast::hash(format!("{:?}", coverage.nodes).as_bytes())
     )
 }
 

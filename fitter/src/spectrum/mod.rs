@@ -12,6 +12,5 @@ pub mod training;
 pub mod walk;
 pub mod weights;
 
-pub use cells::RANGE;
 pub use learned::{Lesson, held_out_table, quantiles};
 pub use pack::{Packed, lesson, pack};

@@ -3,10 +3,10 @@
 use super::cells::{Cell, cells};
 use super::colour::{self, Observer};
 use super::learned::{Learned, Lesson};
-use super::training::Training;
 use super::weights::TAPS;
 use crate::atmosphere::{Monochromatic, Particles, real_at};
 use crate::dataset::Store;
+use crate::units::Plan;
 use crate::units::Solved;
 use anyhow::Result;
 use std::path::Path;
@@ -21,8 +21,8 @@ pub struct Packed {
 }
 
 /// Learns what lies between the nodes, keeping traced spectra in the folder `work`, for the visibilities of `solved`.
-pub fn pack(work: &Path, solved: &[Solved]) -> Result<Packed> {
-    let learned = lesson(work)?.learn();
+pub fn pack(plan: &Plan, work: &Path, solved: &[Solved]) -> Result<Packed> {
+    let learned = lesson(plan, work)?.learn();
     let cells = &learned.cells;
     let mut spectrum = Spectrum {
         taps: TAPS,
@@ -60,11 +60,10 @@ pub fn pack(work: &Path, solved: &[Solved]) -> Result<Packed> {
 }
 
 /// Spectra of all visibilities that are learned from.
-pub fn lesson(work: &Path) -> Result<Lesson> {
-    let training = Training::default();
-    let cells = cells()?;
-    let store = Store::open(work, training.key(&cells))?;
-    training.lesson(&store, cells)
+pub fn lesson(plan: &Plan, work: &Path) -> Result<Lesson> {
+    let cells = cells(&plan.coverage)?;
+    let store = Store::open(work, plan.training.key(&cells))?;
+    plan.training.lesson(&store, &plan.coverage, cells)
 }
 
 fn first_terms(cells: &[Cell]) -> Vec<u32> {

@@ -41,6 +41,24 @@ impl Default for Training {
 }
 
 impl Training {
+    /// Coarse, to try things with.
+    pub fn draft() -> Self {
+        Self {
+            visibilities: vec![40_000.0],
+            altitudes: vec![0.5, 8000.0],
+            counts: [16, 9],
+            settings: Settings {
+                up: 4,
+                down: 3,
+                azimuths: 4,
+                first: 1,
+                orders: 3,
+                fineness: 12.0,
+            },
+            fineness: 4.0,
+        }
+    }
+
     /// What the units depend on.
     pub fn key(&self, cells: &[Cell]) -> String {
         format!("{self:?} {:?}", lights(cells))

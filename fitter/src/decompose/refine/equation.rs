@@ -2,7 +2,6 @@
 
 use super::factors::{Basis, row};
 use super::normal::Normal;
-use crate::dataset::WAVELENGTHS;
 use crate::decompose::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use rand_pcg::Pcg64Mcg;
@@ -17,17 +16,6 @@ const FIELD_WEIGHT: f32 = 0.4;
 const DIFFUSE: usize = 3;
 /// Radiance below this share of its level counts less: nobody sees it, and it would cost what all see.
 const DARK: f32 = 1e-4;
-/// Nodes of visible light.
-const VISIBLE: std::ops::RangeInclusive<f64> = 375.0..=745.0;
-
-/// Root of the weight of a node.
-fn importance(wavelength: usize) -> f32 {
-    match VISIBLE.contains(&WAVELENGTHS[wavelength]) {
-        true => 1.0,
-        false => 0.75,
-    }
-}
-
 /// A linear equation: the radiance (or one field) at a site, a wavelength and an albedo, relative to what was traced.
 pub struct Equation {
     /// Index of the wavelength.
@@ -49,7 +37,9 @@ impl Equation {
             wavelength,
             share,
             target: 1.0,
-            weight: chunk.weight(site) * importance(wavelength) * (brightness / DARK).min(1.0),
+            weight: chunk.weight(site)
+                * chunk.importance(wavelength)
+                * (brightness / DARK).min(1.0),
         }
     }
 
