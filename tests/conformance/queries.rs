@@ -22,16 +22,25 @@ const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
+/// The same of files with a spectrum, which are asked for several wavelengths each.
+const SPECTRAL: usize = 9;
+
 /// The same of files that show nothing new about evaluation.
 const BRIEF: usize = 2;
 
 /// All queries of a file.
 pub fn of(case: &Case) -> Vec<Value> {
-    let spread_queries = if case.brief { BRIEF } else { SPREAD };
+    // What is between nodes does not depend on where they are special.
+    let spectral = !Oracle::new(&case.raw).cells().is_empty();
+    let spread_queries = match (case.brief, spectral) {
+        (true, _) => BRIEF,
+        (_, true) => SPECTRAL,
+        _ => SPREAD,
+    };
     let mut all: Vec<Query> = (0..spread_queries)
         .map(|i| spread(&case.bytes, i))
         .collect();
-    if !case.brief {
+    if !case.brief && !spectral {
         all.extend(special(&case.bytes));
     }
     if let Some(&("transmittance" | "aerial-perspective")) = case.needs.first() {
