@@ -190,7 +190,7 @@ fn edges_of_rules_are_within_them() {
     let mut edge = spectrum(&head);
     edge.tap_weight[..3].copy_from_slice(&[1e3, -1e3, -0.0]);
     edge.extinction[0] = -0.0;
-    edge.term_weight[0] += 5e-6;
+    edge.term_weight[1] += 5e-6;
     edge.term_extinction[3] = 1e6;
     edge.wavelength[0] = head.solar_start;
     edge.wavelength[8] = 800.0;

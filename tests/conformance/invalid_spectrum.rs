@@ -51,9 +51,20 @@ fn case(name: &'static str, shows: &'static str, bytes: Vec<u8>) -> Case {
     }
 }
 
+/// One interval on every axis, one field.
+fn tiny() -> Head {
+    let mut head = small_spectral(&[0.0], &[50e3]);
+    head.up.intervals = 1;
+    head.down.intervals = 1;
+    head.phi_intervals = 1;
+    head.elevation.intervals = 1;
+    head.fields.truncate(1);
+    head
+}
+
 /// A file with a spectrum, at one altitude and one visibility.
 fn good() -> (Head, Vec<u8>) {
-    let head = small_spectral(&[0.0], &[50e3]);
+    let head = tiny();
     let chunks = with_spectrum(&head, common::chunks(&head));
     let bytes = encode(&head, &chunks).expect("a valid model");
     (head, bytes)
@@ -336,7 +347,7 @@ fn tables() -> Vec<Case> {
 
 /// Of two cells with 64 terms the first gets one of the second's.
 fn many_terms() -> Case {
-    let head = small_spectral(&[0.0], &[50e3]);
+    let head = tiny();
     let mut spectrum = common::spectrum::spectrum(&head);
     spectrum.wavelength = vec![330.0, 750.0];
     spectrum.first_term = vec![0, 64, 128];

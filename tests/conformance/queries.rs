@@ -22,16 +22,25 @@ const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
+/// The same of files with a spectrum, which are asked for several wavelengths each.
+const SPECTRAL: usize = 9;
+
 /// The same of files that show nothing new about evaluation.
 const BRIEF: usize = 2;
 
 /// All queries of a file.
 pub fn of(case: &Case) -> Vec<Value> {
-    let spread_queries = if case.brief { BRIEF } else { SPREAD };
+    // What is between nodes does not depend on where they are special.
+    let spectral = !Oracle::new(&case.raw).cells().is_empty();
+    let spread_queries = match (case.brief, spectral) {
+        (true, _) => BRIEF,
+        (_, true) => SPECTRAL,
+        _ => SPREAD,
+    };
     let mut all: Vec<Query> = (0..spread_queries)
         .map(|i| spread(&case.bytes, i))
         .collect();
-    if !case.brief {
+    if !case.brief && !spectral {
         all.extend(special(&case.bytes));
     }
     if let Some(&("transmittance" | "aerial-perspective")) = case.needs.first() {
@@ -252,19 +261,20 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     queries
 }
 
-/// Wavelengths that only files with a spectrum are asked for: the ends, another cell, one between cells, and a node.
+/// Wavelengths that only files with a spectrum are asked for: a cell, ends among them, one between cells, and a node.
 fn cells(oracle: &Oracle, place: f64) -> Vec<f64> {
     let cells = oracle.cells();
-    let Some((&first, &last)) = cells.first().zip(cells.last()) else {
+    let Some(last) = cells.len().checked_sub(1) else {
         return Vec::new();
     };
-    let cell = (place * 0.999 * (cells.len() - 1) as f64) as usize;
-    let between = cells[cell] + 0.382 * (cells[cell + 1] - cells[cell]);
+    let cell = (place * last as f64).round() as usize;
+    let before = cell.min(last - 1);
+    let between = cells[before] + 0.382 * (cells[before + 1] - cells[before]);
     let nodes = oracle.nodes().into_iter();
-    let node = nodes.filter(|node| (first..=last).contains(node)).nth(1);
-    [first, last, cells[cell], between]
+    let node = nodes.filter(|node| (cells[0]..=cells[last]).contains(node));
+    [cells[cell], between]
         .into_iter()
-        .chain(node)
+        .chain(node.skip(1).take(1))
         .collect()
 }
 
