@@ -11,22 +11,42 @@ pub struct Fitting {
     pub refinements: usize,
     /// The same for the polarisation; without components there is none.
     pub polarisation: Options,
+    /// Components more for nodes that gases absorb strongly, per component of the others.
+    pub strong: f64,
+}
+
+impl Fitting {
+    /// For nodes that gases absorb strongly.
+    pub fn strong(&self) -> Options {
+        self.share(self.options)
+    }
+
+    /// The same for the polarisation.
+    pub fn strong_polarisation(&self) -> Options {
+        self.share(self.polarisation)
+    }
+
+    fn share(&self, options: Options) -> Options {
+        let rank = (self.strong * options.rank as f64).ceil() as usize;
+        Options { rank, ..options }
+    }
 }
 
 impl Default for Fitting {
     fn default() -> Self {
         Self {
             options: Options {
-                rank: 160,
+                rank: 128,
                 sweeps: 150,
                 seed: 1,
             },
             refinements: 12,
             polarisation: Options {
-                rank: 48,
+                rank: 38,
                 sweeps: 400,
                 seed: 1,
             },
+            strong: 0.25,
         }
     }
 }

@@ -86,7 +86,21 @@ pub const SHORT_WAVE_INFRARED: Coverage = Coverage {
     steps: &[(1100.0, 2500.0, 10.0)],
 };
 
+/// Optical depth of a vertical path from which on gases absorb strongly: light under them varies unlike all other.
+const STRONG: f64 = 0.5;
+/// Precipitable water, cm.
+const WATER: f64 = 1.42;
+
 impl Coverage {
+    /// Indices of the nodes that gases absorb little, and of the others.
+    pub fn groups(&self) -> [Vec<usize>; 2] {
+        let strong = |n: &usize| {
+            let node = self.nodes[*n];
+            node.water * WATER + node.mixed > STRONG
+        };
+        (0..NW).partition(|n| !strong(n)).into()
+    }
+
     /// Shortest and longest wavelength of the cells, nm.
     pub fn range(&self) -> [f64; 2] {
         [self.steps[0].0, self.steps[self.steps.len() - 1].1]

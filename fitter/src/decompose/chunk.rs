@@ -32,18 +32,13 @@ const EVEN: f64 = 0.4;
 /// How much more sites within 15° of the sun count.
 const AUREOLE: f32 = 5.0;
 
-/// Visible light, nm.
-const VISIBLE: std::ops::RangeInclusive<f64> = 375.0..=745.0;
-/// Root of the weight of other light.
-const INVISIBLE: f32 = 0.75;
-
+/// Root of the weight of nodes by their wavelengths, nm: ozone makes the shortest hardest to fit, and of the infrared
+/// less is asked.
 fn importance(wavelengths: &[f64]) -> Spectrum {
-    std::array::from_fn(|w| {
-        if VISIBLE.contains(&wavelengths[w]) {
-            1.0
-        } else {
-            INVISIBLE
-        }
+    std::array::from_fn(|w| match wavelengths[w] {
+        ..320.0 => 1.4,
+        ..745.0 => 1.0,
+        _ => 0.75,
     })
 }
 

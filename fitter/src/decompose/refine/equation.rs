@@ -83,16 +83,14 @@ impl Equation {
     }
 }
 
-/// A third of the wavelengths.
-const THIRD: usize = NW / 3;
-
-/// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one
-/// of them.
-pub fn equations(chunk: &Chunk, site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
+/// The equations that are asked at a site: the radiance at three of the `nodes`, one of each third of them, and a random
+/// albedo each, one field at one of them.
+pub fn equations(chunk: &Chunk, nodes: &[usize], site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
     let draw = rng.next_u64() as usize;
     let radiance = |k: usize| {
         let albedo = ALBEDOS[(draw >> (8 + 8 * k)) % 3];
-        Equation::radiance(chunk, site, draw % THIRD + THIRD * k, albedo)
+        let third = k * nodes.len() / 3..((k + 1) * nodes.len()).div_ceil(3);
+        Equation::radiance(chunk, site, nodes[third.start + draw % third.len()], albedo)
     };
     let field = radiance(draw % 3).field(chunk, site, (draw >> 40) % FIELDS);
     [radiance(0), radiance(1), radiance(2), field]
