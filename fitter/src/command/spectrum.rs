@@ -5,10 +5,9 @@ use anyhow::{Context, Result};
 use clap::Subcommand;
 use std::path::PathBuf;
 use welkin::Model;
-use welkin::output::replace_file;
 use welkin_fitter::dataset::Store;
 use welkin_fitter::spectrum::g173;
-use welkin_fitter::spectrum::judge::{csv, judge};
+use welkin_fitter::spectrum::judge::{bands, csv, judge, summary};
 use welkin_fitter::spectrum::walk::Walk;
 use welkin_fitter::spectrum::{Lesson, held_out_table, lesson, quantiles};
 use welkin_fitter::successive_orders::NW;
@@ -78,9 +77,20 @@ struct JudgeArgs {
     /// Finite segments.
     #[arg(long, default_value_t = 300)]
     segments: usize,
-    /// Where the table goes; printed otherwise.
-    #[arg(long)]
-    csv: Option<PathBuf>,
+    /// What is printed.
+    #[arg(long, value_enum, default_value_t = Table::All)]
+    table: Table,
+}
+
+/// Tables of a judgement, all CSV.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Table {
+    /// Every quantity by sun and 20 nm.
+    All,
+    /// Radiance by 20 nm.
+    Bands,
+    /// Every quantity over all wavelengths.
+    Summary,
 }
 
 /// Runs the command.
@@ -145,13 +155,13 @@ impl JudgeArgs {
                 .collect(),
         };
         let store = Store::open(&self.work, format!("{walk:?}"))?;
-        let table = csv(&judge(&model, &walk, &walk.trace(&store)?)?);
-        match &self.csv {
-            Some(path) => Ok(replace_file(path, table.as_bytes())?),
-            None => {
-                print!("{table}");
-                Ok(())
-            }
-        }
+        let judgement = judge(&model, &walk, &walk.trace(&store)?)?;
+        let table = match self.table {
+            Table::All => csv(&judgement),
+            Table::Bands => bands(&judgement),
+            Table::Summary => summary(&judgement),
+        };
+        print!("{table}");
+        Ok(())
     }
 }

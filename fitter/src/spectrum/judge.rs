@@ -272,3 +272,90 @@ fn row(
         );
     }
 }
+
+/// Rows of a page: radiance by 20 nm, median and p95 per class of suns.
+pub fn bands(judgement: &Judgement) -> String {
+    let classes = SUNS
+        .map(|(name, _)| format!("{name}: median,… p95,… p99"))
+        .join(",");
+    let mut out = format!("radiance at,{classes}\n");
+    let wavelengths = || judgement.radiance.iter().map(|d| d.wavelength);
+    let last = wavelengths().fold(0.0, f64::max);
+    let mut from = BAND * (wavelengths().fold(f64::MAX, f64::min) / BAND).floor();
+    while from <= last {
+        let band = |d: &&Difference| (from..from + BAND).contains(&d.wavelength);
+        let cells = SUNS.map(|(_, belongs)| {
+            let class = judgement
+                .radiance
+                .iter()
+                .filter(band)
+                .filter(|d| belongs(d.sun));
+            percentages(Quantiles::of(class.map(|d| d.error)))
+        });
+        out += &format!("{from}..{} nm,{}\n", from + BAND, cells.join(","));
+        from += BAND;
+    }
+    out
+}
+
+fn percentages(q: Option<Quantiles>) -> String {
+    let Some(q) = q else {
+        return ",,".into();
+    };
+    [q.median, q.p95, q.p99]
+        .map(|v| two_digits(100.0 * v, " %"))
+        .join(",")
+}
+
+fn two_digits(value: f64, unit: &str) -> String {
+    let decimals = (1.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0);
+    format!("{value:.*}{unit}", decimals as usize)
+}
+
+/// Rows of a page: all quantities over visible light and over all, by day and in twilight.
+pub fn summary(judgement: &Judgement) -> String {
+    let mut out = String::from("held out between the nodes,median,p95,p99,max\n");
+    let quantities = [
+        ("radiance", &judgement.radiance, 100.0, " %"),
+        ("degree of linear polarisation", &judgement.degree, 1.0, ""),
+        (
+            "in-scattering of segments",
+            &judgement.in_scattering,
+            100.0,
+            " %",
+        ),
+        (
+            "transmittance of segments",
+            &judgement.transmittance,
+            1.0,
+            "",
+        ),
+    ];
+    let days: [SunClass; 2] = [("day", |e| e >= 0.0), ("twilight", |e| e < 0.0)];
+    for (name, all, scale, unit) in quantities {
+        for (sun, belongs) in days {
+            for (range, [from, to]) in [("300..760 nm", [300.0, 760.0]), ("beyond", [760.0, 9e9])] {
+                let inside =
+                    |d: &&Difference| belongs(d.sun) && (from..=to).contains(&d.wavelength);
+                let errors = all.iter().filter(inside).map(|d| d.error);
+                if let Some(q) = Quantiles::of(errors) {
+                    let cells =
+                        [q.median, q.p95, q.p99, q.max].map(|v| two_digits(scale * v, unit));
+                    out += &format!("\"{name}, {range}, {sun}\",{}\n", cells.join(","));
+                }
+            }
+        }
+    }
+    for (sun, belongs) in days {
+        let colours = judgement
+            .colour
+            .iter()
+            .filter(|c| belongs(c.0))
+            .map(|c| c.1);
+        if let Some(q) = Quantiles::of(colours) {
+            let cells = [q.median, q.p95, q.p99, q.max].map(|v| two_digits(v, ""));
+            out += &format!("\"ΔE00 of XYZ, {sun}\",{}\n", cells.join(","));
+        }
+    }
+    out
+}
