@@ -124,6 +124,7 @@ cfg_if::cfg_if! {
     if #[cfg(feature = "std")] {
         mod aerial_perspective;
         mod baked;
+        mod bands;
         mod budget;
         mod model;
         pub mod output;
@@ -139,6 +140,7 @@ cfg_if::cfg_if! {
         pub use baked::{
             BakeError, BakedColourSky, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
         };
+        pub use bands::{BandSky, Bands, PolarisedBandSky, Residual, Response};
         pub use budget::{Budget, Channels, Plan};
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;

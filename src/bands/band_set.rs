@@ -1,0 +1,134 @@
+//! The bands of a sensor on the nodes of a model.
+
+use super::fit::Fit;
+use super::projection::{Made, Projection};
+use super::residual::Residual;
+use super::response::Response;
+use super::spectral_axis::SpectralAxis;
+use super::transmittance_fit::TransmittanceFit;
+use crate::error::{Error, Result};
+use crate::model::{Model, NodeSubset, Nodes};
+
+/// The bands of a sensor, projected onto few wavelengths of a model: what is prepared with them, and asked, costs as
+/// much as those wavelengths and bands need, however many the model has.
+///
+/// The value of a band is that of its [`Response`]: ∫ R E L dλ in W m⁻² sr⁻¹, or spectral radiance in W m⁻² sr⁻¹ nm⁻¹
+/// for a normalised curve and for a single wavelength. It is a sum of the radiance at a few wavelengths of the model,
+/// with weights that are not negative and reproduce the integrals of typical skies to [`Bands::TOLERANCE`]
+/// ([`Bands::residuals`] says how well). Single wavelengths that no such sum gives to 0.1 % are interpolated as
+/// [`Sky::radiance_at`](crate::Sky::radiance_at) does. `Send + Sync`.
+///
+/// ```
+/// use welkin::{Bands, Conditions, Model, Response};
+///
+/// let model = Model::default_model()?;
+/// let red = Response::table(&[590.0, 620.0, 680.0], &[0.0, 1.0, 0.0])?;
+/// let blue = Response::table(&[420.0, 460.0, 500.0], &[0.0, 1.0, 0.0])?;
+/// let bands = model.bands(&[red.normalised(), blue.normalised(), Response::wavelength(550.0)])?;
+/// assert!(bands.residuals().iter().all(|residual| residual.p99 < 0.01));
+///
+/// let sky = model.band_sky(&Conditions::default(), &bands)?;
+/// let mut radiance = [0.0; 3]; // W m⁻² sr⁻¹ nm⁻¹
+/// sky.radiance([0.0, 0.0, 1.0], &mut radiance)?;
+/// assert!(radiance[1] > radiance[0]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Bands {
+    /// What tells the file that they are made for.
+    file: Vec<u8>,
+    nodes: NodeSubset,
+    projection: Projection,
+    residuals: Vec<Residual>,
+    air: TransmittanceFit,
+}
+
+impl Model {
+    /// Projects responses onto the wavelengths of the model. Takes some milliseconds, once for all conditions.
+    ///
+    /// A file without example spectra gives them by some of its own skies, for which their chunks are read.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for no response; [`Error::OutOfRange`] for one that reaches beyond the model
+    /// ([`Model::wavelength_range`]) and is not zero there; [`Error::MissingChunk`] if the file has no radiance; those
+    /// of damaged chunks.
+    pub fn bands(&self, responses: &[Response]) -> Result<Bands> {
+        if responses.is_empty() {
+            return Err(Error::invalid("responses", "there must be one at least"));
+        }
+        let axis = SpectralAxis::new(self)?;
+        let Fit { mut made, residuals } = Fit::new(self, &axis, responses)?;
+        let kept = renumber(&mut made);
+        let nodes = NodeSubset::new(self, kept);
+        Ok(Bands {
+            file: identity(self),
+            projection: Projection::new(nodes.kept().len(), &made),
+            nodes,
+            residuals,
+            air: TransmittanceFit::new(self, &axis, responses)?,
+        })
+    }
+}
+
+impl Bands {
+    /// What the 99th percentile of the residual of a curve is to keep, relative.
+    pub const TOLERANCE: f64 = super::fit::TOLERANCE;
+
+    /// How many bands there are.
+    #[expect(clippy::len_without_is_empty, reason = "there is always one")]
+    pub fn len(&self) -> usize {
+        self.projection.bands()
+    }
+
+    /// How far each band is from the integral over its response; 0 for wavelengths that are interpolated.
+    pub fn residuals(&self) -> &[Residual] {
+        &self.residuals
+    }
+
+    /// The wavelengths of the model that the bands are made of, nm.
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes.nodes().head.wavelengths
+    }
+
+    /// The nodes, if the bands are those of this model.
+    pub(crate) fn at(&self, model: &Model) -> Result<Nodes<'_>> {
+        self.check(model)?;
+        Ok(self.nodes.nodes())
+    }
+
+    /// Refuses models that the bands are not made for.
+    fn check(&self, model: &Model) -> Result<()> {
+        match self.file == identity(model) {
+            true => Ok(()),
+            false => Err(Error::invalid("bands", "were made for another model")),
+        }
+    }
+
+    pub(crate) fn projection(&self) -> &Projection {
+        &self.projection
+    }
+}
+
+/// The front of the head has the checksum of all of it, which those of the chunks are part of.
+fn identity(model: &Model) -> Vec<u8> {
+    const HEADER: usize = 128;
+    model.front()[..HEADER.min(model.front().len())].to_vec()
+}
+
+/// Numbers the nodes that count anew, and says which they were.
+fn renumber(made: &mut [Made]) -> Vec<usize> {
+    let taps = made.iter().flat_map(|made| made.taps());
+    let mut kept: Vec<usize> = taps.map(|tap| tap.0).collect();
+    if kept.is_empty() {
+        kept.push(0);
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    for made in made {
+        for tap in made.taps_mut() {
+            tap.0 = kept.binary_search(&tap.0).unwrap_or(0);
+        }
+    }
+    kept
+}
+impl Bands { #[doc(hidden)] pub fn describe(&self) { println!("exponentials {} {:?}", self.air.head.wavelengths.len(), self.air.weights); } }

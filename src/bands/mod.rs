@@ -1,0 +1,23 @@
+//! Bands of a sensor: response curves and single wavelengths, projected once onto few nodes of a model.
+//!
+//! `response` holds curves, `spectral_axis` knows what light and air are between nodes, `examples` typical spectra.
+//! `fit` finds weights of nodes for the light and `transmittance_fit` exponentials for the air, both with
+//! `few_columns` and `least_squares`; `projection` applies the weights, and the rest are the public faces.
+
+mod band_set;
+mod band_sky;
+mod examples;
+mod few_columns;
+mod fit;
+mod least_squares;
+mod projection;
+mod residual;
+mod response;
+mod spectral_axis;
+mod transmittance_fit;
+
+pub use band_set::Bands;
+pub use band_sky::{BandSky, PolarisedBandSky};
+pub(crate) use projection::Projection;
+pub use residual::Residual;
+pub use response::Response;
