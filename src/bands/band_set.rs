@@ -14,9 +14,10 @@ use crate::model::{Model, NodeSubset, Nodes};
 ///
 /// The value of a band is that of its [`Response`]: ∫ R E L dλ in W m⁻² sr⁻¹, or spectral radiance in W m⁻² sr⁻¹ nm⁻¹
 /// for a normalised curve and for a single wavelength. It is a sum of the radiance at a few wavelengths of the model,
-/// with weights that are not negative and reproduce the integrals of typical skies to [`Bands::TOLERANCE`]
-/// ([`Bands::residuals`] says how well). Single wavelengths that no such sum gives to 0.1 % are interpolated as
-/// [`Sky::radiance_at`](crate::Sky::radiance_at) does. `Send + Sync`.
+/// with weights that are not negative and reproduce the integrals of typical skies; where no such sum does to 0.2 %, a
+/// sum over a few wavelengths between them, at which the sky is interpolated as by
+/// [`Sky::radiance_at`](crate::Sky::radiance_at). [`Bands::residuals`] says how well; [`Bands::TOLERANCE`] is aimed at.
+/// `Send + Sync`.
 ///
 /// ```
 /// use welkin::{Bands, Conditions, Model, Response};
@@ -80,7 +81,7 @@ impl Bands {
         self.projection.bands()
     }
 
-    /// How far each band is from the integral over its response; 0 for wavelengths that are interpolated.
+    /// How far each band is from the integral over its response.
     pub fn residuals(&self) -> &[Residual] {
         &self.residuals
     }
@@ -117,18 +118,14 @@ fn identity(model: &Model) -> Vec<u8> {
 
 /// Numbers the nodes that count anew, and says which they were.
 fn renumber(made: &mut [Made]) -> Vec<usize> {
-    let taps = made.iter().flat_map(|made| made.taps());
-    let mut kept: Vec<usize> = taps.map(|tap| tap.0).collect();
+    let mut kept: Vec<usize> = made.iter().flat_map(Made::nodes).collect();
     if kept.is_empty() {
         kept.push(0);
     }
     kept.sort_unstable();
     kept.dedup();
-    for made in made {
-        for tap in made.taps_mut() {
-            tap.0 = kept.binary_search(&tap.0).unwrap_or(0);
-        }
-    }
+    let number = |node: usize| kept.binary_search(&node).unwrap_or(0);
+    made.iter_mut().for_each(|made| made.renumber(number));
     kept
 }
 impl Bands { #[doc(hidden)] pub fn describe(&self) { println!("exponentials {} {:?}", self.air.head.wavelengths.len(), self.air.weights); } }

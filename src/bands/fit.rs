@@ -3,18 +3,18 @@
 use super::examples::examples;
 use super::few_columns::{MOST, choose};
 use super::least_squares::{Problem, Weights};
-use super::projection::Made;
+use super::projection::{Made, Power};
+use super::quadrature::{quadrature, spread};
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::model::Model;
 
-/// p99 of the relative residual over the examples that weights of curves are to keep.
+/// p99 of the relative residual over the examples that weights are to keep.
 pub(super) const TOLERANCE: f64 = 5e-4;
-/// What a sum for a single wavelength may be off (p99); otherwise the taps of the format give it, which are right by
-/// definition.
-const SINGLE: f64 = 1e-3;
+/// Sums of nodes cost least: what they may be off (p99) before a band is made of wavelengths between the nodes.
+const SUM_TOLERANCE: f64 = 2e-3;
 
 /// What the bands are made of, with indices of the nodes of the model, and how far off.
 pub(super) struct Fit {
@@ -24,125 +24,120 @@ pub(super) struct Fit {
 
 impl Fit {
     pub fn new(model: &Model, axis: &SpectralAxis, responses: &[Response]) -> Result<Self> {
-        let examples = examples(model)?;
-        let bands: Result<Vec<Band>> = responses
-            .iter()
-            .map(|response| Band::new(model, axis, response, &examples))
-            .collect();
-        let bands = bands?;
-        let given = given(&bands);
-        let (fitted, problems): (Vec<usize>, Vec<Problem>) = (bands.iter().enumerate())
-            .filter_map(|(i, band)| Some((i, band.problem(&examples)?)))
-            .unzip();
-        let weights = choose(&problems, &given, TOLERANCE);
+        let examples = Examples::new(model, axis)?;
         let mut fit = Self {
-            residuals: vec![Residual::default(); bands.len()],
-            made: bands.into_iter().map(Band::into_taps).collect(),
+            made: Vec::new(),
+            residuals: Vec::new(),
         };
-        for ((band, problem), weights) in fitted.into_iter().zip(problems).zip(weights) {
-            let [median, p99] = problem.residuals(&weights, MOST);
-            fit.residuals[band] = Residual { median, p99 };
-            fit.made[band] = Made::Sum(weights);
+        let (mut sums, mut problems) = (Vec::new(), Vec::new());
+        for (band, response) in responses.iter().enumerate() {
+            let values = examples.integrals(response)?;
+            let problem = examples.over_nodes(&values);
+            let (made, residual) = match sum_is_enough(&problem) {
+                true => {
+                    sums.push(band);
+                    problems.push(problem);
+                    (Made::default(), Residual::default())
+                }
+                false => examples.between_nodes(response, &values),
+            };
+            fit.made.push(made);
+            fit.residuals.push(residual);
+        }
+        let weights = choose(&problems, &fit.nodes(), TOLERANCE);
+        for ((band, problem), weights) in sums.into_iter().zip(problems).zip(weights) {
+            fit.residuals[band] = residual(&problem, &weights);
+            fit.made[band].sum = weights;
         }
         Ok(fit)
     }
-}
 
-/// A band and what it is for each example.
-struct Band {
-    /// Irradiance and taps of a single wavelength that no sum of nodes gives.
-    taps: Option<(f64, Weights)>,
-    values: Vec<f64>,
-}
-
-impl Band {
-    fn new(
-        model: &Model,
-        axis: &SpectralAxis,
-        response: &Response,
-        examples: &[Vec<f64>],
-    ) -> Result<Self> {
-        let head = model.head();
-        let nodes = quadrature(model, axis, response)?;
-        let mut values = vec![0.0; examples.len()];
-        for &[wavelength, weight] in &nodes {
-            let taps = axis.weights(wavelength);
-            let share = weight * head.solar_irradiance_at(wavelength);
-            for (value, logarithms) in values.iter_mut().zip(examples) {
-                let logarithm: f64 = taps.iter().map(|&(n, w)| w * logarithms[n]).sum();
-                *value += share * logarithm.exp();
-            }
-        }
-        let mut band = Self { taps: None, values };
-        if let Some(wavelength) = response.single() {
-            let problem = band.problem(examples);
-            let sum = |p: &Problem| p.residuals(&p.solve(&all(p)), MOST)[1];
-            if problem.as_ref().is_none_or(|p| sum(p) > SINGLE) {
-                let irradiance = head.solar_irradiance_at(wavelength);
-                band.taps = Some((irradiance, axis.weights(wavelength)));
-            }
-        }
-        Ok(band)
-    }
-
-    /// The least-squares problem of relative residuals; none where taps make the band, or there is no light to fit.
-    fn problem(&self, examples: &[Vec<f64>]) -> Option<Problem> {
-        if self.taps.is_some() {
-            return None;
-        }
-        let rows: Vec<(&Vec<f64>, f64)> = (examples.iter().zip(&self.values))
-            .filter(|(_, value)| value.is_finite() && **value > 0.0)
-            .map(|(row, &value)| (row, value))
-            .collect();
-        let column = |n: usize| rows.iter().map(|(row, value)| row[n].exp() / value).collect();
-        let columns = (0..rows.first()?.0.len()).map(column).collect();
-        Some(Problem::new(columns, vec![1.0; rows.len()]))
-    }
-
-    fn into_taps(self) -> Made {
-        match self.taps {
-            Some((irradiance, taps)) => Made::Power(irradiance, taps),
-            None => Made::Sum(Vec::new()),
-        }
+    /// Nodes that are needed whatever else is.
+    fn nodes(&self) -> Vec<usize> {
+        let mut nodes: Vec<usize> = self.made.iter().flat_map(Made::nodes).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
     }
 }
 
-/// Nodes that the taps of single wavelengths need anyway.
-fn given(bands: &[Band]) -> Vec<usize> {
-    let taps = bands.iter().filter_map(|band| band.taps.as_ref());
-    let mut nodes: Vec<usize> = taps.flat_map(|(_, taps)| taps).map(|t| t.0).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
+fn sum_is_enough(problem: &Problem) -> bool {
+    let all: Vec<usize> = (0..problem.len()).collect();
+    problem.residuals(&problem.solve(&all), MOST)[1] <= SUM_TOLERANCE
 }
 
-/// Wavelengths and weights of a response within the range of a model.
-pub(super) fn quadrature(
-    model: &Model,
-    axis: &SpectralAxis,
-    response: &Response,
-) -> Result<Vec<[f64; 2]>> {
-    let [min, max] = axis.range();
-    for value in response.range() {
-        if !(min..=max).contains(&value) {
-            return Err(Error::OutOfRange {
-                parameter: "wavelength of a response",
-                value,
-                min,
-                max,
-                unit: "nm",
-            });
-        }
+fn residual(problem: &Problem, weights: &Weights) -> Residual {
+    let [median, p99] = problem.residuals(weights, MOST);
+    Residual { median, p99 }
+}
+
+/// Typical spectra.
+struct Examples<'a> {
+    model: &'a Model,
+    axis: &'a SpectralAxis,
+    /// ln L at the nodes.
+    logarithms: Vec<Vec<f64>>,
+}
+
+impl<'a> Examples<'a> {
+    fn new(model: &'a Model, axis: &'a SpectralAxis) -> Result<Self> {
+        Ok(Self {
+            model,
+            axis,
+            logarithms: examples(model)?,
+        })
     }
-    let head = model.head();
-    let samples = 0..head.solar_irradiance.len();
-    let mut kinks: Vec<f64> = samples
-        .map(|i| head.solar_start + i as f64 * head.solar_step)
+
+    /// Relative radiance at a wavelength.
+    fn at(&self, wavelength: f64) -> Vec<f64> {
+        let taps = self.axis.weights(wavelength);
+        let rows = self.logarithms.iter();
+        let power = |row: &Vec<f64>| taps.iter().map(|&(n, w)| w * row[n]).sum::<f64>().exp();
+        rows.map(power).collect()
+    }
+
+    /// What a response sees of each.
+    fn integrals(&self, response: &Response) -> Result<Vec<f64>> {
+        let mut sums = vec![0.0; self.logarithms.len()];
+        for [wavelength, weight] in quadrature(self.model, self.axis, response)? {
+            let share = weight * self.model.head().solar_irradiance_at(wavelength);
+            let light = self.at(wavelength);
+            sums.iter_mut().zip(light).for_each(|(sum, l)| *sum += share * l);
+        }
+        Ok(sums)
+    }
+
+    /// Values as sums over nodes, in terms of relative residuals.
+    fn over_nodes(&self, values: &[f64]) -> Problem {
+        let nodes = 0..self.model.head().wavelengths.len();
+        let column = |n: usize| self.logarithms.iter().map(|row| row[n].exp()).collect();
+        relative(nodes.map(column).collect(), values)
+    }
+
+    /// A band of a few wavelengths between the nodes, which are interpolated.
+    fn between_nodes(&self, response: &Response, values: &[f64]) -> (Made, Residual) {
+        let wavelengths = spread(self.axis, response);
+        let columns = wavelengths.iter().map(|&l| self.at(l)).collect();
+        let problem = relative(columns, values);
+        let weights = choose(std::slice::from_ref(&problem), &[], TOLERANCE).remove(0);
+        let power = |&(i, factor): &(usize, f64)| Power {
+            factor,
+            taps: self.axis.weights(wavelengths[i]),
+        };
+        let made = Made {
+            sum: Vec::new(),
+            powers: weights.iter().map(power).collect(),
+        };
+        (made, residual(&problem, &weights))
+    }
+}
+
+/// Rows over their values; those without light say nothing.
+fn relative(columns: Vec<Vec<f64>>, values: &[f64]) -> Problem {
+    let lit: Vec<usize> = (0..values.len())
+        .filter(|&i| values[i].is_finite() && values[i] > 0.0)
         .collect();
-    kinks.extend(&axis.wavelengths);
-    Ok(response.quadrature(&kinks))
-}
-
-fn all(problem: &Problem) -> Vec<usize> {
-    (0..problem.len()).collect()
+    let over = |column: Vec<f64>| lit.iter().map(|&i| column[i] / values[i]).collect();
+    let columns = columns.into_iter().map(over).collect();
+    Problem::new(columns, vec![1.0; lit.len()])
 }

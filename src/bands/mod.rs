@@ -11,6 +11,7 @@ mod few_columns;
 mod fit;
 mod least_squares;
 mod projection;
+mod quadrature;
 mod residual;
 mod response;
 mod spectral_axis;

@@ -1,43 +1,55 @@
 //! From the radiance at nodes to that in bands.
 
+use crate::kernel::lanes::Lanes;
 use crate::kernel::math::finite;
 use crate::polarisation::Stokes;
+use crate::sky::MOST_WAVELENGTHS;
 
-/// What makes bands of relative radiance at nodes: positive, whatever the light is.
+/// What makes bands of relative radiance at nodes: positive, whatever the light is. A band is a sum over nodes, or over
+/// wavelengths between them, at which the logarithm of the radiance is a sum. Format specification, sections 7.3, 7.9.
 #[derive(Clone, Debug)]
 pub(crate) struct Projection {
     bands: usize,
-    /// `[node][band]`, with the solar irradiance in them; 0 for bands that are no sums.
+    /// `[node][band]`, with the solar irradiance in them.
     sums: Vec<f32>,
-    powers: Vec<Power>,
+    /// Bands with wavelengths between nodes.
+    powers: Vec<(usize, Taps)>,
 }
 
-/// A band that is a wavelength between nodes, at which no sum is right: irradiance · exp(Σ W ln L).
+/// factor · exp(Σ W ln L).
 #[derive(Clone, Debug)]
-struct Power {
-    band: usize,
-    irradiance: f32,
-    taps: Vec<(usize, f32)>,
+struct Taps {
+    factor: f32,
+    nodes: Vec<(usize, f32)>,
 }
 
-/// What a band is made of, with indices of the nodes that are kept.
-pub(super) enum Made {
-    Sum(Vec<(usize, f64)>),
-    Power(f64, Vec<(usize, f64)>),
+/// What a band is made of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Made {
+    /// Nodes with weights.
+    pub sum: Vec<(usize, f64)>,
+    pub powers: Vec<Power>,
+}
+
+/// A wavelength between nodes, with the weight of its radiance and those of the logarithms.
+#[derive(Clone, Debug)]
+pub(super) struct Power {
+    pub factor: f64,
+    pub taps: Vec<(usize, f64)>,
 }
 
 impl Made {
-    /// Nodes with weights.
-    pub fn taps(&self) -> &[(usize, f64)] {
-        match self {
-            Self::Sum(taps) | Self::Power(_, taps) => taps,
-        }
+    /// Nodes that it needs.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> {
+        let taps = self.powers.iter().flat_map(|power| &power.taps);
+        self.sum.iter().chain(taps).map(|tap| tap.0)
     }
 
-    pub fn taps_mut(&mut self) -> &mut [(usize, f64)] {
-        match self {
-            Self::Sum(taps) | Self::Power(_, taps) => taps,
-        }
+    /// Numbers the nodes anew.
+    pub fn renumber(&mut self, number: impl Fn(usize) -> usize) {
+        let taps = self.powers.iter_mut().flat_map(|power| &mut power.taps);
+        let taps = self.sum.iter_mut().chain(taps);
+        taps.for_each(|tap| tap.0 = number(tap.0));
     }
 }
 
@@ -47,18 +59,14 @@ impl Projection {
         let mut sums = vec![0.0; nodes * bands];
         let mut powers = Vec::new();
         for (band, made) in made.iter().enumerate() {
-            match made {
-                Made::Sum(weights) => {
-                    for &(node, weight) in weights {
-                        sums[node * bands + band] = weight as f32;
-                    }
-                }
-                Made::Power(irradiance, taps) => powers.push(Power {
-                    band,
-                    irradiance: *irradiance as f32,
-                    taps: taps.iter().map(|&(node, w)| (node, w as f32)).collect(),
-                }),
+            for &(node, weight) in &made.sum {
+                sums[node * bands + band] = weight as f32;
             }
+            let taps = |power: &Power| Taps {
+                factor: power.factor as f32,
+                nodes: power.taps.iter().map(|&(n, w)| (n, w as f32)).collect(),
+            };
+            powers.extend(made.powers.iter().map(|power| (band, taps(power))));
         }
         Self { bands, sums, powers }
     }
@@ -69,7 +77,7 @@ impl Projection {
     }
 
     pub fn bytes(&self) -> usize {
-        let taps = self.powers.iter().map(|p| size_of_val(p.taps.as_slice()));
+        let taps = self.powers.iter().map(|(_, p)| size_of_val(p.nodes.as_slice()));
         size_of_val(self.sums.as_slice()) + taps.sum::<usize>()
     }
 
@@ -82,10 +90,17 @@ impl Projection {
                 *sum += light * weight;
             }
         }
-        for power in &self.powers {
-            out[power.band] = power.of(|node| relative[node]);
+        if !self.powers.is_empty() {
+            self.add_powers(relative, out);
         }
         out.iter_mut().for_each(|value| *value = value.min(f32::MAX));
+    }
+
+    fn add_powers(&self, relative: &[f32], out: &mut [f32]) {
+        let logarithms = logarithms(relative);
+        for (band, power) in &self.powers {
+            out[*band] += power.of(relative, &logarithms);
+        }
     }
 
     /// The same of polarised light.
@@ -98,8 +113,8 @@ impl Projection {
                 sum.u += light.u * weight;
             }
         }
-        for power in &self.powers {
-            out[power.band] = power.stokes(relative);
+        if !self.powers.is_empty() {
+            self.add_stokes(relative, out);
         }
         for light in out {
             *light = Stokes {
@@ -110,30 +125,58 @@ impl Projection {
         }
     }
 
-    /// Weight of a node in a band that is a sum.
-    pub fn weight(&self, node: usize, band: usize) -> f32 {
-        self.sums[node * self.bands + band]
+    fn add_stokes(&self, relative: &[Stokes], out: &mut [Stokes]) {
+        let mut radiance = [0.0; MOST_WAVELENGTHS];
+        let radiance = &mut radiance[..relative.len()];
+        let pairs = radiance.iter_mut().zip(relative);
+        pairs.for_each(|(radiance, light)| *radiance = light.i);
+        let logarithms = logarithms(radiance);
+        for (band, power) in &self.powers {
+            let light = power.polarised(relative, power.of(radiance, &logarithms));
+            let sum = &mut out[*band];
+            (sum.i, sum.q, sum.u) = (sum.i + light.i, sum.q + light.q, sum.u + light.u);
+        }
     }
 }
 
-impl Power {
-    /// Format specification, section 7.3.
-    fn of(&self, light: impl Fn(usize) -> f32) -> f32 {
-        if self.taps.iter().all(|&(node, _)| light(node) > 0.0) {
-            let logarithm: f32 = self.taps.iter().map(|&(node, w)| w * light(node).ln()).sum();
-            return self.irradiance * logarithm.exp();
+/// Binary logarithms.
+fn logarithms(relative: &[f32]) -> [f32; MOST_WAVELENGTHS] {
+    const WIDTH: usize = 8;
+    let mut out = [0.0; MOST_WAVELENGTHS];
+    out[..relative.len()].copy_from_slice(relative);
+    let blocks = out.as_chunks_mut::<WIDTH>().0;
+    for block in blocks.iter_mut().take(relative.len().div_ceil(WIDTH)) {
+        *block = Lanes(*block).max(Lanes::splat(f32::MIN_POSITIVE)).log2().0;
+    }
+    out
+}
+
+impl Taps {
+    #[inline]
+    fn of(&self, light: &[f32], logarithms: &[f32]) -> f32 {
+        let (mut sum, mut dark) = (0.0, false);
+        for &(node, weight) in &self.nodes {
+            sum += weight * logarithms[node];
+            dark |= light[node] <= 0.0;
         }
-        let positive = || self.taps.iter().filter(|tap| tap.1 > 0.0);
+        match dark {
+            true => self.factor * self.beside_darkness(light),
+            false => self.factor * Lanes([sum]).exp2().0[0],
+        }
+    }
+
+    #[cold]
+    fn beside_darkness(&self, light: &[f32]) -> f32 {
+        let positive = || self.nodes.iter().filter(|tap| tap.1 > 0.0);
         let whole: f32 = positive().map(|tap| tap.1).sum();
-        let sum: f32 = positive().map(|&(node, w)| w * light(node)).sum();
-        self.irradiance * sum / whole.max(f32::MIN_POSITIVE)
+        let sum: f32 = positive().map(|&(node, w)| w * light[node]).sum();
+        sum / whole.max(f32::MIN_POSITIVE)
     }
 
     /// Section 7.5: Q/L and U/L are summed, to a degree of 1 at most.
-    fn stokes(&self, light: &[Stokes]) -> Stokes {
-        let i = self.of(|node| light[node].i);
+    fn polarised(&self, light: &[Stokes], i: f32) -> Stokes {
         let (mut q, mut u) = (0.0, 0.0);
-        for &(node, weight) in &self.taps {
+        for &(node, weight) in &self.nodes {
             let share = weight / light[node].i.max(f32::MIN_POSITIVE);
             q += share * light[node].q;
             u += share * light[node].u;

@@ -4,8 +4,8 @@
 //! over the columns C of a line, with c ≥ 0 of sum 1, fitted to lines of all kinds.
 
 use super::few_columns::choose;
-use super::fit::quadrature;
 use super::least_squares::Problem;
+use super::quadrature::{quadrature, spread};
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use crate::error::Result;
@@ -16,8 +16,6 @@ use crate::transmittance::{Layers, Segment};
 /// Error that is to be kept (p99), relative to T where that is above [`DIM`].
 const TOLERANCE: f64 = 1e-3;
 const DIM: f64 = 0.02;
-/// Wavelengths that a band may be made of.
-const WAVELENGTHS: usize = 24;
 /// Lines through the air.
 const LINES: u32 = 160;
 /// What the rule that weights add up to one counts.
@@ -91,7 +89,7 @@ fn candidates(axis: &SpectralAxis, response: &Response) -> Vec<Candidate> {
         visibilities.clone().map(at).collect()
     };
     let mut out = Vec::new();
-    for wavelength in wavelengths(axis, response) {
+    for wavelength in spread(axis, response) {
         for (cell, _) in axis.cells(wavelength) {
             for term in axis.terms(cell).iter().filter(|term| term.share > 0.0) {
                 out.push(Candidate {
@@ -103,23 +101,6 @@ fn candidates(axis: &SpectralAxis, response: &Response) -> Vec<Candidate> {
     }
     // Without lines all terms are one.
     out.dedup_by(|a, b| a.wavelength == b.wavelength && a.extinction == b.extinction);
-    out
-}
-
-/// Some wavelengths of a band, or its only one.
-fn wavelengths(axis: &SpectralAxis, response: &Response) -> Vec<f64> {
-    let [first, last] = response.range();
-    if first == last {
-        return vec![first];
-    }
-    let within = |l: &&f64| (first..=last).contains(*l);
-    let cells: Vec<f64> = axis.wavelengths.iter().filter(within).copied().collect();
-    let even = |i: usize| first + (last - first) * (i as f64 + 0.5) / WAVELENGTHS as f64;
-    let mut out: Vec<f64> = (0..WAVELENGTHS).map(even).collect();
-    if cells.len() <= WAVELENGTHS {
-        out.extend(cells);
-    }
-    out.sort_unstable_by(f64::total_cmp);
     out
 }
 
