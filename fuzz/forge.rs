@@ -130,7 +130,8 @@ pub fn interrogate(model: &Model) {
                 assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0));
                 let xyz = sky.xyz(direction).expect("a valid direction");
                 assert!(xyz.iter().all(|v| v.is_finite()));
-                let wavelength = within(model.wavelength_range());
+                let range = model.wavelength_range().expect("the sky has read the spectrum");
+                let wavelength = within(range);
                 let l = sky.radiance_at(direction, wavelength).expect("a wavelength of the model");
                 assert!(l.is_finite() && l >= 0.0);
             }

@@ -37,6 +37,8 @@ all_shared! {
     Contents,
     DensityTable,
     DensityView<'static>,
+    Spectrum,
+    SpectrumView<'static>,
     Directions<'static>,
     ElevationAxis,
     Ends,

@@ -1,7 +1,7 @@
 //! Puts head arrays and chunks together to a file: places, lengths, checksums. Format specification, sections 1 and 5.
 
 use zerocopy::IntoBytes;
-use zerocopy::little_endian::{U32, U64};
+use zerocopy::little_endian::{U16, U32, U64};
 
 use super::layout::*;
 use super::parse::{head_crc, parse};
@@ -19,6 +19,10 @@ pub(crate) fn assemble(
         U32::new(u32::try_from(count).map_err(|_| {
             Error::invalid("chunk_count", format!("expected 32 bits, got {count}"))
         })?);
+    if chunks.iter().any(|(e, _)| e.kind.get() == KIND_SPECTRUM) {
+        header.required_features = U32::new(FEATURE_SPECTRUM);
+        header.version_minor = U16::new(header.version_minor.get().max(VERSION_MINOR));
+    }
     let mut file = [header.as_bytes(), arrays].concat();
     file.resize(head_length, 0);
     let mut entries = Vec::with_capacity(count);

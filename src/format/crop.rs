@@ -10,6 +10,7 @@ use super::matrix::{columns, narrow, pick, rows};
 use super::parse::parse;
 use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
 use super::source_function::{SourceBasis, SourceBasisView, SourceCore, SourceView};
+use super::spectrum::{Spectrum, view as spectrum_view};
 use super::views::{BasisView, ColumnView, FactorsView};
 use super::write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors};
 use crate::error::{Error, Result};
@@ -89,6 +90,9 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
                 Payload::Transmittance(DensityTable::from(&view))
             }
             Kind::Source => Payload::Source(SourceCore::from(&SourceView::new(&payload, nk, nw)?)),
+            Kind::Spectrum => {
+                Payload::Spectrum(Spectrum::from(&spectrum_view(&contents.head, &payload)?))
+            }
             Kind::SourceBasis => {
                 Payload::SourceBasis(SourceBasis::from(&SourceBasisView::new(&payload, nw)?))
             }
@@ -107,7 +111,8 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
 /// Keeps the nodes of `selection` and the chunks that stand at them.
 ///
 /// The colour weights of the remaining wavelengths stay as they are; they no longer add up to the colour of the whole
-/// spectrum, so set [`Head::xyz`] where wavelengths are left out.
+/// spectrum, so set [`Head::xyz`] where wavelengths are left out. A spectrum chunk stays only if all wavelengths with a
+/// weight in it do; without it the model ends at its first and last wavelength, and interpolates between neighbours.
 ///
 /// # Errors
 /// [`Error::Invalid`] for indices that do not increase or that the head does not have.
@@ -146,6 +151,9 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
             }
             Payload::Source(core) => core.keep(nw, &selection.wavelengths),
             Payload::SourceBasis(basis) => basis.keep(nw, &selection.wavelengths),
+            Payload::Spectrum(spectrum) => {
+                return spectrum.keep(head, &selection.visibilities, &selection.wavelengths);
+            }
             Payload::Column(_) | Payload::Polarisation(_) | Payload::Transmittance(_) => {}
         }
         true

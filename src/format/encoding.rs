@@ -8,6 +8,7 @@ use super::layout::ENCODING_RAW;
 #[cfg(feature = "zstd")]
 use super::layout::ENCODING_ZSTD;
 use super::source_function::{SourceBasisView, SourceView};
+use super::spectrum::view as spectrum_view;
 use super::views::{BasisView, ColumnView, FactorsView};
 use crate::error::{Error, Result};
 
@@ -52,6 +53,7 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
         }
         Kind::Source => return SourceView::new(payload, constituents, wavelengths).map(drop),
         Kind::SourceBasis => return SourceBasisView::new(payload, wavelengths).map(drop),
+        Kind::Spectrum => return spectrum_view(head, payload).map(drop),
         Kind::RadianceBasis => BasisView::radiance(payload, &shape, entry.rank)?.is_finite(),
     };
     if finite {

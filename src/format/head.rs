@@ -2,7 +2,7 @@
 
 use super::layout::{
     KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
-    KIND_SOURCE, KIND_SOURCE_BASIS, KIND_TRANSMITTANCE, Shape,
+    KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, Shape,
 };
 use super::matrix::{columns, pick};
 use crate::geometry::Planet;
@@ -172,6 +172,12 @@ impl Head {
             .collect()
     }
 
+    /// Wavelengths of the first and last sample of the solar spectrum, nm.
+    pub fn solar_range(&self) -> [f64; 2] {
+        let steps = self.solar_irradiance.len().saturating_sub(1) as f64;
+        [self.solar_start, self.solar_start + steps * self.solar_step]
+    }
+
     /// Solar spectral irradiance at a wavelength (nm), W m⁻² nm⁻¹, linear between samples and constant beyond them.
     pub fn solar_irradiance_at(&self, wavelength: f64) -> f64 {
         let axis = [self.solar_start, self.solar_step];
@@ -220,6 +226,8 @@ pub enum Kind {
     SourceBasis,
     /// Factor matrices that all radiance chunks share.
     RadianceBasis,
+    /// What lies between the wavelengths.
+    Spectrum,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -235,6 +243,7 @@ impl Kind {
             KIND_SOURCE => Kind::Source,
             KIND_SOURCE_BASIS => Kind::SourceBasis,
             KIND_RADIANCE_BASIS => Kind::RadianceBasis,
+            KIND_SPECTRUM => Kind::Spectrum,
             other => Kind::Unknown(other),
         }
     }
@@ -250,6 +259,7 @@ impl Kind {
             Kind::Source => "source",
             Kind::SourceBasis => "source basis",
             Kind::RadianceBasis => "radiance basis",
+            Kind::Spectrum => "spectrum",
             Kind::Unknown(_) => "unknown",
         }
     }

@@ -7,8 +7,10 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
 /// The major version that this crate reads and writes.
 pub const VERSION_MAJOR: u16 = 1;
-/// The minor version that this crate writes.
-pub const VERSION_MINOR: u16 = 0;
+/// The newest minor version that this crate writes, where a file has a spectrum; other files have 0.
+pub const VERSION_MINOR: u16 = 1;
+/// Bit of `required_features`: the file has a spectrum.
+pub const FEATURE_SPECTRUM: u32 = 1;
 /// Alignment of chunks in the file.
 pub const CHUNK_ALIGNMENT: u64 = 64;
 /// `kind` of a radiance chunk.
@@ -33,6 +35,8 @@ pub const KIND_SOURCE: u32 = 5;
 pub const KIND_SOURCE_BASIS: u32 = 8;
 /// `kind` of the basis that all radiance chunks share.
 pub const KIND_RADIANCE_BASIS: u32 = 3;
+/// `kind` of a spectrum chunk.
+pub const KIND_SPECTRUM: u32 = 9;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a chunk.

@@ -1,16 +1,18 @@
 //! The file format: byte layout, validation, reading and writing. The contract is `format-spec/SPEC.md`.
 
 mod layout;
+mod spectrum_view;
 mod views;
 
 pub(crate) use layout::{CRC_RANGE, ENTRY_LENGTH, Header, RawEntry};
 
 pub use layout::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FIELD_GROUND, KIND_COLUMN, KIND_POLARISATION,
-    KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS,
-    KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX, POLARISATION_PARTS,
-    Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
+    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FEATURE_SPECTRUM, FIELD_GROUND, KIND_COLUMN,
+    KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE,
+    KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE,
+    MOST_EXPANSION, NO_INDEX, POLARISATION_PARTS, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
+pub use spectrum_view::{MAX_TAPS, MAX_TERMS, SpectrumView};
 pub use views::{BasisView, ColumnView, FactorsView, Payload16};
 
 cfg_if::cfg_if! {
@@ -26,6 +28,7 @@ cfg_if::cfg_if! {
         mod parse;
         mod polarisation_factors;
         mod source_function;
+        mod spectrum;
         mod validate;
         mod verify;
         mod write;
@@ -35,6 +38,7 @@ cfg_if::cfg_if! {
         pub(crate) use head::{altitude_node, visibility_node};
         pub(crate) use parse::{Key, head_length, parse_head};
         pub(crate) use source_function::phase_function;
+        pub(crate) use spectrum::view as spectrum_view;
 
         pub use crate::output::replace_file;
         pub use rewrite::{extend, recode};
@@ -47,6 +51,7 @@ cfg_if::cfg_if! {
             MAX_MOMENTS, Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView,
             TENSOR, harmonics,
         };
+        pub use spectrum::Spectrum;
         pub use verify::{Problem, verify};
         pub use write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors, encode, write};
     }

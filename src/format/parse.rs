@@ -78,6 +78,11 @@ pub(crate) fn parse_head(bytes: &[u8]) -> Result<Contents> {
     }
     let entries = cursor.take(header.chunk_count.get() as usize * ENTRY_LENGTH)?;
     let (directory, index) = directory(&head, entries, head_length, file_length)?;
+    let declared = header.required_features.get() & FEATURE_SPECTRUM != 0;
+    if declared != index.contains_key(&(Kind::Spectrum, None, None)) {
+        let detail = "must have bit 0 where there is a spectrum chunk, and only there";
+        return Err(Error::invalid("required_features", detail));
+    }
     Ok(Contents {
         head,
         directory,
@@ -112,7 +117,7 @@ fn header(bytes: &[u8]) -> Result<Header> {
         let expected = VERSION_MAJOR;
         return Err(Error::Version { expected, got });
     }
-    match header.required_features.get() {
+    match header.required_features.get() & !FEATURE_SPECTRUM {
         0 => Ok(header),
         bits => Err(Error::Feature { bits }),
     }
@@ -351,9 +356,11 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         }
         Kind::Column => entry.altitude.is_some() && entry.visibility.is_none(),
         Kind::Source => entry.altitude.is_none() && entry.visibility.is_some(),
-        Kind::RadianceBasis | Kind::PolarisationBasis | Kind::Transmittance | Kind::SourceBasis => {
-            entry.altitude.is_none() && entry.visibility.is_none()
-        }
+        Kind::RadianceBasis
+        | Kind::PolarisationBasis
+        | Kind::Transmittance
+        | Kind::SourceBasis
+        | Kind::Spectrum => entry.altitude.is_none() && entry.visibility.is_none(),
     };
     let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
         && entry.visibility.is_none_or(|i| i < head.visibilities.len());

@@ -68,8 +68,7 @@ impl Head {
         scalar("solar_step", self.solar_step, 1e-3, 1e6, "nm")?;
         let first = self.wavelengths[0];
         scalar("solar_start", self.solar_start, 0.0, first, "nm")?;
-        let steps = (self.solar_irradiance.len() - 1) as f64;
-        let end = self.solar_start + steps * self.solar_step;
+        let [_, end] = self.solar_range();
         let last = self.wavelengths[self.wavelengths.len() - 1];
         scalar("end of the solar spectrum", end, last, f64::MAX, "nm")
     }

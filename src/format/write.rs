@@ -12,6 +12,7 @@ use super::layout::*;
 use super::payload_bytes::{check, check_rank, push_f32, push_half, push_halves, push_scale};
 use super::polarisation_factors::{PolarisationBasis, PolarisationFactors};
 use super::source_function::{SOURCE_FIELDS, SourceBasis, SourceCore};
+use super::spectrum::Spectrum;
 use crate::error::{Error, Result};
 use crate::output::replace_file;
 
@@ -129,6 +130,8 @@ pub enum Payload {
     SourceBasis(SourceBasis),
     /// Factor matrices that all radiance chunks share.
     RadianceBasis(RadianceBasis),
+    /// What lies between the wavelengths.
+    Spectrum(Spectrum),
 }
 
 /// A chunk to be written.
@@ -258,7 +261,7 @@ fn header(head: &Head) -> Header {
     Header {
         magic: MAGIC,
         version_major: U16::new(VERSION_MAJOR),
-        version_minor: U16::new(VERSION_MINOR),
+        version_minor: U16::ZERO,
         required_features: U32::ZERO,
         file_length: U64::ZERO,
         head_length: U64::ZERO,
@@ -296,6 +299,7 @@ fn entry(chunk: &Chunk, payload: &[u8]) -> Result<RawEntry> {
         Payload::Source(_) => (KIND_SOURCE, 0),
         Payload::SourceBasis(_) => (KIND_SOURCE_BASIS, 0),
         Payload::RadianceBasis(basis) => (KIND_RADIANCE_BASIS, basis.rank),
+        Payload::Spectrum(_) => (KIND_SPECTRUM, 0),
     };
     let index = |i: Option<usize>| {
         let Some(i) = i else {
@@ -334,6 +338,7 @@ fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
         Payload::Transmittance(table) => table.encode(constituents, head.planet.top),
         Payload::Source(core) => core.encode(constituents, wavelengths),
         Payload::SourceBasis(basis) => basis.encode(wavelengths),
+        Payload::Spectrum(spectrum) => spectrum.encode(head),
     }
 }
 

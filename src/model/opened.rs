@@ -8,7 +8,7 @@ use super::store::{Bytes, Store, Traffic};
 use crate::error::{Error, Result};
 use crate::format::{
     BasisView, ColumnView, Contents, DensityView, Entry, FactorsView, Head, Key, Kind,
-    SourceBasisView, SourceView,
+    SourceBasisView, SourceView, SpectrumView, spectrum_view,
 };
 
 /// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
@@ -150,9 +150,17 @@ impl Model {
         ends(&self.head().altitudes)
     }
 
-    /// Shortest and longest wavelength, nm.
-    pub fn wavelength_range(&self) -> [f64; 2] {
-        ends(&self.head().wavelengths)
+    /// Shortest and longest wavelength that can be asked for, nm: of the spectrum where the file has one, which is
+    /// read for this, otherwise of [`Model::wavelengths`].
+    ///
+    /// # Errors
+    /// Those of a damaged chunk; [`Error::Read`].
+    pub fn wavelength_range(&self) -> Result<[f64; 2]> {
+        let cells = self.spectrum_chunk()?.map(|spectrum| spectrum.wavelength);
+        Ok(match cells {
+            Some(cells) => [cells[0].get(), cells[cells.len() - 1].get()],
+            None => ends(&self.head().wavelengths),
+        })
     }
 
     /// Length of the file, bytes.
@@ -248,6 +256,13 @@ impl Model {
         let head = self.head();
         let bytes = self.chunk(self.find(Kind::Source, None, Some(visibility))?)?;
         SourceView::new(bytes, head.constituents, head.wavelengths.len())
+    }
+
+    /// What lies between the wavelengths, if the file says.
+    pub(crate) fn spectrum_chunk(&self) -> Result<Option<SpectrumView<'_>>> {
+        let place = self.contents.index.get(&(Kind::Spectrum, None, None));
+        let chunk = place.map(|&i| spectrum_view(self.head(), self.chunk(i)?));
+        chunk.transpose()
     }
 
     pub(crate) fn find(

@@ -2,21 +2,21 @@
 
 use super::chunk_table::{MOST_ALTITUDES, MOST_CHUNKS};
 use super::head_counts::require;
-use super::head_view::HeadView;
+use super::head_view::{HeadView, Rest};
 use crate::error::Result;
 use crate::format::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS,
-    KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS, MAX_RANK, MOST_EXPANSION,
-    NO_INDEX, RawEntry,
+    CHUNK_ALIGNMENT, ENCODING_RAW, FEATURE_SPECTRUM, KIND_COLUMN, KIND_POLARISATION,
+    KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SPECTRUM,
+    MAX_RANK, MOST_EXPANSION, NO_INDEX, RawEntry,
 };
 
-const KINDS: usize = KIND_SOURCE_BASIS as usize + 1;
+const KINDS: usize = KIND_SPECTRUM as usize + 1;
 
-pub(super) fn check(head: &HeadView, head_length: u64) -> Result<()> {
+pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
     let rule = |holds, detail| require(holds, "directory", detail);
     let mut seen = Seen::new(head);
     let mut ranks = [0; KINDS];
-    let mut end = head_length;
+    let mut end = rest.head_length;
     for entry in head.directory {
         let (offset, stored) = (entry.offset.get(), entry.stored_length.get());
         let start = end.next_multiple_of(CHUNK_ALIGNMENT);
@@ -50,6 +50,13 @@ pub(super) fn check(head: &HeadView, head_length: u64) -> Result<()> {
             "a rank is above that of its basis",
         )?;
     }
+    let mut kinds = head.directory.iter().map(|entry| entry.kind.get());
+    let declared = rest.required_features & FEATURE_SPECTRUM != 0;
+    require(
+        declared == kinds.any(|kind| kind == KIND_SPECTRUM),
+        "required_features",
+        "must have bit 0 where there is a spectrum chunk, and only there",
+    )?;
     rule(
         end == head.file_length,
         "the last chunk is not the end of the file",
@@ -57,7 +64,7 @@ pub(super) fn check(head: &HeadView, head_length: u64) -> Result<()> {
 }
 
 pub(super) fn is_known(entry: &RawEntry) -> bool {
-    (KIND_RADIANCE..=KIND_SOURCE_BASIS).contains(&entry.kind.get())
+    (KIND_RADIANCE..=KIND_SPECTRUM).contains(&entry.kind.get())
 }
 
 fn fits_axes(head: &HeadView, entry: &RawEntry) -> bool {

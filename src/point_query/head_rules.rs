@@ -36,7 +36,7 @@ fn check(head: &HeadView, rest: &Rest) -> Result<()> {
         "padding",
         "expected zeros after metadata",
     )?;
-    chunk_directory::check(head, rest.head_length)
+    chunk_directory::check(head, rest)
 }
 
 fn check_axes(head: &HeadView) -> Result<()> {

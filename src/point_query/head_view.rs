@@ -5,7 +5,9 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head_counts::check_counts;
 use crate::error::{Error, Result};
-use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
+use crate::format::{
+    CRC_RANGE, ENTRY_LENGTH, FEATURE_SPECTRUM, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR,
+};
 use crate::geometry::Planet;
 use crate::kernel::axis::ElevationAxis;
 
@@ -40,6 +42,7 @@ pub(super) struct Rest<'a> {
     pub metadata: &'a [u8],
     pub padding: &'a [u8],
     pub head_length: u64,
+    pub required_features: u32,
 }
 
 impl<'a> HeadView<'a> {
@@ -111,6 +114,7 @@ impl<'a> HeadView<'a> {
             metadata,
             padding,
             head_length: header.head_length.get(),
+            required_features: header.required_features.get(),
         };
         Ok((view, rest))
     }
@@ -145,7 +149,7 @@ fn split(bytes: &[u8]) -> Result<(&Header, &[u8])> {
         let expected = VERSION_MAJOR;
         return Err(Error::Version { expected, got });
     }
-    match header.required_features.get() {
+    match header.required_features.get() & !FEATURE_SPECTRUM {
         0 => {}
         bits => return Err(Error::Feature { bits }),
     }

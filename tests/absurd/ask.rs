@@ -97,7 +97,7 @@ impl Asker {
                 solar_azimuth: t,
                 albedo: t,
             };
-            let wavelength = within(model.wavelength_range());
+            let wavelength = within(model.wavelength_range().expect("a sound spectrum"));
             self.point_query(&query, &conditions);
             let sky = self.allowed("sky", model.sky(&conditions));
             if let Some(sky) = &sky {

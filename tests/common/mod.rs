@@ -8,6 +8,7 @@ pub mod command;
 pub mod oracle;
 pub mod random;
 pub mod server;
+pub mod spectrum;
 
 use proptest::test_runner::{Config, RngSeed};
 use welkin::Sky;

@@ -186,7 +186,7 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
         solar_elevation: query.solar_elevation,
         solar_azimuth: query.solar_azimuth,
     };
-    let [first, last] = model.wavelength_range();
+    let [first, last] = model.wavelength_range().expect("a sound spectrum");
     let wavelength = (first + (last - first) * (0.3 + 0.4 * query.albedo)).round();
     let ask = |quantity| value(quantity, query, wavelength);
     // Only the oracle makes numbers; the library says whether the chunks are there.

@@ -53,7 +53,7 @@ impl Ranges {
             altitude: model.altitude_range(),
             visibility: model.visibility_range(),
             elevation: model.solar_elevation_range(),
-            wavelength: model.wavelength_range(),
+            wavelength: model.wavelength_range().unwrap_or([400.0, 700.0]),
         }
     }
 }

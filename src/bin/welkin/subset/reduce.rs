@@ -88,7 +88,9 @@ impl<'a> Reducer<'a> {
         selection.altitudes = needed(&self.head.altitude_nodes(), low, high);
         selection.visibilities = needed(&self.head.visibility_nodes(), near, far);
         if let Some([low, high]) = self.wish.wavelengths {
-            let [first, last] = self.model.wavelength_range();
+            // Of the nodes: what lies between cells goes with the first node that does.
+            let nodes = self.model.wavelengths();
+            let [first, last] = [nodes[0], nodes[nodes.len() - 1]];
             if low < first || high > last || low == high {
                 let [first, last, low, high] = [first, last, low, high].map(plain);
                 let text =

@@ -84,7 +84,8 @@ impl Scene {
 
     /// Four wavelengths per direction: one at random and three that divide the range with it.
     pub fn heroes(&self) -> Vec<[f32; 4]> {
-        let [low, high] = self.model.wavelength_range();
+        let range = self.model.wavelength_range();
+        let [low, high] = range.expect("a sound spectrum");
         let mut sequence = Sequence::<1>::default();
         let place = |t: f64, k: usize| low + (high - low) * (t + 0.25 * k as f64).fract();
         let four = |t: f64| std::array::from_fn(|k| place(t, k) as f32);
