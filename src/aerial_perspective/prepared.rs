@@ -90,7 +90,9 @@ impl AerialPerspective {
             .taps()
             .map(|(v, weight)| Ok((nodes.source(model.source_chunk(v)?), weight)))
             .collect::<Result<_>>()?;
-        let around = around.iter().map(|(source, weight)| (source.view(), *weight));
+        let around = around
+            .iter()
+            .map(|(source, weight)| (source.view(), *weight));
         let ground = ground_factor(head, conditions.visibility, conditions.albedo);
         let elevation = conditions.solar_elevation;
         Ok(Self {

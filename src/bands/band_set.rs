@@ -58,7 +58,10 @@ impl Model {
             return Err(Error::invalid("responses", "there must be one at least"));
         }
         let axis = SpectralAxis::new(self)?;
-        let Fit { mut made, residuals } = Fit::new(self, &axis, responses)?;
+        let Fit {
+            mut made,
+            residuals,
+        } = Fit::new(self, &axis, responses)?;
         let kept = renumber(&mut made);
         let nodes = NodeSubset::new(self, kept);
         Ok(Bands {
@@ -128,4 +131,3 @@ fn renumber(made: &mut [Made]) -> Vec<usize> {
     made.iter_mut().for_each(|made| made.renumber(number));
     kept
 }
-impl Bands { #[doc(hidden)] pub fn describe(&self) { println!("exponentials {} {:?}", self.air.head.wavelengths.len(), self.air.weights); } }

@@ -30,7 +30,14 @@ const VIEWS: [[f64; 2]; 14] = [
 
 /// ln L (L per unit of solar irradiance) at the nodes: examples of the file, or what the model gives.
 pub(super) fn examples(model: &Model) -> Result<Vec<Vec<f64>>> {
-    let stored: Vec<Vec<f64>> = Vec::new();
+    let stored = match model.spectrum_chunk()? {
+        Some(spectrum) => {
+            let rows = spectrum.example.chunks(model.head().wavelengths.len());
+            rows.map(|row| row.iter().map(|v| f64::from(v.get())).collect())
+                .collect()
+        }
+        None => Vec::new(),
+    };
     match stored.len() {
         0..ENOUGH => made(model),
         _ => Ok(stored),
@@ -59,7 +66,10 @@ fn made(model: &Model) -> Result<Vec<Vec<f64>>> {
     match (out.is_empty(), missing) {
         (false, _) => Ok(out),
         (true, Some(error)) => Err(error),
-        (true, None) => Err(Error::invalid("model", "has no light that bands can be fitted to")),
+        (true, None) => Err(Error::invalid(
+            "model",
+            "has no light that bands can be fitted to",
+        )),
     }
 }
 
@@ -72,14 +82,19 @@ fn scenes(model: &Model) -> impl Iterator<Item = Conditions> {
     let (clear, middle) = (visibilities.len() - 1, visibilities.len() / 2);
     let mut places = vec![(low, 0), (low, middle), (low, clear), (high, middle)];
     places.dedup();
-    places.into_iter().enumerate().flat_map(move |(p, (altitude, visibility))| {
-        let (altitude, visibility) = (altitudes[altitude], visibilities[visibility]);
-        SUNS.into_iter().enumerate().map(move |(s, share)| Conditions {
-            altitude,
-            visibility,
-            solar_elevation: axis.elevation(share * axis.intervals as f64),
-            albedo: if (p + s) % 2 == 0 { 0.1 } else { 0.7 },
-            ..Conditions::default()
+    places
+        .into_iter()
+        .enumerate()
+        .flat_map(move |(p, (altitude, visibility))| {
+            let (altitude, visibility) = (altitudes[altitude], visibilities[visibility]);
+            SUNS.into_iter()
+                .enumerate()
+                .map(move |(s, share)| Conditions {
+                    altitude,
+                    visibility,
+                    solar_elevation: axis.elevation(share * axis.intervals as f64),
+                    albedo: if (p + s) % 2 == 0 { 0.1 } else { 0.7 },
+                    ..Conditions::default()
+                })
         })
-    })
 }

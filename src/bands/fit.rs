@@ -102,7 +102,9 @@ impl<'a> Examples<'a> {
         for [wavelength, weight] in quadrature(self.model, self.axis, response)? {
             let share = weight * self.model.head().solar_irradiance_at(wavelength);
             let light = self.at(wavelength);
-            sums.iter_mut().zip(light).for_each(|(sum, l)| *sum += share * l);
+            sums.iter_mut()
+                .zip(light)
+                .for_each(|(sum, l)| *sum += share * l);
         }
         Ok(sums)
     }

@@ -53,7 +53,10 @@ impl Problem {
         }
         kept.sort_unstable_by_key(|&(column, _)| column);
         let unscale = |(c, w): (usize, f64)| (c, w / self.scale[c]);
-        kept.into_iter().map(unscale).filter(|w| w.1 > 0.0).collect()
+        kept.into_iter()
+            .map(unscale)
+            .filter(|w| w.1 > 0.0)
+            .collect()
     }
 
     /// The column that lessens the residual most, if any does.
@@ -130,7 +133,12 @@ impl Problem {
         let mut sizes: Vec<f64> = residual.into_iter().map(f64::abs).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let last = sizes.len().saturating_sub(1) as f64;
-        [0.5, share].map(|q| sizes.get((q * last).round() as usize).copied().unwrap_or(0.0))
+        [0.5, share].map(|q| {
+            sizes
+                .get((q * last).round() as usize)
+                .copied()
+                .unwrap_or(0.0)
+        })
     }
 }
 
@@ -163,7 +171,9 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn add(sum: &mut [f64], weight: f64, values: &[f64]) {
-    sum.iter_mut().zip(values).for_each(|(s, v)| *s += weight * v);
+    sum.iter_mut()
+        .zip(values)
+        .for_each(|(s, v)| *s += weight * v);
 }
 
 fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
@@ -178,7 +188,9 @@ mod tests {
     fn noise(seed: u64) -> impl Iterator<Item = f64> {
         let mut state = seed;
         std::iter::repeat_with(move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
             (state >> 11) as f64 / (1u64 << 53) as f64
         })
     }
@@ -189,7 +201,9 @@ mod tests {
         let columns: Vec<Vec<f64>> = (0..9).map(|_| random.by_ref().take(50).collect()).collect();
         let mut right = vec![0.0; 50];
         let truth = [(1, 0.5), (4, 2.0), (7, 0.01)];
-        truth.iter().for_each(|&(c, w)| add(&mut right, w, &columns[c]));
+        truth
+            .iter()
+            .for_each(|&(c, w)| add(&mut right, w, &columns[c]));
         let found = Problem::new(columns, right).solve(&[0, 1, 2, 3, 4, 5, 6, 7, 8]);
         assert_eq!(found.len(), 3);
         for ((c, w), (column, weight)) in found.into_iter().zip(truth) {
@@ -209,7 +223,9 @@ mod tests {
             let problem = Problem::new(columns.clone(), right.clone());
             let found = problem.solve(&all);
             let mut residual = right;
-            found.iter().for_each(|&(c, w)| add(&mut residual, -w, &columns[c]));
+            found
+                .iter()
+                .for_each(|&(c, w)| add(&mut residual, -w, &columns[c]));
             for (c, column) in columns.iter().enumerate() {
                 let slope = dot(column, &residual);
                 match found.iter().any(|&(f, w)| f == c && w > 0.0) {

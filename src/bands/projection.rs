@@ -68,7 +68,11 @@ impl Projection {
             };
             powers.extend(made.powers.iter().map(|power| (band, taps(power))));
         }
-        Self { bands, sums, powers }
+        Self {
+            bands,
+            sums,
+            powers,
+        }
     }
 
     /// How many bands there are.
@@ -77,7 +81,10 @@ impl Projection {
     }
 
     pub fn bytes(&self) -> usize {
-        let taps = self.powers.iter().map(|(_, p)| size_of_val(p.nodes.as_slice()));
+        let taps = self
+            .powers
+            .iter()
+            .map(|(_, p)| size_of_val(p.nodes.as_slice()));
         size_of_val(self.sums.as_slice()) + taps.sum::<usize>()
     }
 
@@ -93,7 +100,8 @@ impl Projection {
         if !self.powers.is_empty() {
             self.add_powers(relative, out);
         }
-        out.iter_mut().for_each(|value| *value = value.min(f32::MAX));
+        out.iter_mut()
+            .for_each(|value| *value = value.min(f32::MAX));
     }
 
     fn add_powers(&self, relative: &[f32], out: &mut [f32]) {

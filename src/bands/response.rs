@@ -89,7 +89,9 @@ impl Response {
             Curve::Wavelength(_) => 1.0,
             Curve::Table(samples) => {
                 let pieces = samples.windows(2);
-                pieces.map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0])).sum()
+                pieces
+                    .map(|p| 0.5 * (p[0][1] + p[1][1]) * (p[1][0] - p[0][0]))
+                    .sum()
             }
         }
     }

@@ -1,6 +1,9 @@
 //! What light and air are between the nodes of a model. Format specification, sections 7.3 and 7.6.
 
+use zerocopy::little_endian::F32;
+
 use crate::error::Result;
+use crate::format::{Head, SpectrumView};
 use crate::kernel::axis::{hermite, linear};
 use crate::model::Model;
 
@@ -22,32 +25,71 @@ pub(super) struct SpectralAxis {
 }
 
 /// A share of a band with its extinction by lines.
+#[derive(Clone)]
 pub(super) struct Term {
     pub share: f64,
     /// m⁻¹ where the profile of each constituent is 1.
     pub extinction: Vec<f64>,
 }
 
+impl Term {
+    /// The whole of a band without lines.
+    fn none(head: &Head) -> Self {
+        Self {
+            share: 1.0,
+            extinction: vec![0.0; head.constituents],
+        }
+    }
+}
+
 impl SpectralAxis {
     pub fn new(model: &Model) -> Result<Self> {
         let head = model.head();
-        let nothing = || Term {
-            share: 1.0,
-            extinction: vec![0.0; head.constituents],
-        };
-        Ok(Self {
-            terms: head.wavelengths.iter().map(|_| vec![nothing()]).collect(),
+        let axis = Self {
+            terms: head
+                .wavelengths
+                .iter()
+                .map(|_| vec![Term::none(head)])
+                .collect(),
             wavelengths: head.wavelengths.clone(),
             cells: None,
             visibilities: head.visibilities.len(),
             constituents: head.constituents,
             extinction: head.extinction.clone(),
+        };
+        Ok(match model.spectrum_chunk()? {
+            Some(spectrum) => axis.with(&spectrum),
+            None => axis,
         })
+    }
+
+    fn with(self, spectrum: &SpectrumView) -> Self {
+        let wide = |v: &F32| f64::from(v.get());
+        let nodes = spectrum.tap_node.iter().map(|n| n.get() as usize);
+        let taps: Taps = nodes.zip(spectrum.tap_weight.iter().map(wide)).collect();
+        let shares = spectrum.term_weight.iter();
+        let terms = shares.zip(spectrum.term_extinction.chunks(self.constituents));
+        let terms: Vec<Term> = terms
+            .map(|(share, extinction)| Term {
+                share: wide(share),
+                extinction: extinction.iter().map(wide).collect(),
+            })
+            .collect();
+        Self {
+            wavelengths: spectrum.wavelength.iter().map(|l| l.get()).collect(),
+            cells: Some(taps.chunks(spectrum.taps).map(<[_]>::to_vec).collect()),
+            extinction: spectrum.extinction.iter().map(wide).collect(),
+            terms: terms.chunks(spectrum.terms).map(<[_]>::to_vec).collect(),
+            ..self
+        }
     }
 
     /// First and last wavelength that can be asked for, nm.
     pub fn range(&self) -> [f64; 2] {
-        [self.wavelengths[0], self.wavelengths[self.wavelengths.len() - 1]]
+        [
+            self.wavelengths[0],
+            self.wavelengths[self.wavelengths.len() - 1],
+        ]
     }
 
     /// Weights with which the logarithms of the radiance at the nodes make that at a wavelength.
@@ -78,14 +120,21 @@ impl SpectralAxis {
         };
         let at = |k: usize| {
             let row = &self.extinction[(visibility * self.constituents + k) * n..][..n];
-            stencil.taps().map(|(i, w)| w * row[i]).sum::<f64>().max(0.0)
+            stencil
+                .taps()
+                .map(|(i, w)| w * row[i])
+                .sum::<f64>()
+                .max(0.0)
         };
         (0..self.constituents).map(at).collect()
     }
 
     /// The cells around a wavelength with their shares.
     pub fn cells(&self, wavelength: f64) -> impl Iterator<Item = (usize, f64)> {
-        linear(&self.wavelengths, wavelength).taps().collect::<Taps>().into_iter()
+        linear(&self.wavelengths, wavelength)
+            .taps()
+            .collect::<Taps>()
+            .into_iter()
     }
 
     /// What lines add in a cell.

@@ -74,7 +74,8 @@ fn head(model: &Model, axis: &SpectralAxis, kept: &[Candidate]) -> Head {
     head.extinction.clear();
     for v in 0..axis.visibilities() {
         for k in 0..axis.constituents() {
-            head.extinction.extend(kept.iter().map(|c| c.extinction[v][k]));
+            head.extinction
+                .extend(kept.iter().map(|c| c.extinction[v][k]));
         }
     }
     head
@@ -122,7 +123,11 @@ impl Line {
     }
 
     fn depth(&self, extinction: &[f64]) -> f64 {
-        extinction.iter().zip(&self.columns).map(|(k, c)| k * c).sum()
+        extinction
+            .iter()
+            .zip(&self.columns)
+            .map(|(k, c)| k * c)
+            .sum()
     }
 }
 
@@ -176,14 +181,19 @@ fn lines(model: &Model, axis: &SpectralAxis) -> Result<Vec<Line>> {
                 let to = [way * (1.0 - sine * sine).sqrt(), 0.0, height + way * sine];
                 let segment = Segment::between(&planet, [0.0, 0.0, height], to)?;
                 let amounts = layers.columns(segment.line, segment.from, segment.to());
-                (0..constituents).map(|k| f64::from(amounts.get(k))).collect()
+                (0..constituents)
+                    .map(|k| f64::from(amounts.get(k)))
+                    .collect()
             }
             None => (0..constituents as i32)
                 .map(|k| 10f64.powf(1.0 + 5.0 * at(k + 1)))
                 .collect(),
         };
         let visibility = visibilities[i as usize % visibilities.len()];
-        out.push(Line { visibility, columns });
+        out.push(Line {
+            visibility,
+            columns,
+        });
     }
     Ok(out)
 }

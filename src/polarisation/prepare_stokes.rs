@@ -67,13 +67,7 @@ struct Basis<'a> {
 impl<'a> Basis<'a> {
     /// `ground` is what the light from the ground is multiplied with at each wavelength, `fade` what the azimuth
     /// counts.
-    fn new(
-        view: &BasisView,
-        nodes: Nodes,
-        ground: &[f32],
-        fade: f64,
-        layout: &'a Layout,
-    ) -> Self {
+    fn new(view: &BasisView, nodes: Nodes, ground: &[f32], fade: f64, layout: &'a Layout) -> Self {
         let rank = view.rank;
         let mut channel = vec![Pair::ZERO; layout.blocks() * rank];
         for r in 0..rank {
