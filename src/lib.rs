@@ -138,9 +138,13 @@ cfg_if::cfg_if! {
             JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
-            BakeError, BakedColourSky, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
+            BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
+            Directions, Part, Sample, SkySampler,
         };
-        pub use bands::{BandSky, Bands, PolarisedBandSky, Residual, Response};
+        pub use bands::{
+            BandAerialPerspective, BandSky, BandSolarDisc, BandTransmittance, Bands,
+            JoinedBandAerialPerspective, PolarisedBandSky, Residual, Response,
+        };
         pub use budget::{Budget, Channels, Plan};
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;

@@ -8,6 +8,8 @@ use super::spectral_axis::SpectralAxis;
 use super::transmittance_fit::TransmittanceFit;
 use crate::error::{Error, Result};
 use crate::model::{Model, NodeSubset, Nodes};
+use crate::polarisation::Stokes;
+use crate::sky::{MOST_WAVELENGTHS, check_length};
 
 /// The bands of a sensor, projected onto few wavelengths of a model: what is prepared with them, and asked, costs as
 /// much as those wavelengths and bands need, however many the model has.
@@ -50,12 +52,19 @@ impl Model {
     /// A file without example spectra gives them by some of its own skies, for which their chunks are read.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for no response; [`Error::OutOfRange`] for one that reaches beyond the model
+    /// [`Error::Invalid`] for no response, [`Error::Limit`] for more than 256; [`Error::OutOfRange`] for one that reaches beyond the model
     /// ([`Model::wavelength_range`]) and is not zero there; [`Error::MissingChunk`] if the file has no radiance; those
     /// of damaged chunks.
     pub fn bands(&self, responses: &[Response]) -> Result<Bands> {
         if responses.is_empty() {
             return Err(Error::invalid("responses", "there must be one at least"));
+        }
+        if responses.len() > MOST_WAVELENGTHS {
+            return Err(Error::Limit {
+                what: "bands",
+                most: MOST_WAVELENGTHS,
+                got: responses.len(),
+            });
         }
         let axis = SpectralAxis::new(self)?;
         let Fit {
@@ -110,6 +119,64 @@ impl Bands {
 
     pub(crate) fn projection(&self) -> &Projection {
         &self.projection
+    }
+
+    /// The exponentials of the air, if the bands are those of this model.
+    pub(super) fn air(&self, model: &Model) -> Result<&TransmittanceFit> {
+        self.check(model)?;
+        Ok(&self.air)
+    }
+
+    /// The bands of relative radiance (sr⁻¹) at all wavelengths of the model, whoever gives that: a
+    /// [`PointQuery`](crate::PointQuery), an [`AerialPerspectiveQuery`](crate::AerialPerspectiveQuery).
+    ///
+    /// ```
+    /// use welkin::{Conditions, Model, PointQuery, Response};
+    ///
+    /// let model = Model::default_model()?;
+    /// let bands = model.bands(&[Response::wavelength(450.0), Response::wavelength(650.0)])?;
+    /// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
+    /// let (mut relative, mut radiance) = ([0.0; 12], [0.0; 2]);
+    /// query.relative_radiance(&Conditions::default(), [0.0, 0.0, 1.0], &mut relative)?;
+    /// bands.project(&relative, &mut radiance)?; // W m⁻² sr⁻¹ nm⁻¹
+    /// assert!(radiance[0] > radiance[1]);
+    /// # Ok::<(), welkin::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless there is one number per wavelength of the model and `out` has one per band.
+    pub fn project(&self, relative: &[f32], out: &mut [f32]) -> Result<()> {
+        let mut kept = [0.0; MOST_WAVELENGTHS];
+        let kept = self.pick(relative, out.len(), &mut kept)?;
+        self.projection.apply(kept, out);
+        Ok(())
+    }
+
+    /// [`Bands::project`] for Stokes vectors.
+    ///
+    /// # Errors
+    /// As [`Bands::project`].
+    pub fn project_stokes(&self, relative: &[Stokes], out: &mut [Stokes]) -> Result<()> {
+        let mut kept = [Stokes::default(); MOST_WAVELENGTHS];
+        let kept = self.pick(relative, out.len(), &mut kept)?;
+        self.projection.apply_stokes(kept, out);
+        Ok(())
+    }
+
+    /// What belongs to the nodes.
+    fn pick<'k, T: Copy>(&self, all: &[T], bands: usize, kept: &'k mut [T]) -> Result<&'k [T]> {
+        check_length(bands, self.len())?;
+        if all.len() != self.nodes.stored() {
+            return Err(Error::Length {
+                what: "wavelengths of the model",
+                expected: self.nodes.stored() as u64,
+                got: all.len() as u64,
+            });
+        }
+        let nodes = self.nodes.kept();
+        let pairs = kept.iter_mut().zip(nodes);
+        pairs.for_each(|(kept, &node)| *kept = all[node]);
+        Ok(&kept[..nodes.len()])
     }
 }
 

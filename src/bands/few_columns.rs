@@ -8,9 +8,14 @@ pub(super) const MOST: f64 = 0.99;
 /// How much worse than with all columns a problem may get that misses the tolerance even with them.
 const SLACK: f64 = 1.1;
 
-/// For each problem weights with residuals up to `tolerance` (p99), or close to the least there are. `given` columns
-/// cost nothing.
-pub(super) fn choose(problems: &[Problem], given: &[usize], tolerance: f64) -> Vec<Weights> {
+/// For each problem weights with residuals up to `tolerance` (p99), or close to the least there are, of at most `most`
+/// columns. `given` ones cost nothing.
+pub(super) fn choose(
+    problems: &[Problem],
+    given: &[usize],
+    tolerance: f64,
+    most: usize,
+) -> Vec<Weights> {
     let best: Vec<Weights> = problems.iter().map(|p| p.solve(&all(p))).collect();
     let goals = problems.iter().zip(&best);
     let goals: Vec<f64> = goals
@@ -20,7 +25,7 @@ pub(super) fn choose(problems: &[Problem], given: &[usize], tolerance: f64) -> V
     candidates.sort_unstable();
     candidates.dedup();
     let mut chosen = given.to_vec();
-    while let Some(worst) = worst(problems, &goals, &chosen) {
+    while let Some(worst) = worst(problems, &goals, &chosen).filter(|_| chosen.len() < most) {
         let left = candidates.iter().filter(|c| !chosen.contains(c));
         let error = |&&c: &&usize| {
             let tried: Vec<usize> = chosen.iter().copied().chain([c]).collect();
@@ -79,17 +84,17 @@ mod tests {
     #[test]
     fn takes_as_few_as_the_tolerance_asks_for() {
         let sum = |t: f64| (-t).exp() + 0.5 * (-3.0 * t).exp();
-        let exact = choose(&[problem(sum)], &[], 1e-9);
+        let exact = choose(&[problem(sum)], &[], 1e-9, 16);
         assert_eq!(exact[0].iter().map(|w| w.0).collect::<Vec<_>>(), [4, 12]);
         // What two columns make, one makes where that is good enough.
-        let rough = choose(&[problem(sum)], &[], 0.5);
+        let rough = choose(&[problem(sum)], &[], 0.5, 16);
         assert_eq!(rough[0].len(), 1);
     }
 
     #[test]
     fn given_columns_are_used_first() {
         let near = |t: f64| (-1.02 * t).exp();
-        let found = choose(&[problem(near)], &[4], 0.1);
+        let found = choose(&[problem(near)], &[4], 0.1, 16);
         assert_eq!(found[0].iter().map(|w| w.0).collect::<Vec<_>>(), [4]);
     }
 }

@@ -44,7 +44,7 @@ impl Fit {
             fit.made.push(made);
             fit.residuals.push(residual);
         }
-        let weights = choose(&problems, &fit.nodes(), TOLERANCE);
+        let weights = choose(&problems, &fit.nodes(), TOLERANCE, usize::MAX);
         for ((band, problem), weights) in sums.into_iter().zip(problems).zip(weights) {
             fit.residuals[band] = residual(&problem, &weights);
             fit.made[band].sum = weights;
@@ -121,7 +121,7 @@ impl<'a> Examples<'a> {
         let wavelengths = spread(self.axis, response);
         let columns = wavelengths.iter().map(|&l| self.at(l)).collect();
         let problem = relative(columns, values);
-        let weights = choose(std::slice::from_ref(&problem), &[], TOLERANCE).remove(0);
+        let weights = choose(std::slice::from_ref(&problem), &[], TOLERANCE, usize::MAX).remove(0);
         let power = |&(i, factor): &(usize, f64)| Power {
             factor,
             taps: self.axis.weights(wavelengths[i]),

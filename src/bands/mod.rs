@@ -2,14 +2,18 @@
 //!
 //! `response` holds curves, `spectral_axis` knows what light and air are between nodes, `examples` typical spectra.
 //! `fit` finds weights of nodes for the light and `transmittance_fit` exponentials for the air, both with
-//! `few_columns` and `least_squares`; `projection` applies the weights, and the rest are the public faces.
+//! `few_columns` and `least_squares`; `projection` and `mixture` apply them, and the rest are the public faces.
 
+mod band_aerial;
+mod band_air;
 mod band_set;
 mod band_sky;
+mod band_sun;
 mod examples;
 mod few_columns;
 mod fit;
 mod least_squares;
+mod mixture;
 mod projection;
 mod quadrature;
 mod residual;
@@ -17,8 +21,11 @@ mod response;
 mod spectral_axis;
 mod transmittance_fit;
 
+pub use band_aerial::{BandAerialPerspective, JoinedBandAerialPerspective};
+pub use band_air::BandTransmittance;
 pub use band_set::Bands;
 pub use band_sky::{BandSky, PolarisedBandSky};
+pub use band_sun::BandSolarDisc;
 pub(crate) use projection::Projection;
 pub use residual::Residual;
 pub use response::Response;

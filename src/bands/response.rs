@@ -96,14 +96,6 @@ impl Response {
         }
     }
 
-    /// The wavelength, if it is a single one.
-    pub(super) fn single(&self) -> Option<f64> {
-        match self.curve {
-            Curve::Wavelength(wavelength) => Some(wavelength),
-            Curve::Table(_) => None,
-        }
-    }
-
     /// First and last wavelength that count, nm.
     pub(super) fn range(&self) -> [f64; 2] {
         match &self.curve {

@@ -5,12 +5,14 @@
 
 use super::few_columns::choose;
 use super::least_squares::Problem;
+use super::mixture::Mixture;
 use super::quadrature::{quadrature, spread};
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use crate::error::Result;
 use crate::format::{Head, Kind};
 use crate::model::Model;
+use crate::sky::MOST_WAVELENGTHS;
 use crate::transmittance::{Layers, Segment};
 
 /// Error that is to be kept (p99), relative to T where that is above [`DIM`].
@@ -24,10 +26,9 @@ const WHOLE: f64 = 1e3;
 /// The exponentials of all bands.
 #[derive(Clone, Debug)]
 pub(super) struct TransmittanceFit {
-    /// One wavelength for each, with its extinction.
+    /// One wavelength for each, with its extinction; per unit of sunlight.
     pub head: Head,
-    /// Exponential, band and weight.
-    pub weights: Vec<(usize, usize, f64)>,
+    pub mixture: Mixture,
 }
 
 /// An exponential, and what it comes from.
@@ -48,28 +49,34 @@ impl TransmittanceFit {
         let lines = lines(model, axis)?;
         let mut kept: Vec<Candidate> = Vec::new();
         let mut weights = Vec::new();
+        let mut sunlight = Vec::new();
+        let most = MOST_WAVELENGTHS / responses.len();
         for (band, response) in responses.iter().enumerate() {
-            let means = means(model, axis, response, &lines)?;
+            let (means, whole) = means(model, axis, response, &lines)?;
+            sunlight.push(whole as f32);
             let candidates = candidates(axis, response);
             let problem = problem(&candidates, &lines, &means);
-            let found = choose(&[problem], &[], TOLERANCE).remove(0);
+            let found = choose(&[problem], &[], TOLERANCE, most).remove(0);
             let sum: f64 = found.iter().map(|w| w.1).sum();
             let mut candidates: Vec<Option<Candidate>> = candidates.into_iter().map(Some).collect();
             for (candidate, weight) in found {
-                weights.push((kept.len(), band, weight / sum));
+                weights.push((band, (weight / sum) as f32));
                 kept.extend(candidates[candidate].take());
             }
         }
         Ok(Self {
             head: head(model, axis, &kept),
-            weights,
+            mixture: Mixture { weights, sunlight },
         })
     }
 }
 
 /// As if the model had these wavelengths.
 fn head(model: &Model, axis: &SpectralAxis, kept: &[Candidate]) -> Head {
-    let mut head = model.head().at_wavelengths(&vec![0; kept.len()]);
+    let mut head = model
+        .head()
+        .at_wavelengths(&vec![0; kept.len()])
+        .in_unit_sunlight();
     head.wavelengths = kept.iter().map(|c| c.wavelength).collect();
     head.extinction.clear();
     for v in 0..axis.visibilities() {
@@ -131,17 +138,21 @@ impl Line {
     }
 }
 
-/// The mean of T over response and sunlight for each line.
+/// The mean of T over response and sunlight for each line, and the integral of these.
 fn means(
     model: &Model,
     axis: &SpectralAxis,
     response: &Response,
     lines: &[Line],
-) -> Result<Vec<f64>> {
+) -> Result<(Vec<f64>, f64)> {
+    /// Where the sun gives no light, its colour is that of the response.
+    const DARKEST: f64 = 1e-12;
     let mut sums = vec![0.0; lines.len()];
-    let mut whole = 0.0;
+    let (mut whole, mut sunlight) = (0.0, 0.0);
     for [wavelength, weight] in quadrature(model, axis, response)? {
-        let weight = weight * model.head().solar_irradiance_at(wavelength).max(1e-12);
+        let irradiance = model.head().solar_irradiance_at(wavelength);
+        sunlight += weight * irradiance;
+        let weight = weight * irradiance.max(DARKEST);
         whole += weight;
         let extinction: Vec<Vec<f64>> = (0..axis.visibilities())
             .map(|v| axis.extinction(v, wavelength))
@@ -154,7 +165,7 @@ fn means(
             *sum += weight * line.passes(&extinction) * shares.sum::<f64>();
         }
     }
-    Ok(sums.into_iter().map(|sum| sum / whole).collect())
+    Ok((sums.into_iter().map(|sum| sum / whole).collect(), sunlight))
 }
 
 /// Lines of all lengths and heights: those of the model's air, or of any columns where it has none.

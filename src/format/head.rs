@@ -159,6 +159,14 @@ impl Head {
         }
     }
 
+    /// The same where the sun gives 1 W m⁻² nm⁻¹ at all wavelengths: what is made with it is relative.
+    pub(crate) fn in_unit_sunlight(self) -> Self {
+        Self {
+            solar_irradiance: vec![1.0; 2],
+            ..self
+        }
+    }
+
     /// Altitude nodes in the coordinate of interpolation between chunks, `h^(1/3)`.
     pub fn altitude_nodes(&self) -> Vec<f64> {
         self.altitudes.iter().map(|&h| altitude_node(h)).collect()

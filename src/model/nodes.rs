@@ -19,7 +19,7 @@ pub(crate) struct Nodes<'a> {
     stored: usize,
 }
 
-/// Some nodes of a model.
+/// Some nodes of a model, in sunlight of 1 W m⁻² nm⁻¹: what is prepared at them is relative.
 #[derive(Clone, Debug)]
 pub(crate) struct NodeSubset {
     head: Head,
@@ -32,7 +32,7 @@ impl NodeSubset {
     pub fn new(model: &Model, kept: Vec<usize>) -> Self {
         let head = model.head();
         Self {
-            head: head.at_wavelengths(&kept),
+            head: head.at_wavelengths(&kept).in_unit_sunlight(),
             stored: head.wavelengths.len(),
             kept,
         }
@@ -44,6 +44,11 @@ impl NodeSubset {
             kept: Some(&self.kept),
             stored: self.stored,
         }
+    }
+
+    /// How many nodes the model has.
+    pub fn stored(&self) -> usize {
+        self.stored
     }
 
     /// Which nodes they are of those in the file.

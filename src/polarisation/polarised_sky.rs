@@ -165,14 +165,14 @@ impl PolarisedSky {
         }))
     }
 
-    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit`
-    /// block by block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
+    /// Relative radiance, Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π),
+    /// handed to `emit` block by block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
     pub(crate) fn ratios(
         &self,
         ray: &Ray,
         phi: f64,
         angle: SunAngle,
-        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
+        mut emit: impl FnMut(usize, [f32; LANES], [[f32; LANES]; 2]),
     ) {
         let tables = self.sky.tables();
         let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
@@ -188,8 +188,8 @@ impl PolarisedSky {
         };
         let sine = phi.sin() as f32;
         self.polarisation
-            .ratios(tables, &lookup, &mix, |block, [q, u]| {
-                emit(block, limit_even(q, u, sine));
+            .ratios(tables, &lookup, &mix, |block, radiance, [q, u]| {
+                emit(block, radiance, limit_even(q, u, sine));
             });
     }
 
