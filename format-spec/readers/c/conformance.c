@@ -87,13 +87,45 @@ static void print_floats(const float *values, uint32_t count)
     for (i = 0; i < count; i++) printf("%.9g ", (double)values[i]);
 }
 
+static int is(const query *q, const char *quantity) { return strcmp(q->quantity, quantity) == 0; }
+
 static welkin_error answer_transmittance(const welkin_file *file, const query *q)
 {
     float transmittance[WELKIN_MAX_WAVELENGTHS];
     welkin_transmittance_profile air;
+    int at = is(q, "transmittance_at");
     welkin_error error = welkin_transmittance_prepare(&air, file, q->conditions.visibility);
-    if (!error) error = welkin_transmittance(&air, q->conditions.altitude, q->direction, q->distance, transmittance);
-    if (!error) print_floats(transmittance, file->wavelengths);
+    if (error) return error;
+    if (at)
+        error = welkin_transmittance_at(&air, q->conditions.altitude, q->direction, q->distance, &q->wavelength, 1, transmittance);
+    else
+        error = welkin_transmittance(&air, q->conditions.altitude, q->direction, q->distance, transmittance);
+    if (!error) print_floats(transmittance, at ? 1 : file->wavelengths);
+    return error;
+}
+
+static welkin_error print_at(const welkin_file *file, const query *q, const float *radiance)
+{
+    double value, irradiance = 1;
+    welkin_error error = welkin_radiance_at(file, radiance, q->wavelength, &value);
+    if (!error && is(q, "radiance_at")) error = welkin_irradiance_at(file, q->wavelength, &irradiance);
+    if (!error) printf("%.12g", value * irradiance);
+    return error;
+}
+
+/* At all wavelengths of the file, or at that of a query for one. */
+static welkin_error print_stokes(const welkin_file *file, const query *q, const float *l, const float *s, const float *u)
+{
+    double stokes[3];
+    welkin_error error;
+    if (!is(q, "stokes_at") && !is(q, "in_scattering_stokes_at")) {
+        print_floats(l, file->wavelengths);
+        print_floats(s, file->wavelengths);
+        print_floats(u, file->wavelengths);
+        return WELKIN_OK;
+    }
+    error = welkin_stokes_at(file, l, s, u, q->wavelength, stokes);
+    if (!error) printf("%.12g %.12g %.12g", stokes[0], stokes[1], stokes[2]);
     return error;
 }
 
@@ -103,6 +135,7 @@ static welkin_error answer_in_scattering(const welkin_file *file, const query *q
     welkin_aerial_perspective aerial;
     welkin_error error = welkin_aerial_perspective_prepare(&aerial, file, &q->conditions, scratch, floats);
     if (!error) error = welkin_in_scattering(&aerial, q->conditions.altitude, q->direction, q->distance, light);
+    if (!error && is(q, "in_scattering_at")) return print_at(file, q, light);
     if (!error) print_floats(light, file->wavelengths);
     return error;
 }
@@ -113,37 +146,14 @@ static welkin_error answer_in_scattering_stokes(const welkin_file *file, const q
     welkin_aerial_perspective aerial;
     welkin_error error = welkin_aerial_perspective_prepare(&aerial, file, &q->conditions, scratch, floats);
     if (!error) error = welkin_in_scattering_stokes(&aerial, q->conditions.altitude, q->direction, q->distance, l, s, u);
-    if (error) return error;
-    print_floats(l, file->wavelengths);
-    print_floats(s, file->wavelengths);
-    print_floats(u, file->wavelengths);
-    return WELKIN_OK;
+    return error ? error : print_stokes(file, q, l, s, u);
 }
 
 static welkin_error answer_stokes(const welkin_sky *sky, const query *q)
 {
     float l[WELKIN_MAX_WAVELENGTHS], s[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
     welkin_error error = welkin_stokes(sky, q->direction, l, s, u);
-    if (error) return error;
-    if (strcmp(q->quantity, "stokes_at") == 0) {
-        double stokes[3];
-        error = welkin_stokes_at(sky->file, l, s, u, q->wavelength, stokes);
-        if (!error) printf("%.12g %.12g %.12g", stokes[0], stokes[1], stokes[2]);
-        return error;
-    }
-    print_floats(l, sky->file->wavelengths);
-    print_floats(s, sky->file->wavelengths);
-    print_floats(u, sky->file->wavelengths);
-    return WELKIN_OK;
-}
-
-static welkin_error answer_at(const welkin_file *file, const query *q, const float *radiance)
-{
-    double value, irradiance = 1;
-    welkin_error error = welkin_radiance_at(file, radiance, q->wavelength, &value);
-    if (!error && strcmp(q->quantity, "radiance_at") == 0) error = welkin_irradiance_at(file, q->wavelength, &irradiance);
-    if (!error) printf("%.12g", value * irradiance);
-    return error;
+    return error ? error : print_stokes(sky->file, q, l, s, u);
 }
 
 static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
@@ -152,25 +162,25 @@ static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
     double xyz[3];
     welkin_error error = welkin_radiance(sky, q->direction, radiance);
     if (error) return error;
-    if (strcmp(q->quantity, "relative_radiance") == 0) {
+    if (is(q, "relative_radiance")) {
         print_floats(radiance, sky->file->wavelengths);
-    } else if (strcmp(q->quantity, "xyz") == 0) {
+    } else if (is(q, "xyz")) {
         welkin_xyz(sky->file, radiance, xyz);
         printf("%.12g %.12g %.12g", xyz[0], xyz[1], xyz[2]);
     } else {
-        return answer_at(sky->file, q, radiance);
+        return print_at(sky->file, q, radiance);
     }
     return WELKIN_OK;
 }
 
 static welkin_error answer(const welkin_file *file, const query *q, unsigned mode, float *scratch, size_t floats)
 {
-    int stokes = strcmp(q->quantity, "stokes") == 0 || strcmp(q->quantity, "stokes_at") == 0;
+    int stokes = is(q, "stokes") || is(q, "stokes_at");
     welkin_sky sky;
     welkin_error error;
-    if (strcmp(q->quantity, "transmittance") == 0) return answer_transmittance(file, q);
-    if (strcmp(q->quantity, "in_scattering") == 0) return answer_in_scattering(file, q, scratch, floats);
-    if (strcmp(q->quantity, "in_scattering_stokes") == 0) return answer_in_scattering_stokes(file, q, scratch, floats);
+    if (is(q, "transmittance") || is(q, "transmittance_at")) return answer_transmittance(file, q);
+    if (is(q, "in_scattering") || is(q, "in_scattering_at")) return answer_in_scattering(file, q, scratch, floats);
+    if (is(q, "in_scattering_stokes") || is(q, "in_scattering_stokes_at")) return answer_in_scattering_stokes(file, q, scratch, floats);
     error = welkin_prepare(&sky, file, &q->conditions, mode | (stokes ? WELKIN_POLARISED : 0), scratch, floats);
     if (error) return error;
     return stokes ? answer_stokes(&sky, q) : answer_radiance(&sky, q);

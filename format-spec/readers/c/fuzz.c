@@ -1,4 +1,4 @@
-/* Any bytes, with lengths and checksums made right: errors, or numbers that are finite and not negative.
+/* Any bytes, with lengths, checksums and features made right: errors, or numbers that are finite and not negative.
  *
  *     clang -std=c99 -g -O1 -fsanitize=fuzzer,address,undefined -o fuzz fuzz.c -lm && ./fuzz CORPUS ../../conformance/files
  *
@@ -14,14 +14,17 @@
 static void forge(unsigned char *bytes, size_t length)
 {
     uint64_t head = welkin__u64(bytes + 24), count = welkin__u32(bytes + 36), i;
+    uint32_t features = 0;
     welkin__put_u64(bytes + 16, length);
     if (head > length || count * WELKIN__ENTRY > head - WELKIN__HEADER || head < WELKIN__HEADER) return;
     for (i = 0; i < count; i++) {
         unsigned char *entry = bytes + head - (count - i) * WELKIN__ENTRY;
         uint64_t offset = welkin__u64(entry + 8), stored = welkin__u64(entry + 16);
+        if (welkin__u32(entry) == WELKIN__SPECTRUM) features = WELKIN__HAS_SPECTRUM;
         if (offset < head || offset > length || stored > length - offset) continue;
         welkin__put_u32(entry + 36, ~welkin__crc(0xFFFFFFFFu, bytes + offset, (size_t)stored));
     }
+    welkin__put_u32(bytes + 12, features);
     welkin__put_u32(bytes + 32, welkin__head_crc(bytes, (size_t)head));
 }
 
@@ -32,20 +35,46 @@ static void check(const float *values, uint32_t count, float low, float high)
         if (!(values[i] >= low && values[i] <= high)) abort();
 }
 
+/* Shares of the range at which wavelengths are asked. */
+static const double shares[5] = {0, 0.013, 0.37, 0.82, 1};
+
+static double wavelength_at(const welkin_file *file, int i)
+{
+    double range[2];
+    if (welkin_wavelength_range(file, range)) return welkin_wavelength(file, 0);
+    return (1 - shares[i]) * range[0] + shares[i] * range[1];
+}
+
+static void ask_wavelengths(const welkin_file *file, const float *light, const float *q, const float *u)
+{
+    double value, stokes[3];
+    int i;
+    for (i = 0; i < 5; i++) {
+        double wavelength = wavelength_at(file, i);
+        if (!welkin_radiance_at(file, light, wavelength, &value) && !(value >= 0 && value <= DBL_MAX)) abort();
+        if (!welkin_irradiance_at(file, wavelength, &value) && !(value >= 0 && value <= DBL_MAX)) abort();
+        if (!q || welkin_stokes_at(file, light, q, u, wavelength, stokes)) continue;
+        if (!(stokes[0] >= 0 && fabs(stokes[1]) <= DBL_MAX && fabs(stokes[2]) <= DBL_MAX)) abort();
+    }
+}
+
 static void ask_sky(const welkin_file *file, const welkin_conditions *conditions, unsigned flags, float *scratch, size_t floats)
 {
     static const double directions[3][3] = {{0, 0, 1}, {1, 0, 0.01}, {0.3, -0.2, -0.5}};
     float light[WELKIN_MAX_WAVELENGTHS], q[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
-    double value;
     welkin_sky sky;
     int i;
     if (welkin_prepare(&sky, file, conditions, flags, scratch, floats)) return;
     for (i = 0; i < 3; i++) {
         if (!welkin_radiance(&sky, directions[i], light)) {
             check(light, file->wavelengths, 0, FLT_MAX);
-            welkin_radiance_at(file, light, (welkin_wavelength(file, 0) + welkin_wavelength(file, 1)) / 2, &value);
+            ask_wavelengths(file, light, NULL, NULL);
         }
-        if (flags & WELKIN_POLARISED && !welkin_stokes(&sky, directions[i], light, q, u)) check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
+        if (flags & WELKIN_POLARISED && !welkin_stokes(&sky, directions[i], light, q, u)) {
+            check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
+            check(u, file->wavelengths, -FLT_MAX, FLT_MAX);
+            ask_wavelengths(file, light, q, u);
+        }
     }
 }
 
@@ -55,15 +84,19 @@ static void ask_segments(const welkin_file *file, const welkin_conditions *condi
     float values[WELKIN_MAX_WAVELENGTHS], q[WELKIN_MAX_WAVELENGTHS], u[WELKIN_MAX_WAVELENGTHS];
     welkin_transmittance_profile air;
     welkin_aerial_perspective aerial;
+    double wavelengths[5];
     int i, lit;
     if (welkin_transmittance_prepare(&air, file, conditions->visibility)) return;
+    for (i = 0; i < 5; i++) wavelengths[i] = wavelength_at(file, i);
     lit = !welkin_aerial_perspective_prepare(&aerial, file, conditions, scratch, floats);
     for (i = 0; i < 4; i++) {
         if (!welkin_transmittance(&air, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, 1);
+        if (!welkin_transmittance_at(&air, 100, segments[i], segments[i][3], wavelengths, 5, values)) check(values, 5, 0, 1);
         if (lit && !welkin_in_scattering(&aerial, 100, segments[i], segments[i][3], values)) check(values, file->wavelengths, 0, FLT_MAX);
         if (lit && !welkin_in_scattering_stokes(&aerial, 100, segments[i], segments[i][3], values, q, u)) {
             check(q, file->wavelengths, -FLT_MAX, FLT_MAX);
             check(u, file->wavelengths, -FLT_MAX, FLT_MAX);
+            ask_wavelengths(file, values, q, u);
         }
     }
 }

@@ -3,7 +3,8 @@
  * In exactly one C file: #define WELKIN_IMPLEMENTATION, then include this header. Link with -lm.
  *
  * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and
- * every number of the file is checked before use. Bytes may be unaligned; the host may have either byte order.
+ * every number of the file is checked before use. What a file stores for its own wavelengths (nodes) comes as arrays,
+ * what lies between them one wavelength at a time, from functions with names in _at. Bytes may be unaligned; the host may have either byte order.
  * Numbers must be IEEE 754, so do not compile the implementation with -ffast-math.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
@@ -47,6 +48,13 @@ typedef enum welkin_error {
 #define WELKIN_MAX_CONSTITUENTS 16
 #define WELKIN_MAX_RANK 4096
 
+/* What lies between the nodes: where the tables of the spectrum chunk are; private. */
+typedef struct welkin_spectrum {
+    welkin_error error; /* why it cannot be used: WELKIN_ERROR_MISSING in a file without one */
+    uint32_t cells, taps, terms;
+    const unsigned char *wavelength, *tap_node, *tap_weight, *extinction, *term_weight, *term_extinction;
+} welkin_spectrum;
+
 /* A checked file. The public members are for reading only. */
 typedef struct welkin_file {
     uint32_t wavelengths, altitudes, visibilities, fields, constituents;
@@ -63,6 +71,7 @@ typedef struct welkin_file {
     size_t wavelength_at, altitude_at, visibility_at, extinction_at, albedo_at, phase_at, xyz_at;
     size_t solar_range_at, solar_at, field_at, metadata_at, directory_at;
     uint32_t rank, polarisation_rank; /* of the bases, 0 if absent */
+    welkin_spectrum spectrum;
     int unpacked;
 } welkin_file;
 
@@ -119,7 +128,8 @@ typedef struct welkin_aerial_perspective {
 /* The name of an error's class. */
 WELKIN_API const char *welkin_error_name(welkin_error error);
 
-/* Checks the head of a file. The bytes must stay as they are while the file or skies of it are in use. */
+/* Checks the head of a file, and its spectrum if it has one: what is wrong with that is the error of questions that
+ * need it. The bytes must stay as they are while the file or skies of it are in use. */
 WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length);
 
 /* Decodes a zstd frame of `length` bytes into `out`, and returns how many bytes it wrote; anything but `capacity` is a
@@ -137,6 +147,9 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
 WELKIN_API double welkin_wavelength(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_altitude(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_visibility(const welkin_file *file, uint32_t index);
+
+/* First and last wavelength that can be asked, nm: of the spectrum's cells, or in a file without one of the nodes. */
+WELKIN_API welkin_error welkin_wavelength_range(const welkin_file *file, double range[2]);
 
 /* How many floats welkin_prepare needs. */
 WELKIN_API size_t welkin_scratch_floats(const welkin_file *file, unsigned flags);
@@ -156,11 +169,12 @@ WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direct
 /* CIE 1931 X, Y, Z in cd m^-2 of a radiance that welkin_radiance gave. */
 WELKIN_API void welkin_xyz(const welkin_file *file, const float *radiance, double xyz[3]);
 
-/* A radiance that welkin_radiance gave, between the wavelengths of the file. */
+/* A radiance that welkin_radiance or welkin_in_scattering gave, at any wavelength in the range. In a file with a
+ * spectrum the nodes are no means over absorption bands, and this is: also at the wavelength of a node. */
 WELKIN_API welkin_error welkin_radiance_at(const welkin_file *file, const float *radiance, double wavelength,
                                            double *value);
 
-/* Stokes components that welkin_stokes gave, between the wavelengths of the file: L, Q, U. */
+/* Stokes components that welkin_stokes or welkin_in_scattering_stokes gave, in the same way: L, Q, U. */
 WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *radiance, const float *q, const float *u,
                                          double wavelength, double stokes[3]);
 
@@ -174,6 +188,12 @@ WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profil
 /* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction. */
 WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
                                              const double direction[3], double distance, float *transmittance);
+
+/* The same at `count` wavelengths in the range, from the spectrum: without one the error is WELKIN_ERROR_MISSING. In
+ * absorption bands they are means, and the product of those of two parts is not that of the whole. */
+WELKIN_API welkin_error welkin_transmittance_at(const welkin_transmittance_profile *air, double altitude,
+                                                const double direction[3], double distance, const double *wavelengths,
+                                                size_t count, float *transmittance);
 
 /* How many floats welkin_aerial_perspective_prepare needs. */
 WELKIN_API size_t welkin_aerial_perspective_floats(const welkin_file *file);
@@ -210,6 +230,8 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
 #define WELKIN__ENTRY 64u
 #define WELKIN__NONE 65535u
 #define WELKIN__HALF_PI 1.57079632679489661923
+#define WELKIN__HAS_SPECTRUM 1u /* bit of required_features */
+#define WELKIN__MAX_TAPS 16u
 
 enum {
     WELKIN__RADIANCE = 1,
@@ -220,7 +242,8 @@ enum {
     WELKIN__POLARISATION = 6,
     WELKIN__POLARISATION_BASIS = 7,
     WELKIN__SOURCE_BASIS = 8,
-    WELKIN__KINDS = 9
+    WELKIN__SPECTRUM = 9,
+    WELKIN__KINDS = 10
 };
 
 /* ---- bytes ---- */
@@ -305,7 +328,7 @@ static welkin_error welkin__check_start(const unsigned char *p, size_t length)
     if (length < sizeof magic || memcmp(p, magic, sizeof magic) != 0) return WELKIN_ERROR_MAGIC;
     if (length < WELKIN__HEADER) return WELKIN_ERROR_LENGTH;
     if (welkin__u16(p + 8) != 1) return WELKIN_ERROR_VERSION;
-    if (welkin__u32(p + 12) != 0) return WELKIN_ERROR_FEATURE;
+    if ((welkin__u32(p + 12) & ~WELKIN__HAS_SPECTRUM) != 0) return WELKIN_ERROR_FEATURE;
     if (welkin__u64(p + 16) != length) return WELKIN_ERROR_LENGTH;
     return WELKIN_OK;
 }
@@ -428,18 +451,28 @@ static int welkin__axes_are_good(const welkin_file *f)
            welkin__axis_is_good(p + f->visibility_at, f->visibilities, 1, 1e9) && welkin__transforms_are_distinct(f);
 }
 
-static int welkin__solar_is_good(const welkin_file *f)
+static int welkin__f32s_are_within(const unsigned char *p, size_t n, double low, double high)
+{
+    size_t i;
+    for (i = 0; i < n; i++)
+        if (!welkin__within((double)welkin__f32(p + 4 * i), low, high)) return 0;
+    return 1;
+}
+
+/* Whether the samples of solar irradiance span an axis of wavelengths. */
+static int welkin__solar_spans(const welkin_file *f, const unsigned char *axis, uint32_t n)
 {
     const unsigned char *p = f->bytes + f->solar_range_at;
     double start = welkin__f64(p), step = welkin__f64(p + 8);
-    double first = welkin__f64(f->bytes + f->wavelength_at);
-    double last = welkin__f64(f->bytes + f->wavelength_at + 8 * (size_t)(f->wavelengths - 1));
-    uint32_t i;
-    if (!welkin__within(start, 0, first) || !welkin__within(step, 1e-3, 1e6)) return 0;
-    if (!(start + (f->solar_samples - 1) * step >= last)) return 0;
-    for (i = 0; i < f->solar_samples; i++)
-        if (!welkin__within((double)welkin__f32(f->bytes + f->solar_at + 4 * (size_t)i), 0, (double)FLT_MAX)) return 0;
-    return 1;
+    return start <= welkin__f64(axis) && start + (f->solar_samples - 1) * step >= welkin__f64(axis + 8 * (size_t)(n - 1));
+}
+
+static int welkin__solar_is_good(const welkin_file *f)
+{
+    const unsigned char *p = f->bytes + f->solar_range_at;
+    if (!(welkin__f64(p) >= 0) || !welkin__within(welkin__f64(p + 8), 1e-3, 1e6)) return 0;
+    return welkin__solar_spans(f, f->bytes + f->wavelength_at, f->wavelengths) &&
+           welkin__f32s_are_within(f->bytes + f->solar_at, f->solar_samples, 0, (double)FLT_MAX);
 }
 
 static int welkin__parameter_is_good(uint32_t phase, double parameter)
@@ -656,28 +689,6 @@ static int welkin__has_duplicates(const welkin_file *f)
     return 0;
 }
 
-WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length)
-{
-    uint64_t head;
-    welkin_error error;
-    memset(file, 0, sizeof *file);
-    error = welkin__check_start((const unsigned char *)bytes, length);
-    if (error) return error;
-    file->bytes = (const unsigned char *)bytes;
-    file->length = length;
-    welkin__read_header(file);
-    head = welkin__place_arrays(file);
-    if (welkin__u64(file->bytes + 24) != head || head > length) return WELKIN_ERROR_LENGTH;
-    if (welkin__head_crc(file->bytes, (size_t)head) != welkin__u32(file->bytes + 32)) return WELKIN_ERROR_CHECKSUM;
-    if (!welkin__counts_are_good(file) || !welkin__axes_are_good(file) || !welkin__header_numbers_are_good(file) ||
-        !welkin__tables_are_good(file) || !welkin__metadata_is_good(file))
-        return WELKIN_ERROR_VALUE;
-    welkin__find_ranks(file);
-    if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
-    file->metadata = (const char *)(file->bytes + file->metadata_at);
-    return WELKIN_OK;
-}
-
 WELKIN_API const char *welkin_error_name(welkin_error error)
 {
     switch (error) {
@@ -749,6 +760,104 @@ static welkin_error welkin__payload(const welkin_file *f, const welkin__entry *e
     if (expected != 0 && !welkin__payload_is_finite(e, p)) return WELKIN_ERROR_VALUE;
     *payload = p;
     return WELKIN_OK;
+}
+
+/* ---- spectrum ---- */
+
+/* Bytes of a payload with these counts. */
+static uint64_t welkin__spectrum_length(const welkin_file *f, const welkin_spectrum *s, uint32_t examples)
+{
+    uint64_t cells = s->cells, nk = f->constituents, cell = 8 + 8 * (uint64_t)s->taps + 4 * (f->visibilities * nk + s->terms * (1 + nk));
+    return 16 + cells * cell + 4 * (uint64_t)examples * f->wavelengths;
+}
+
+static int welkin__taps_are_good(const welkin_file *f, const welkin_spectrum *s)
+{
+    size_t taps = (size_t)s->cells * s->taps, i;
+    for (i = 0; i < taps; i++)
+        if (welkin__u32(s->tap_node + 4 * i) >= f->wavelengths) return 0;
+    return welkin__f32s_are_within(s->tap_weight, taps, -1e3, 1e3);
+}
+
+static int welkin__terms_are_good(const welkin_file *f, const welkin_spectrum *s)
+{
+    size_t terms = (size_t)s->cells * s->terms, i, g;
+    for (i = 0; i < terms; i += s->terms) {
+        double sum = 0;
+        for (g = 0; g < s->terms; g++) sum += (double)welkin__f32(s->term_weight + 4 * (i + g));
+        if (!welkin__within(sum - 1, -1e-5, 1e-5)) return 0;
+    }
+    return welkin__f32s_are_within(s->term_weight, terms, 0, 1) && welkin__f32s_are_within(s->term_extinction, terms * f->constituents, 0, 1e6);
+}
+
+/* Sets where the tables are, and checks them; the counts are in their ranges and the length is right. */
+static welkin_error welkin__place_spectrum(const welkin_file *f, const unsigned char *p, uint32_t examples,
+                                           welkin_spectrum *s)
+{
+    size_t cells = s->cells, air = cells * f->visibilities * f->constituents;
+    const unsigned char *example;
+    s->wavelength = p + 16;
+    s->tap_node = s->wavelength + 8 * cells;
+    s->tap_weight = s->tap_node + 4 * cells * s->taps;
+    s->extinction = s->tap_weight + 4 * cells * s->taps;
+    s->term_weight = s->extinction + 4 * air;
+    s->term_extinction = s->term_weight + 4 * cells * s->terms;
+    example = s->term_extinction + 4 * cells * s->terms * f->constituents;
+    if (!welkin__axis_is_good(s->wavelength, cells, 1, 1e6) || !welkin__solar_spans(f, s->wavelength, s->cells)) return WELKIN_ERROR_VALUE;
+    if (!welkin__taps_are_good(f, s) || !welkin__f32s_are_within(s->extinction, air, 0, 1e6) || !welkin__terms_are_good(f, s))
+        return WELKIN_ERROR_VALUE;
+    return welkin__f32s_are_within(example, (size_t)examples * f->wavelengths, -100, 100) ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+static welkin_error welkin__read_spectrum(const welkin_file *f, welkin_spectrum *s)
+{
+    welkin__entry entry;
+    const unsigned char *p;
+    uint32_t examples;
+    welkin_error error = welkin__find(f, WELKIN__SPECTRUM, WELKIN__NONE, WELKIN__NONE, &entry);
+    if (!error) error = welkin__payload(f, &entry, &p);
+    if (error) return error;
+    if (entry.raw < 16) return WELKIN_ERROR_VALUE;
+    s->cells = welkin__u32(p);
+    s->taps = welkin__u32(p + 4);
+    s->terms = welkin__u32(p + 8);
+    examples = welkin__u32(p + 12);
+    if (s->cells < 2 || s->cells > 4096 || s->taps < 1 || s->taps > WELKIN__MAX_TAPS) return WELKIN_ERROR_VALUE;
+    if (s->terms < 1 || s->terms > 16 || examples > 1024) return WELKIN_ERROR_VALUE;
+    if (entry.raw != welkin__spectrum_length(f, s, examples)) return WELKIN_ERROR_VALUE;
+    return welkin__place_spectrum(f, p, examples, s);
+}
+
+/* ---- opening ---- */
+
+static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t length, int unpacked)
+{
+    uint64_t head;
+    welkin_error error;
+    memset(file, 0, sizeof *file);
+    error = welkin__check_start((const unsigned char *)bytes, length);
+    if (error) return error;
+    file->bytes = (const unsigned char *)bytes;
+    file->length = length;
+    file->unpacked = unpacked;
+    welkin__read_header(file);
+    head = welkin__place_arrays(file);
+    if (welkin__u64(file->bytes + 24) != head || head > length) return WELKIN_ERROR_LENGTH;
+    if (welkin__head_crc(file->bytes, (size_t)head) != welkin__u32(file->bytes + 32)) return WELKIN_ERROR_CHECKSUM;
+    if (!welkin__counts_are_good(file) || !welkin__axes_are_good(file) || !welkin__header_numbers_are_good(file) ||
+        !welkin__tables_are_good(file) || !welkin__metadata_is_good(file))
+        return WELKIN_ERROR_VALUE;
+    welkin__find_ranks(file);
+    if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
+    file->spectrum.error = welkin__read_spectrum(file, &file->spectrum);
+    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM)) return WELKIN_ERROR_VALUE;
+    file->metadata = (const char *)(file->bytes + file->metadata_at);
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length)
+{
+    return welkin__open(file, bytes, length, 0);
 }
 
 /* ---- compressed chunks ---- */
@@ -858,7 +967,6 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
     unsigned char *bytes = (unsigned char *)out;
     size_t head = file->directory_at + (size_t)WELKIN__ENTRY * file->chunk_count, length = head;
     uint32_t i;
-    welkin_error error;
     if (welkin_unpacked_length(file) == 0) return WELKIN_OK;
     if (capacity < welkin_unpacked_length(file)) return WELKIN_ERROR_SCRATCH;
     memset(bytes, 0, capacity);
@@ -875,9 +983,7 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
     }
     welkin__put_u64(bytes + 16, length);
     welkin__put_u32(bytes + 32, welkin__head_crc(bytes, head));
-    error = welkin_open(file, bytes, length);
-    file->unpacked = 1;
-    return error;
+    return welkin__open(file, bytes, length, 1);
 }
 
 /* ---- interpolation between nodes ---- */
@@ -1699,53 +1805,149 @@ WELKIN_API void welkin_xyz(const welkin_file *f, const float *radiance, double x
         for (i = 0; i < 3; i++) xyz[i] += (double)radiance[w] * welkin__f64(f->bytes + f->xyz_at + 8 * (3 * (size_t)w + i));
 }
 
-static welkin_error welkin__spectral_stencil(const welkin_file *f, double wavelength, welkin__stencil *cubic,
-                                             welkin__stencil *linear)
+/* The wavelengths between which the file answers. */
+static welkin_error welkin__spectral_axis(const welkin_file *f, const unsigned char **axis, uint32_t *n)
 {
-    const unsigned char *axis = f->bytes + f->wavelength_at;
-    if (!welkin__is_on_axis(axis, f->wavelengths, wavelength)) return WELKIN_ERROR_RANGE;
-    *cubic = welkin__cubic(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
-    *linear = welkin__linear(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
+    int nodes = f->spectrum.error == WELKIN_ERROR_MISSING;
+    *axis = nodes ? f->bytes + f->wavelength_at : f->spectrum.wavelength;
+    *n = nodes ? f->wavelengths : f->spectrum.cells;
+    return nodes ? WELKIN_OK : f->spectrum.error;
+}
+
+WELKIN_API welkin_error welkin_wavelength_range(const welkin_file *f, double range[2])
+{
+    const unsigned char *axis;
+    uint32_t n;
+    welkin_error error = welkin__spectral_axis(f, &axis, &n);
+    if (error) return error;
+    range[0] = welkin__f64(axis);
+    range[1] = welkin__f64(axis + 8 * (size_t)(n - 1));
     return WELKIN_OK;
+}
+
+static welkin_error welkin__check_wavelength(const welkin_file *f, double wavelength)
+{
+    const unsigned char *axis;
+    uint32_t n;
+    welkin_error error = welkin__spectral_axis(f, &axis, &n);
+    if (error) return error;
+    return welkin__is_on_axis(axis, n, wavelength) ? WELKIN_OK : WELKIN_ERROR_RANGE;
+}
+
+/* What ln L at a wavelength is made of. */
+typedef struct welkin__blend {
+    uint32_t count, node[2 * WELKIN__MAX_TAPS];
+    double weight[2 * WELKIN__MAX_TAPS];
+} welkin__blend;
+
+static void welkin__blend_nodes(const welkin_file *f, double wavelength, welkin__blend *blend)
+{
+    welkin__stencil cubic = welkin__cubic(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
+    uint32_t i;
+    blend->count = cubic.count;
+    for (i = 0; i < cubic.count; i++) {
+        blend->node[i] = cubic.node[i];
+        blend->weight[i] = cubic.weight[i];
+    }
+}
+
+/* The place of a node in a blend, a new one if it has none. */
+static uint32_t welkin__place_in(welkin__blend *blend, uint32_t node)
+{
+    uint32_t i = 0;
+    while (i < blend->count && blend->node[i] != node) i++;
+    blend->node[i] = node;
+    if (i == blend->count) blend->count++;
+    return i;
+}
+
+/* Sums the taps of each cell first, so that those that cancel leave exactly nothing. */
+static welkin_error welkin__blend_cells(const welkin_file *f, double wavelength, welkin__blend *blend)
+{
+    const welkin_spectrum *s = &f->spectrum;
+    welkin__stencil cells = welkin__linear(s->wavelength, s->cells, wavelength, WELKIN__PLAIN);
+    double sum[2 * WELKIN__MAX_TAPS][2] = {{0, 0}};
+    uint32_t c, j, i;
+    blend->count = 0;
+    for (c = 0; c < cells.count; c++)
+        for (j = 0; j < s->taps; j++) {
+            size_t tap = 4 * ((size_t)cells.node[c] * s->taps + j);
+            uint32_t node = welkin__u32(s->tap_node + tap);
+            if (node >= f->wavelengths) return WELKIN_ERROR_VALUE; /* a mapped file that changed */
+            sum[welkin__place_in(blend, node)][c] += (double)welkin__f32(s->tap_weight + tap);
+        }
+    for (i = 0; i < blend->count; i++) blend->weight[i] = cells.weight[0] * sum[i][0] + cells.weight[1] * sum[i][1];
+    return WELKIN_OK;
+}
+
+static welkin_error welkin__blend_at(const welkin_file *f, double wavelength, welkin__blend *blend)
+{
+    welkin_error error = welkin__check_wavelength(f, wavelength);
+    if (error) return error;
+    if (f->spectrum.error == WELKIN_OK) return welkin__blend_cells(f, wavelength, blend);
+    welkin__blend_nodes(f, wavelength, blend);
+    return WELKIN_OK;
+}
+
+/* L where it is 0 at a node of the blend. */
+static double welkin__dark_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance, double wavelength)
+{
+    double sum = 0, lit = 0;
+    uint32_t i;
+    if (f->spectrum.error == WELKIN_ERROR_MISSING) {
+        welkin__stencil linear = welkin__linear(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
+        for (i = 0; i < linear.count; i++) sum += linear.weight[i] * (double)radiance[linear.node[i]];
+        return sum;
+    }
+    for (i = 0; i < blend->count; i++) {
+        sum += fmax(0, blend->weight[i]) * (double)radiance[blend->node[i]];
+        lit += fmax(0, blend->weight[i]);
+    }
+    return lit > 0 ? sum / lit : 0;
+}
+
+static welkin_error welkin__blend_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance,
+                                           double wavelength, double *value)
+{
+    double logarithm = 0;
+    int dark = 0;
+    uint32_t i;
+    for (i = 0; i < blend->count; i++) {
+        double node = (double)radiance[blend->node[i]];
+        if (blend->weight[i] == 0) continue;
+        if (node > 0)
+            logarithm += blend->weight[i] * log(node);
+        else
+            dark = 1;
+    }
+    *value = dark ? welkin__dark_radiance(f, blend, radiance, wavelength) : exp(logarithm);
+    return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
 WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *radiance, double wavelength,
                                            double *value)
 {
-    welkin__stencil cubic, linear;
-    double logarithm = 0, plain = 0;
-    int dark = 0;
-    uint32_t i;
-    if (welkin__spectral_stencil(f, wavelength, &cubic, &linear)) return WELKIN_ERROR_RANGE;
-    for (i = 0; i < linear.count; i++) plain += linear.weight[i] * (double)radiance[linear.node[i]];
-    for (i = 0; i < cubic.count; i++) {
-        double node = (double)radiance[cubic.node[i]];
-        if (cubic.weight[i] == 0) continue;
-        if (node > 0)
-            logarithm += cubic.weight[i] * log(node);
-        else
-            dark = 1;
-    }
-    *value = dark ? plain : exp(logarithm);
-    return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
+    welkin__blend blend;
+    welkin_error error = welkin__blend_at(f, wavelength, &blend);
+    return error ? error : welkin__blend_radiance(f, &blend, radiance, wavelength, value);
 }
 
 WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u,
                                          double wavelength, double stokes[3])
 {
-    welkin__stencil cubic, linear;
+    welkin__blend blend;
     double share[2] = {0, 0}, degree;
     uint32_t i;
-    welkin_error error = welkin__spectral_stencil(f, wavelength, &cubic, &linear);
-    if (!error) error = welkin_radiance_at(f, radiance, wavelength, &stokes[0]);
+    welkin_error error = welkin__blend_at(f, wavelength, &blend);
+    if (!error) error = welkin__blend_radiance(f, &blend, radiance, wavelength, &stokes[0]);
     if (error) return error;
-    for (i = 0; i < cubic.count; i++) {
-        double node = (double)radiance[cubic.node[i]];
+    for (i = 0; i < blend.count; i++) {
+        double node = (double)radiance[blend.node[i]];
         if (!(node > 0)) continue;
-        share[0] += cubic.weight[i] * (double)q[cubic.node[i]] / node;
-        share[1] += cubic.weight[i] * (double)u[cubic.node[i]] / node;
+        share[0] += blend.weight[i] * (double)q[blend.node[i]] / node;
+        share[1] += blend.weight[i] * (double)u[blend.node[i]] / node;
     }
-    degree = fmax(1, sqrt(share[0] * share[0] + share[1] * share[1])); /* the cubic can overshoot */
+    degree = fmax(1, sqrt(share[0] * share[0] + share[1] * share[1])); /* weights below 0 can overshoot */
     for (i = 0; i < 2; i++) stokes[1 + i] = share[i] / degree * stokes[0];
     return WELKIN_OK;
 }
@@ -1756,7 +1958,8 @@ WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavele
     welkin__spline at;
     double u, t;
     uint32_t i;
-    if (!welkin__is_on_axis(f->bytes + f->wavelength_at, f->wavelengths, wavelength)) return WELKIN_ERROR_RANGE;
+    welkin_error error = welkin__check_wavelength(f, wavelength);
+    if (error) return error;
     u = (wavelength - welkin__f64(p)) / welkin__f64(p + 8);
     at = welkin__free_spline(u, f->solar_samples - 1); /* for its clamped interval */
     i = at.row[0];
@@ -1778,14 +1981,6 @@ static int welkin__edges_are_good(const welkin_file *f, const unsigned char *edg
     return 1;
 }
 
-static int welkin__densities_are_good(const unsigned char *p, size_t n)
-{
-    size_t i;
-    for (i = 0; i < n; i++)
-        if (!welkin__within((double)welkin__f32(p + 4 * i), 0, 1e6)) return 0;
-    return 1;
-}
-
 static welkin_error welkin__read_profile(welkin_transmittance_profile *air, const welkin__entry *entry)
 {
     const welkin_file *f = air->file;
@@ -1800,7 +1995,7 @@ static welkin_error welkin__read_profile(welkin_transmittance_profile *air, cons
     if (entry->raw != 8 + 8 * ((uint64_t)air->layers + 1) + 4 * densities) return WELKIN_ERROR_VALUE;
     air->edges = p + 8;
     air->densities = air->edges + 8 * ((size_t)air->layers + 1);
-    if (!welkin__edges_are_good(f, air->edges, air->layers) || !welkin__densities_are_good(air->densities, densities))
+    if (!welkin__edges_are_good(f, air->edges, air->layers) || !welkin__f32s_are_within(air->densities, densities, 0, 1e6))
         return WELKIN_ERROR_VALUE;
     return WELKIN_OK;
 }
@@ -1885,20 +2080,32 @@ static welkin_error welkin__segment(double altitude, const double direction[3], 
     return WELKIN_OK;
 }
 
+/* Integrals of the profiles along a segment. */
+static welkin_error welkin__segment_columns(const welkin_transmittance_profile *air, double altitude,
+                                            const double direction[3], double distance, double *columns)
+{
+    double v[3], radius = air->file->planet_radius;
+    welkin__line line;
+    uint32_t k;
+    welkin_error error = welkin__segment(altitude, direction, distance, v);
+    if (error) return error;
+    line.radius = radius;
+    line.start = (radius + altitude) * v[2];
+    line.end = line.start + distance;
+    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
+    for (k = 0; k < air->file->constituents; k++) columns[k] = 0;
+    welkin__integrate(air, &line, columns);
+    return WELKIN_OK;
+}
+
 WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
                                              const double direction[3], double distance, float *transmittance)
 {
     const welkin_file *f = air->file;
-    double v[3], columns[WELKIN_MAX_CONSTITUENTS] = {0};
-    welkin__line line;
+    double columns[WELKIN_MAX_CONSTITUENTS];
     size_t nw = f->wavelengths, table = f->constituents * nw, w, k;
-    welkin_error error = welkin__segment(altitude, direction, distance, v);
+    welkin_error error = welkin__segment_columns(air, altitude, direction, distance, columns);
     if (error) return error;
-    line.radius = f->planet_radius;
-    line.start = (f->planet_radius + altitude) * v[2];
-    line.end = line.start + distance;
-    line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * line.radius);
-    welkin__integrate(air, &line, columns);
     for (w = 0; w < nw; w++) {
         double depth = 0;
         for (k = 0; k < f->constituents; k++) {
@@ -1909,6 +2116,58 @@ WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile 
         transmittance[w] = (float)exp(-depth);
     }
     return WELKIN_OK;
+}
+
+/* Optical depth in a cell, but for absorption lines. */
+static double welkin__cell_depth(const welkin_transmittance_profile *air, const double *columns, size_t cell)
+{
+    const welkin_file *f = air->file;
+    size_t cells = f->spectrum.cells, table = f->constituents * cells, k;
+    double depth = 0;
+    for (k = 0; k < f->constituents; k++) {
+        const unsigned char *p = f->spectrum.extinction + 4 * (k * cells + cell);
+        double first = (double)welkin__f32(p + 4 * air->visibility_node[0] * table);
+        double second = (double)welkin__f32(p + 4 * air->visibility_node[1] * table);
+        depth += columns[k] * (air->visibility_weight[0] * first + air->visibility_weight[1] * second);
+    }
+    return depth;
+}
+
+/* What absorption lines leave of the light of a cell, in the mean over its band. */
+static double welkin__cell_lines(const welkin_file *f, const double *columns, size_t cell)
+{
+    const welkin_spectrum *s = &f->spectrum;
+    double mean = 0;
+    size_t g, k, nk = f->constituents;
+    for (g = cell * s->terms; g < (cell + 1) * s->terms; g++) {
+        double depth = 0;
+        for (k = 0; k < nk; k++) depth += columns[k] * (double)welkin__f32(s->term_extinction + 4 * (g * nk + k));
+        mean += (double)welkin__f32(s->term_weight + 4 * g) * exp(-depth);
+    }
+    return mean;
+}
+
+WELKIN_API welkin_error welkin_transmittance_at(const welkin_transmittance_profile *air, double altitude,
+                                                const double direction[3], double distance, const double *wavelengths,
+                                                size_t count, float *transmittance)
+{
+    const welkin_spectrum *s = &air->file->spectrum;
+    double columns[WELKIN_MAX_CONSTITUENTS];
+    size_t w;
+    uint32_t c;
+    welkin_error error = s->error;
+    if (!error) error = welkin__segment_columns(air, altitude, direction, distance, columns);
+    for (w = 0; w < count && !error; w++) error = welkin__check_wavelength(air->file, wavelengths[w]);
+    for (w = 0; w < count && !error; w++) {
+        welkin__stencil cells = welkin__linear(s->wavelength, s->cells, wavelengths[w], WELKIN__PLAIN);
+        double depth = 0, lines = 0;
+        for (c = 0; c < cells.count; c++) {
+            depth += cells.weight[c] * welkin__cell_depth(air, columns, cells.node[c]);
+            lines += cells.weight[c] * welkin__cell_lines(air->file, columns, cells.node[c]);
+        }
+        transmittance[w] = (float)fmin(exp(-depth) * lines, 1); /* the sum of shares is only about 1 */
+    }
+    return error;
 }
 
 /* ---- light that segments scatter ---- */
@@ -2003,7 +2262,7 @@ static int welkin__species_are_good(const welkin_aerial_perspective *aerial, con
         for (w = 0; w < nw; w++)
             if (!welkin__parameter_is_good(phase, (double)welkin__f32(source->parameter + 4 * (p * nw + w)))) return 0;
     }
-    return welkin__densities_are_good(source->scattering, source->species * (size_t)aerial->air.file->constituents * nw);
+    return welkin__f32s_are_within(source->scattering, source->species * (size_t)aerial->air.file->constituents * nw, 0, 1e6);
 }
 
 /* Checks a source and that it fits the basis. */

@@ -3,75 +3,12 @@
     python -m unittest discover tests
 """
 
-import struct
 import unittest
-import zlib
 
 import numpy as np
+from small_file import SOURCE_LEVEL, aerial_file
 
 import welkin_sky
-from welkin_sky import _head
-
-RADIUS, TOP = 6.378e6, 1e5
-EDGES = np.array([0.0, 1e3, 3e3, 8e3, 16e3, 32e3, TOP])
-SOURCE_LEVEL = 0.01
-
-
-def profile():
-    """Bernstein coefficients (2·nl+1, 1) of about exp(−h / 8 km)."""
-    middles = 0.5 * (EDGES[1:] + EDGES[:-1])
-    altitudes = np.insert(EDGES, np.arange(1, len(EDGES)), middles)
-    return np.exp(-altitudes / 8e3)[:, None]
-
-
-def transmittance_chunk():
-    counts = struct.pack("<II", len(EDGES) - 1, 0)
-    return counts + EDGES.astype("<f8").tobytes() + profile().astype("<f4").tobytes()
-
-
-def source_basis_chunk():
-    """The same source everywhere: a tensor and a harmonic that give 1 in all directions."""
-    head = struct.pack("<8I", 2, 2, 0, 0, 1, 1, 1, 1)
-    axes = np.array([0.0, TOP, -1.0, 1.0], "<f8").tobytes()
-    moments = [0.5, 0.5, 0.5, 0.0, np.sqrt(4.0 * np.pi)]
-    factors = [1.0, 1.0, 1.0, 1.0, *moments, 1.0, 1.0, 0.0, 0.0]
-    return head + axes + np.array(factors, "<f4").tobytes()
-
-
-def source_chunk(phase, scattering):
-    head = struct.pack("<6IfI", 1, 2, 1, 1, 1, 1, 2.0, 0)
-    parameter = [0.0, 0.0]
-    level = [np.log(SOURCE_LEVEL)] * 4 + [0.0] * 4
-    numbers = np.array([*parameter, scattering, scattering, *level], "<f4").tobytes()
-    return head + struct.pack("<I", phase) + numbers + np.array([0.5], "<f2").tobytes()
-
-
-def aerial_file(phase, extinction, scattering):
-    """A file with kinds 4, 5 and 8; one constituent, one visibility, two wavelengths."""
-    chunks = [
-        (_head.TRANSMITTANCE, _head.NONE, transmittance_chunk()),
-        (_head.SOURCE, 0, source_chunk(phase, scattering)),
-        (_head.SOURCE_BASIS, _head.NONE, source_basis_chunk()),
-    ]
-    arrays = np.array([400, 700, 0, 2e4, 5e4, extinction, extinction, 0, 0, 0, 0], "<f8")
-    # Before the extinction stand the wavelengths, two altitudes and the visibility.
-    body = arrays.tobytes() + np.array([1.0] * 6 + [400.0, 300.0], "<f8").tobytes()
-    body += np.array([1.0, 1.0], "<f4").tobytes() + struct.pack("<I", 0) + b"{}\0\0"
-    head_length = 128 + len(body) + 64 * len(chunks)
-    directory, data = b"", b""
-    for kind, visibility, payload in chunks:
-        data += bytes(-(head_length + len(data)) % 64)
-        size = len(payload)
-        entry = (kind, 0xFFFF, visibility, head_length + len(data), size, size, 0)
-        directory += struct.pack("<IHHQQQIIIIffQ", *entry, zlib.crc32(payload), 0, 0, 0.0, 0.0, 0)
-        data += payload
-    counts = (2, 2, 1, 1, 1, 1, 1, 1, 1, 2)
-    floats = (RADIUS, TOP, 3.0, 2.5, -np.pi / 2, np.pi / 2, 0.0, 0.06)
-    length = head_length + len(data)
-    front = struct.pack("<8sHHIQQ", _head.MAGIC, 1, 0, 0, length, head_length)
-    rest = struct.pack("<I10HI8d", len(chunks), *counts, 2, *floats) + body + directory
-    crc = zlib.crc32(front + bytes(4) + rest)
-    return front + struct.pack("<I", crc) + rest + data
 
 
 def views():

@@ -128,7 +128,7 @@ class AerialPerspective:
     @np.errstate(all="ignore")
     def __init__(self, head, chunks, conditions, altitude):
         self._head = head
-        self._altitude = altitude
+        self.altitude = altitude
         inverse = -1.0 / head.visibility, [-1.0 / conditions.visibility]
         cubic, linear = node_weights(*inverse)[0], linear_weights(*inverse)[0]
         sources = self._load(chunks, cubic)
@@ -182,7 +182,7 @@ class AerialPerspective:
 
         Intervals shrink towards the observer and towards the lowest point, where most light is.
         """
-        radius, h = self._head.planet_radius, self._altitude
+        radius, h = self._head.planet_radius, self.altitude
         top = self._head.top_altitude
         start = (radius + h) * units[:, 2]
         to_top = (top - h) * (2.0 * radius + top + h)
@@ -201,7 +201,7 @@ class AerialPerspective:
 
     def _transmittance_from_observer(self, units, along):
         rise = np.repeat(units[:, 2], along.shape[1])
-        return self._transmittance(self._altitude, rise, along.ravel())
+        return self._transmittance(self.altitude, rise, along.ravel())
 
     def _transmittance(self, altitude, rise, distance):
         radius = self._head.planet_radius
@@ -272,7 +272,7 @@ class _Points:
     """Points on lines of sight, with the local directions of the view and of the sun there."""
 
     def __init__(self, aerial, units, along):
-        radius, h = aerial._head.planet_radius, aerial._altitude
+        radius, h = aerial._head.planet_radius, aerial.altitude
         rise = units[:, 2]
         self.altitude = np.maximum(0.0, altitude_on_line(radius, h, rise, along))
         self.angle = Angle(units, aerial._sun)

@@ -56,7 +56,7 @@ def node_weights(nodes, x):
     """
     if len(nodes) <= 2:
         return linear_weights(nodes, x)
-    i, t = _interval(nodes, x)
+    i, t = interval(nodes, x)
     rows, step = np.arange(len(i)), nodes[i + 1] - nodes[i]
     weights = np.zeros((len(i), len(nodes)))
     weights[rows, i] += (2.0 * t - 3.0) * t * t + 1.0
@@ -66,7 +66,7 @@ def node_weights(nodes, x):
     return weights
 
 
-def _interval(nodes, x):
+def interval(nodes, x):
     """Index (P,) of the node before each x (P,), and the place 0..=1 up to the next one."""
     x = np.asarray(x, dtype=np.float64)
     i = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, len(nodes) - 2)
@@ -87,7 +87,7 @@ def linear_weights(nodes, x):
     """Weights of the two nodes around x, and of the end node beyond the ends: (P,) → (P, n)."""
     if len(nodes) == 1:
         return np.ones((len(x), 1))
-    i, t = _interval(nodes, x)
+    i, t = interval(nodes, x)
     weights = np.zeros((len(i), len(nodes)))
     rows = np.arange(len(i))
     weights[rows, i], weights[rows, i + 1] = 1.0 - t, t

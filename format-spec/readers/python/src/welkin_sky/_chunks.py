@@ -8,6 +8,7 @@ import numpy as np
 from . import _head
 from ._aerial_perspective import decode_source, decode_source_basis
 from ._head import NONE, Cursor, require, require_within, round_up
+from ._spectrum import decode_spectrum
 from ._zstd import decompress
 from .errors import ChecksumError, EncodingError, InvalidValueError, MissingError
 
@@ -20,6 +21,7 @@ _NAMES = {
     _head.POLARISATION: "polarisation",
     _head.POLARISATION_BASIS: "polarisation basis",
     _head.SOURCE_BASIS: "source basis",
+    _head.SPECTRUM: "spectrum",
 }
 
 
@@ -106,6 +108,7 @@ def _decode(payload, entry, head):
         _head.TRANSMITTANCE: _profiles,
         _head.SOURCE: decode_source,
         _head.SOURCE_BASIS: decode_source_basis,
+        _head.SPECTRUM: decode_spectrum,
     }
     return decoders[entry.kind](Payload(payload), entry, head)
 

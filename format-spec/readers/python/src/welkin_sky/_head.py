@@ -24,8 +24,11 @@ MAX_COEFFICIENTS = 1 << 24
 MAX_RANK = 4096
 MAX_EXPANSION = 256
 
+HAS_SPECTRUM = 1
+"""Bit of required_features."""
+
 RADIANCE, COLUMN, RADIANCE_BASIS, TRANSMITTANCE = 1, 2, 3, 4
-SOURCE, POLARISATION, POLARISATION_BASIS, SOURCE_BASIS = 5, 6, 7, 8
+SOURCE, POLARISATION, POLARISATION_BASIS, SOURCE_BASIS, SPECTRUM = 5, 6, 7, 8, 9
 
 # Which kinds belong to an altitude, to a visibility, and have a rank.
 WITH_ALTITUDE = {RADIANCE, COLUMN, POLARISATION}
@@ -142,6 +145,8 @@ def read_head(source):
     arrays = _read_arrays(head[:arrays_length], counts, metadata_length)
     _check_arrays(header, arrays)
     chunks = _read_directory(head[arrays_length:], head_length, len(source), counts)
+    has_spectrum = (SPECTRUM, NONE, NONE) in chunks
+    require(has_spectrum == (header["features"] == HAS_SPECTRUM), "spectrum and feature bit differ")
     names = ("planet_radius", "top_altitude", "alpha_up_exponent", "alpha_down_exponent")
     names += ("elevation_min", "elevation_max", "elevation_centre", "elevation_width")
     return Head(counts=counts, chunks=chunks, **{name: header[name] for name in names}, **arrays)
@@ -160,7 +165,7 @@ def _read_header(source):
     header = dict(zip(names, _HEADER.unpack(data), strict=True))
     if header["major"] != 1:
         raise VersionError(f"version {header['major']}.{header['minor']} is not 1.x")
-    if header["features"] != 0:
+    if header["features"] & ~HAS_SPECTRUM:
         raise FeatureError(f"unknown required features {header['features']:#x}")
     if header["file_length"] != len(source):
         raise LengthError(f"the file has {len(source)} bytes, not {header['file_length']}")
@@ -278,11 +283,19 @@ def check_phase(code, parameter):
 
 def _check_solar(arrays):
     start, step, irradiance = (arrays[x] for x in ("solar_start", "solar_step", "solar_irradiance"))
-    first, last = arrays["wavelength"][[0, -1]]
-    require_within(start, 0.0, first, "solar_start")
     require_within(step, 1e-3, 1e6, "solar_step")
-    require(start + (len(irradiance) - 1) * step >= last, "the solar spectrum ends too early")
+    _check_span(start, step, len(irradiance), arrays["wavelength"])
     require_within(irradiance, 0.0, np.finfo(np.float32).max, "solar_irradiance")
+
+
+def check_solar_span(head, axis):
+    """Refuses wavelengths (n,) for which there is no solar irradiance."""
+    _check_span(head.solar_start, head.solar_step, len(head.solar_irradiance), axis)
+
+
+def _check_span(start, step, samples, axis):
+    require_within(start, 0.0, axis[0], "solar_start")
+    require(start + (samples - 1) * step >= axis[-1], "the solar spectrum ends too early")
 
 
 def _read_directory(data, head_length, file_length, counts):
@@ -294,7 +307,7 @@ def _read_directory(data, head_length, file_length, counts):
         require(entry.offset == round_up(end, 64), "a chunk is out of its place")
         end = entry.offset + entry.stored_length
         require(end <= file_length, "a chunk reaches beyond the file")
-        if not RADIANCE <= entry.kind <= SOURCE_BASIS:
+        if not RADIANCE <= entry.kind <= SPECTRUM:
             continue
         _check_entry(entry, counts)
         key = (entry.kind, entry.altitude, entry.visibility)

@@ -2,44 +2,75 @@
 
 import numpy as np
 
+from . import _head
 from ._axes import linear_weights, node_weights
 from .errors import RangeError
+
+
+class _Nodes:
+    """The rule of files without a spectrum; `_spectrum.Spectrum` is that of the others."""
+
+    def __init__(self, axis):
+        self.axis = axis
+
+    def weights(self, wavelength):
+        return node_weights(self.axis, wavelength)
+
+    def plain_weights(self, wavelength):
+        return linear_weights(self.axis, wavelength)
 
 
 class Wavelengths:
     """The wavelengths of a file and its solar spectrum."""
 
-    def __init__(self, head):
+    def __init__(self, head, chunks):
         self.nodes = head.wavelength
+        self._has_spectrum = head.chunk(_head.SPECTRUM) is not None
+        self._chunks = chunks
         self._irradiance = head.solar_irradiance
         self._grid = head.solar_start + head.solar_step * np.arange(len(head.solar_irradiance))
 
+    @property
+    def spectrum(self):
+        """What lies between the nodes. Raises MissingError in a file without a spectrum."""
+        return self._chunks.get(_head.SPECTRUM)
+
+    @property
+    def _rule(self):
+        return self.spectrum if self._has_spectrum else _Nodes(self.nodes)
+
+    @property
+    def range(self):
+        """First and last wavelength that can be asked, nm."""
+        axis = self._rule.axis
+        return float(axis[0]), float(axis[-1])
+
     def checked(self, wavelength):
-        """Wavelengths as an array (W,). Raises RangeError, also for an excess by rounding."""
+        """Wavelengths as an array (K,). Raises RangeError, also for an excess by rounding."""
         wavelength = np.atleast_1d(np.asarray(wavelength, dtype=np.float64))
         if wavelength.ndim != 1:
             raise RangeError("wavelength must be a number or one-dimensional")
-        low, high = self.nodes[0], self.nodes[-1]
+        low, high = self.range
         if not np.all((wavelength >= low) & (wavelength <= high)):
             raise RangeError(f"wavelength outside {low:g} to {high:g} nm")
         return wavelength
 
     def irradiance(self, wavelength):
-        """Solar spectral irradiance (W,), W m⁻² nm⁻¹."""
+        """Solar spectral irradiance (K,), W m⁻² nm⁻¹."""
         return np.interp(wavelength, self._grid, self._irradiance)
 
     def weights(self, wavelength):
-        """Cubic weights of the nodes: (W, nw)."""
-        return node_weights(self.nodes, wavelength)
+        """Weights of the nodes in ln L: (K, nw)."""
+        return self._rule.weights(wavelength)
 
     def interpolate_radiance(self, radiance, wavelength):
-        """Radiance (N, nw) at wavelengths (W,): (N, W). Logarithmic, linear next to zeros."""
-        columns = []
-        linear = radiance @ linear_weights(self.nodes, wavelength).T
-        for k, weights in enumerate(self.weights(wavelength)):
-            used = np.flatnonzero(weights)
-            values = radiance[:, used]
-            dark = np.any(values == 0.0, axis=1)
-            smooth = np.exp(np.log(values) @ weights[used])
-            columns.append(np.where(dark, linear[:, k], smooth))
-        return np.stack(columns, axis=1)
+        """Radiance (N, nw) at wavelengths (K,): (N, K). Logarithmic, linear where a node is dark."""
+        weights, plain = self._rule.weights(wavelength), self._rule.plain_weights(wavelength)
+        used = np.flatnonzero(np.any((weights != 0.0) | (plain != 0.0), axis=0))
+        radiance, weights, plain = radiance[:, used], weights[:, used], plain[:, used]
+        dark = radiance == 0.0
+        smooth = np.exp(np.log(np.where(dark, 1.0, radiance)) @ weights.T)
+        if not np.any(dark):
+            return smooth
+        touched = dark.astype(np.float64) @ (weights != 0.0).T > 0.0
+        return np.where(touched, radiance @ plain.T, smooth)

@@ -14,9 +14,10 @@ from ._chunks import Chunks
 from ._geometry import unit_vectors
 from ._head import read_head
 from ._spectral import Wavelengths
+from ._stokes import bounded_stokes, interpolate_stokes
 from ._transmittance import path_integrals
 from .errors import InvalidValueError, PointError, RangeError
-from .sky import Conditions, Sky, bounded_stokes
+from .sky import Conditions, Sky
 
 FARTHEST = 1e9
 """Largest coordinate of an end of a segment, m."""
@@ -55,15 +56,20 @@ class Model:
         self._recipe = recipe
         self._head = read_head(source)
         self._chunks = Chunks(source, self._head)
-        self._wavelengths = Wavelengths(self._head)
+        self._wavelengths = Wavelengths(self._head, self._chunks)
 
     def __reduce__(self):
         return self._recipe
 
     @property
     def wavelengths(self):
-        """Wavelengths, nm: (W,)."""
+        """Wavelengths that the file stores, its nodes, nm: (W,)."""
         return self._head.wavelength.copy()
+
+    @property
+    def wavelength_range(self):
+        """First and last wavelength that can be asked, nm: of the spectrum's cells, or of the nodes."""
+        return self._wavelengths.range
 
     @property
     def altitude_range(self):
@@ -124,16 +130,37 @@ class Model:
         distance: m, a number or an array (…), may be infinite
         altitude, visibility: m, numbers; any altitude
         """
-        visibility = _clamp(visibility, self.visibility_range, "visibility")
-        shape = np.shape(directions)[:-1]
+        weights = self._visibility_weights(visibility)
         profiles = self._chunks.get(_head.TRANSMITTANCE)
+        columns = self._columns(profiles, directions, distance, altitude)
+        result = np.exp(-(columns @ np.tensordot(weights, self._head.extinction, 1)))
+        return _finite(result).reshape(*np.shape(directions)[:-1], -1)
+
+    @np.errstate(all="ignore")
+    def transmittance_at(self, directions, distance, wavelength, *, altitude, visibility):
+        """Transmittance at wavelengths in nm, a number or (K,): (…, 3) → (…, K).
+
+        For files with a spectrum; others know it at their nodes only, and MissingError is raised.
+        In absorption bands it is a mean over the band, so that the product of those of two parts
+        of a segment is not that of the whole.
+        """
+        weights = self._visibility_weights(visibility)
+        profiles, spectrum = self._chunks.get(_head.TRANSMITTANCE), self._wavelengths.spectrum
+        columns = self._columns(profiles, directions, distance, altitude)
+        result = spectrum.transmittance(columns, weights, self._wavelengths.checked(wavelength))
+        return _finite(result).reshape(*np.shape(directions)[:-1], -1)
+
+    def _visibility_weights(self, visibility):
+        """Weights of the visibilities, linear in their inverse: (nv,)."""
+        visibility = _clamp(visibility, self.visibility_range, "visibility")
+        return linear_weights(-1.0 / self._head.visibility, [-1.0 / visibility])[0]
+
+    def _columns(self, profiles, directions, distance, altitude):
+        """Integrals (N, nk) of the profiles along segments."""
         units = unit_vectors(directions)
-        altitude, distance = _segments(altitude, units, distance, shape)
-        rise = units[:, 2]
+        altitude, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
         radius = self._head.planet_radius
-        columns = path_integrals(profiles, radius, altitude, rise, distance)
-        result = np.exp(-(columns @ self._extinction_at(visibility)))
-        return _finite(result).reshape(*shape, -1)
+        return path_integrals(profiles, radius, altitude, units[:, 2], distance)
 
     def in_scattering(self, directions, distance, **scene):
         """Light that the air of straight segments scatters to an observer: (…, 3) → (…, W).
@@ -142,6 +169,19 @@ class Model:
         with any altitude; `distance` is as in `transmittance`. An integral over many points: slow for images.
         """
         return self.in_scattering_stokes(directions, distance, **scene)[..., 0, :]
+
+    def in_scattering_at(self, directions, distance, wavelength, **scene):
+        """The same light at wavelengths in nm, a number or (K,): (…, 3) → (…, K)."""
+        return self.in_scattering_stokes_at(directions, distance, wavelength, **scene)[..., 0, :]
+
+    @np.errstate(all="ignore")
+    def in_scattering_stokes_at(self, directions, distance, wavelength, **scene):
+        """The same light as Stokes components at wavelengths in nm: (…, 3) → (…, 3, K)."""
+        aerial = self._aerial_perspective(**scene)
+        wavelength = self._wavelengths.checked(wavelength)
+        nodes = self._gathered(aerial, directions, distance)
+        light = interpolate_stokes(self._wavelengths, nodes.reshape(-1, *nodes.shape[-2:]), wavelength)
+        return _finite(light).reshape(*nodes.shape[:-1], -1)
 
     @np.errstate(all="ignore")
     def in_scattering_stokes(
@@ -159,11 +199,20 @@ class Model:
 
         They are those of the vertical frame at the observer, as in `Sky.stokes`.
         """
+        scene = (solar_elevation, visibility, albedo, altitude, solar_azimuth)
+        return self._gathered(self._aerial_perspective(*scene), directions, distance)
+
+    def _aerial_perspective(
+        self, solar_elevation, visibility, albedo, altitude, solar_azimuth=0.0
+    ):
         lowest, _ = self.altitude_range
         conditions = self._conditions(solar_elevation, visibility, albedo, lowest, solar_azimuth)
-        aerial = AerialPerspective(self._head, self._chunks, conditions, float(altitude))
+        return AerialPerspective(self._head, self._chunks, conditions, float(altitude))
+
+    def _gathered(self, aerial, directions, distance):
+        """L, Q, U (…, 3, W) of segments."""
         units = unit_vectors(directions)
-        _, distance = _segments(altitude, units, distance, np.shape(directions)[:-1])
+        _, distance = _segments(aerial.altitude, units, distance, np.shape(directions)[:-1])
         starts = range(0, max(1, len(units)), aerial.block)
         blocks = (slice(i, i + aerial.block) for i in starts)
         light = np.concatenate([aerial.in_scattering(units[b], distance[b]) for b in blocks])
@@ -180,11 +229,6 @@ class Model:
             altitude=_clamp(_grounded(altitude), self.altitude_range, "altitude"),
             solar_azimuth=float(solar_azimuth),
         )
-
-    def _extinction_at(self, visibility):
-        """Extinction coefficients, m⁻¹: (nk, W)."""
-        weights = linear_weights(-1.0 / self._head.visibility, [-1.0 / visibility])
-        return np.tensordot(weights[0], self._head.extinction, 1)
 
 
 def _ends(axis):

@@ -11,6 +11,7 @@ from ._geometry import Observer, azimuth_from_sun, azimuthal_fade, elevation_of,
 from ._geometry import sun_vector, unit_vectors
 from ._head import GROUND_BIT, PHASE_RAYLEIGH
 from ._phase import Angle, phase_function, rayleigh_share
+from ._stokes import bounded_stokes, interpolate_stokes
 from .errors import InvalidValueError
 
 # Numbers that one block of directions may hold at once in an intermediate array.
@@ -71,7 +72,7 @@ class Sky:
 
     @property
     def wavelengths(self):
-        """Wavelengths of the results, nm: (W,)."""
+        """Wavelengths of the results of functions that are not told any, nm: (W,)."""
         return self._wavelengths.nodes.copy()
 
     def relative_radiance(self, directions):
@@ -89,7 +90,7 @@ class Sky:
         def evaluate(units):
             return self._wavelengths.interpolate_radiance(self._relative(units), wavelength)
 
-        return self._blockwise(directions, evaluate)
+        return self._blockwise(directions, evaluate, len(wavelength))
 
     def radiance_at(self, directions, wavelength):
         """Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm: (…, 3) → (…, K)."""
@@ -113,23 +114,18 @@ class Sky:
         """Relative Stokes components at wavelengths in nm: (…, 3) → (…, 3, K)."""
         self._require_polarisation()
         wavelength = self._wavelengths.checked(wavelength)
-        weights = self._wavelengths.weights(wavelength)
 
         def evaluate(units):
-            nodes = self._stokes(units)
-            radiance = self._wavelengths.interpolate_radiance(nodes[:, 0], wavelength)
-            lit = np.where(nodes[:, :1] > 0.0, nodes[:, :1], 1.0)
-            q, u = np.moveaxis((nodes[:, 1:] / lit) @ weights.T, 1, 0)
-            return bounded_stokes(radiance, q * radiance, u * radiance)
+            return interpolate_stokes(self._wavelengths, self._stokes(units), wavelength)
 
-        return self._blockwise(directions, evaluate)
+        return self._blockwise(directions, evaluate, len(wavelength))
 
     @np.errstate(all="ignore")
-    def _blockwise(self, directions, evaluate):
+    def _blockwise(self, directions, evaluate, columns=0):
         """Applies `evaluate` to unit vectors (n, 3), few at once to save memory."""
         units = unit_vectors(directions)
         counts = self._head.counts
-        widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"])
+        widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"], columns)
         step = max(1, _BLOCK_NUMBERS // widest)
         # At least one block, which gives the shape for no directions at all.
         starts = range(0, max(1, len(units)), step)
@@ -286,14 +282,6 @@ class _View:
         """Components (N, 1) of the sun's direction along e1 and e2 of the vertical frame."""
         p1, p2 = sun_across(self.elevation, self._solar_elevation, self.phi)
         return p1[:, None], p2[:, None]
-
-
-def bounded_stokes(radiance, q, u):
-    """L, Q, U (N, 3, K) with Q and U scaled where they exceed L."""
-    polarised = np.hypot(q, u)
-    too_much = polarised > radiance
-    factor = np.where(too_much, radiance / np.where(too_much, polarised, 1.0), 1.0)
-    return np.stack([radiance, q * factor, u * factor], axis=1)
 
 
 def _nonzero(weights):
