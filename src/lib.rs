@@ -142,7 +142,7 @@ cfg_if::cfg_if! {
             Directions, Part, Sample, SkySampler,
         };
         pub use bands::{
-            BandAerialPerspective, BandSky, BandSolarDisc, BandTransmittance, Bands,
+            BandAerialPerspective, BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,
             JoinedBandAerialPerspective, PolarisedBandSky, Residual, Response,
         };
         pub use budget::{Budget, Channels, Plan};

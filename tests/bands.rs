@@ -4,7 +4,10 @@ mod common;
 
 use common::random::Random;
 use welkin::format::{Chunk, Payload, Spectrum, extend};
-use welkin::{Bands, Conditions, Error, Model, PolarisationFrame, Response, Stokes};
+use welkin::{
+    BakedSky, Bands, Conditions, Directions, Error, Interpolation, Model, PointQuery,
+    PolarisationFrame, Response, Stokes, StokesSpectra,
+};
 
 /// The embedded model with cells between its nodes, whose weights no curve through the nodes has.
 fn with_spectrum() -> (Model, Spectrum) {
@@ -300,4 +303,281 @@ fn what_makes_no_sense_is_refused() {
         sky.radiance([1.0; 3], &mut [0.0; 2]).unwrap_err().class(),
         "length"
     );
+}
+
+/// Means and sums over the bells, of values at the nodes between which they are interpolated as the sky is.
+fn over_bells(model: &Model, at_nodes: &[f32], sunlit: bool) -> Vec<[f64; 2]> {
+    let nodes = model.wavelengths();
+    let sums = BELLS.iter().map(|&[centre, width]| {
+        let (mut sum, mut whole) = (0.0, 0.0);
+        let step = width / 40.0;
+        for i in 0..240 {
+            let l = centre - 3.0 * width + step * (f64::from(i) + 0.5);
+            let value = welkin::between_wavelengths(nodes, at_nodes, l).unwrap();
+            let weight = step * bell_at(l, centre, width) * model.head().solar_irradiance_at(l);
+            sum += weight * f64::from(value);
+            whole += weight;
+        }
+        [sum / whole, if sunlit { sum } else { whole }]
+    });
+    sums.collect()
+}
+
+fn point(random: &mut Random, from: [f64; 3]) -> [f64; 3] {
+    let way = 10f64.powf(random.between(2.5, 5.0));
+    let to = common::unit(random.between(-0.02, 0.5), random.between(0.0, 6.28));
+    std::array::from_fn(|c| from[c] + way * to[c])
+}
+
+#[test]
+fn transmittance_is_the_mean_of_what_passes() {
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&bells()).unwrap();
+    let mut random = Random(23);
+    let mut errors = Vec::new();
+    for _ in 0..150 {
+        let visibility = random.between(20e3, 131.8e3);
+        let air = model.transmittance(visibility).unwrap();
+        let band_air = model.band_transmittance(visibility, &bands).unwrap();
+        let from = [0.0, 0.0, 1e4 * random.share().powi(2)];
+        let to = point(&mut random, from);
+        let (mut nodes, mut got) = ([0.0; 12], [0.0; BELLS.len()]);
+        air.transmittance(from, to, &mut nodes).unwrap();
+        band_air.transmittance(from, to, &mut got).unwrap();
+        for (got, [mean, _]) in got.iter().zip(over_bells(&model, &nodes, false)) {
+            errors.push((f64::from(*got) - mean).abs() / mean.max(0.02));
+        }
+        let mut none = [0.0; BELLS.len()];
+        band_air.transmittance(from, from, &mut none).unwrap();
+        assert!(none.iter().all(|t| (t - 1.0).abs() < 1e-6), "{none:?}");
+    }
+    errors.sort_by(f64::total_cmp);
+    let [median, p99] = [0.5, 0.99].map(|q| errors[(q * errors.len() as f64) as usize]);
+    println!("transmittance {median:.5} {p99:.5}");
+    assert!(median < 5e-4 && p99 < 2e-3, "{median} {p99}");
+}
+
+#[test]
+fn the_sun_in_bands_is_that_at_its_wavelengths() {
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&bells()).unwrap();
+    let mut random = Random(29);
+    for _ in 0..40 {
+        let conditions = Conditions {
+            solar_elevation: random.between(0.02, 1.5),
+            ..conditions(&mut random)
+        };
+        let disc = model.solar_disc(&conditions).unwrap();
+        let band_disc = model.band_solar_disc(&conditions, &bands).unwrap();
+        let mut at_nodes = [0.0; 12];
+        let mut got = [0.0; BELLS.len()];
+        let relative = |values: &mut [f32; 12]| {
+            for (value, &l) in values.iter_mut().zip(model.wavelengths()) {
+                *value /= model.head().solar_irradiance_at(l) as f32;
+            }
+        };
+        disc.radiance(disc.direction(), &mut at_nodes).unwrap();
+        relative(&mut at_nodes);
+        band_disc.radiance(disc.direction(), &mut got).unwrap();
+        for (got, [_, sum]) in got.iter().zip(over_bells(&model, &at_nodes, true)) {
+            let error = f64::from(*got) / sum - 1.0;
+            assert!(error.abs() < 5e-3, "{conditions:?}: {error}");
+        }
+        let up = [0.0, 0.0, 1.0];
+        disc.irradiance(up, &mut at_nodes).unwrap();
+        relative(&mut at_nodes);
+        band_disc.irradiance(up, &mut got).unwrap();
+        for (got, [_, sum]) in got.iter().zip(over_bells(&model, &at_nodes, true)) {
+            let error = f64::from(*got) / sum - 1.0;
+            assert!(error.abs() < 5e-3, "{conditions:?}: {error}");
+        }
+    }
+}
+
+#[test]
+fn light_of_segments_in_bands_is_a_sum_over_wavelengths() {
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&bells()).unwrap();
+    let mut random = Random(31);
+    let mut errors = Vec::new();
+    for _ in 0..60 {
+        let conditions = conditions(&mut random);
+        let aerial = model.aerial_perspective(&conditions).unwrap();
+        let band_aerial = model.band_aerial_perspective(&conditions, &bands).unwrap();
+        let from = [0.0, 0.0, 3e3 * random.share()];
+        let to = point(&mut random, from);
+        let [mut light, mut through] = [[0.0; 12]; 2];
+        let [mut got, mut band_through, mut air] = [[0.0; BELLS.len()]; 3];
+        aerial
+            .in_scattering(from, to, &mut light, &mut through)
+            .unwrap();
+        band_aerial
+            .in_scattering(from, to, &mut got, &mut band_through)
+            .unwrap();
+        band_aerial
+            .transmittance()
+            .transmittance(from, to, &mut air)
+            .unwrap();
+        assert_eq!(band_through, air);
+        for (value, &l) in light.iter_mut().zip(model.wavelengths()) {
+            *value /= model.head().solar_irradiance_at(l) as f32;
+        }
+        for (got, [_, sum]) in got.iter().zip(over_bells(&model, &light, true)) {
+            errors.push((f64::from(*got) / sum - 1.0).abs());
+        }
+        let mut stokes = [Stokes::default(); BELLS.len()];
+        let frame = PolarisationFrame::Vertical;
+        let stokes_at = |l| aerial.relative_stokes_at(from, to, frame, l).unwrap();
+        let asked = band_aerial.in_scattering_stokes(from, to, frame, &mut stokes, &mut air);
+        asked.unwrap();
+        for (b, &[centre, _]) in BELLS.iter().enumerate() {
+            assert!((stokes[b].i / got[b] - 1.0).abs() < 1e-4);
+            let near = stokes_at(centre);
+            let degrees = [stokes[b].q / stokes[b].i - near.q / near.i];
+            assert!(degrees[0].abs() < 0.02, "{degrees:?}");
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let [median, p95] = [0.5, 0.95].map(|q| errors[(q * errors.len() as f64) as usize]);
+    println!("segments {median:.5} {p95:.5}");
+    assert!(median < 1e-3 && p95 < 5e-3, "{median} {p95}");
+}
+
+#[test]
+fn baked_bands_keep_their_tolerance() {
+    let model = Model::default_model().unwrap();
+    let many: Vec<Response> = (0..17)
+        .map(|i| Response::wavelength(400.0 + 17.3 * f64::from(i)))
+        .collect();
+    for responses in [bells(), many] {
+        let bands = model.bands(&responses).unwrap();
+        let n = bands.len();
+        let conditions = Conditions::default();
+        let sky = model.polarised_band_sky(&conditions, &bands).unwrap();
+        let baked = sky.bake(BakedSky::TOLERANCE).unwrap();
+        let plain = model.band_sky(&conditions, &bands).unwrap();
+        let baked_plain = plain.bake(BakedSky::TOLERANCE).unwrap();
+        let mut random = Random(37);
+        let views: Vec<[f32; 3]> = (0..200).map(|_| view(&mut random)).collect();
+        let component = |c: usize| views.iter().map(|v| v[c]).collect::<Vec<f32>>();
+        let [x, y, z] = [0, 1, 2].map(component);
+        let directions = Directions {
+            x: &x,
+            y: &y,
+            z: &z,
+        };
+        let [mut i, mut q, mut u, mut exact, mut fast] = [(); 5].map(|_| vec![0.0; n * 200]);
+        let light = StokesSpectra {
+            i: &mut i,
+            q: &mut q,
+            u: &mut u,
+        };
+        baked
+            .stokes_batch(&directions, PolarisationFrame::Vertical, light)
+            .unwrap();
+        plain.radiance_batch(&views, &mut exact).unwrap();
+        baked_plain.radiance_batch(&directions, &mut fast).unwrap();
+        let (mut off, mut degrees) = (Vec::new(), Vec::new());
+        for (k, &view) in views.iter().enumerate() {
+            let mut truth = vec![Stokes::default(); n];
+            sky.stokes(view, PolarisationFrame::Vertical, &mut truth)
+                .unwrap();
+            for b in 0..n {
+                let at = k * n + b;
+                off.push((fast[at] / exact[at] - 1.0).abs());
+                off.push((i[at] / exact[at] - 1.0).abs());
+                let [dq, du] = [(q[at], truth[b].q), (u[at], truth[b].u)]
+                    .map(|(got, true_part)| got / i[at] - true_part / truth[b].i);
+                degrees.push(dq.hypot(du));
+            }
+        }
+        for errors in [&mut off, &mut degrees] {
+            errors.sort_by(f32::total_cmp);
+            let p95 = errors[errors.len() * 95 / 100];
+            assert!(
+                f64::from(p95) < 1.2 * BakedSky::TOLERANCE,
+                "{n} bands: {p95}"
+            );
+        }
+        let mut one = vec![0.0; n];
+        baked_plain.radiance(views[3], &mut one).unwrap();
+        assert_eq!(one, fast[3 * n..4 * n]);
+    }
+}
+
+#[test]
+fn point_queries_are_projected_like_skies() {
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&bells()).unwrap();
+    let query = PointQuery::new(welkin::DEFAULT_MODEL).unwrap();
+    let query = query.with_interpolation(Interpolation::Full);
+    let mut random = Random(41);
+    for _ in 0..20 {
+        let (conditions, view) = (conditions(&mut random), view(&mut random));
+        let (mut relative, mut got, mut sky) = ([0.0; 12], [0.0; BELLS.len()], [0.0; BELLS.len()]);
+        query
+            .relative_radiance(&conditions, view, &mut relative)
+            .unwrap();
+        bands.project(&relative, &mut got).unwrap();
+        let band_sky = model.band_sky(&conditions, &bands).unwrap();
+        band_sky.radiance(view, &mut sky).unwrap();
+        for (got, sky) in got.iter().zip(sky) {
+            assert!((got / sky - 1.0).abs() < 1e-4, "{got} {sky}");
+        }
+    }
+    assert_eq!(
+        bands
+            .project(&[0.0; 11], &mut [0.0; 5])
+            .unwrap_err()
+            .class(),
+        "length"
+    );
+    assert_eq!(
+        bands
+            .project(&[0.0; 12], &mut [0.0; 4])
+            .unwrap_err()
+            .class(),
+        "length"
+    );
+}
+
+/// The observer's X, Y and Z as bands are the colours that the file stores.
+#[test]
+fn xyz_as_bands_are_the_colours_of_the_model() {
+    let model = Model::default_model().unwrap();
+    let table = include_str!("../fitter/data/cie1931_2deg_1nm.csv");
+    let rows: Vec<[f64; 4]> = table
+        .lines()
+        .filter_map(|line| {
+            let numbers: Option<Vec<f64>> =
+                line.split(',').map(|n| n.trim().parse().ok()).collect();
+            numbers?.try_into().ok()
+        })
+        .filter(|row: &[f64; 4]| row[0] <= 760.0)
+        .collect();
+    assert!(rows.len() > 390);
+    let wavelengths: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let response = |c: usize| {
+        let values: Vec<f64> = rows.iter().map(|row| 683.0 * row[c]).collect();
+        Response::table(&wavelengths, &values).unwrap()
+    };
+    let bands = model.bands(&[1, 2, 3].map(response)).unwrap();
+    println!("{:?}", bands.residuals());
+    let mut random = Random(43);
+    for _ in 0..40 {
+        let (conditions, view) = (conditions(&mut random), view(&mut random));
+        let mut got = [0.0; 3];
+        let sky = model.band_sky(&conditions, &bands).unwrap();
+        sky.radiance(view, &mut got).unwrap();
+        let sky = model.sky(&conditions).unwrap();
+        let xyz = sky.xyz(view).unwrap();
+        for (got, xyz) in got.iter().zip(xyz) {
+            assert!((got / xyz - 1.0).abs() < 0.01, "{got} {xyz}");
+        }
+        // Leaving out what eyes do not see changes nothing.
+        let colours = model.colour_sky(&conditions).unwrap();
+        for (a, b) in colours.xyz(view).unwrap().iter().zip(xyz) {
+            assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
+        }
+    }
 }
