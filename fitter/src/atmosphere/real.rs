@@ -1,12 +1,14 @@
 //! The clear-sky atmosphere of Wilkie et al. 2021, section 4.2, from the tables in `fitter/data`.
 //!
 //! Gas: AFGL US standard profile, Rayleigh scattering after Bodhaine et al. 1999 for dry air (all of it; the paper
-//! counts N2 and O2 only, 1 % less), ozone absorption at 223 K. Aerosol: OPAC water-soluble (50 % humidity), insoluble
+//! counts N2 and O2 only, 1 % less), ozone that absorbs as its temperature says (the paper: as at 223 K), water vapour
+//! and mixed gases where they are asked for. Aerosol: OPAC water-soluble (50 % humidity), insoluble
 //! and soot particles with Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km
 //! separates smoothly.
 
 use super::composition::{Atmosphere, Constituent, Phase, Scatterer};
 use super::mie;
+use super::monochromatic::Monochromatic;
 use super::table::{Curve, Table};
 use anyhow::{Result, ensure};
 use std::sync::Arc;
@@ -37,28 +39,43 @@ pub enum Particles {
     Mie,
 }
 
-/// The real atmosphere with Henyey-Greenstein aerosols; see [`real_with`].
+/// The real atmosphere with Henyey-Greenstein aerosols beside absorption lines; see [`real_with`].
 pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
     real_with(visibility, wavelengths, Particles::HenyeyGreenstein)
 }
 
-/// The real atmosphere with the given visibility (m, 20..131.8 km) at the given wavelengths (nm, 300..1000).
+/// The real atmosphere beside absorption lines with the given visibility (m, 20..131.8 km) at the given wavelengths
+/// (nm, 300..2500).
 pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> Result<Atmosphere> {
+    ensure!(
+        wavelengths.windows(2).all(|w| w[0] < w[1]),
+        "wavelengths must increase"
+    );
+    let lights: Vec<_> = wavelengths
+        .iter()
+        .map(|&w| Monochromatic::beside_lines(w))
+        .collect();
+    real_at(visibility, &lights, particles)
+}
+
+/// The real atmosphere with the given visibility (m, 20..131.8 km) for lights of 300..2500 nm, in any order.
+pub fn real_at(
+    visibility: f64,
+    lights: &[Monochromatic],
+    particles: Particles,
+) -> Result<Atmosphere> {
+    let wavelengths: &[f64] = &lights.iter().map(|l| l.wavelength).collect::<Vec<_>>();
     ensure!(
         (VISIBILITIES[0]..=VISIBILITIES[5]).contains(&visibility),
         "visibility {:?} km is outside 20..131.8 km",
         visibility * 1e-3
     );
     ensure!(
-        wavelengths.iter().all(|w| (300.0..=1000.0).contains(w)) && !wavelengths.is_empty(),
-        "wavelengths must lie in 300..1000 nm"
-    );
-    ensure!(
-        wavelengths.windows(2).all(|w| w[0] < w[1]),
-        "wavelengths must increase"
+        wavelengths.iter().all(|w| (300.0..=2500.0).contains(w)) && !wavelengths.is_empty(),
+        "wavelengths must lie in 300..2500 nm"
     );
     let altitudes = altitude_nodes();
-    let mut constituents = gases(&altitudes, wavelengths)?;
+    let mut constituents = gases(&altitudes, lights)?;
     constituents.extend(aerosols(visibility, &altitudes, wavelengths, particles)?);
     Ok(Atmosphere {
         planet_radius: PLANET_RADIUS,
@@ -87,44 +104,102 @@ fn altitude_nodes() -> Vec<f64> {
     inner.chain([TOP]).collect()
 }
 
-fn gases(altitudes: &[f64], wavelengths: &[f64]) -> Result<Vec<Constituent>> {
+fn gases(altitudes: &[f64], lights: &[Monochromatic]) -> Result<Vec<Constituent>> {
     let profile = table!("atm_afgl_us_standard.csv")?;
+    let [cold, warm] = ozone(&profile, altitudes, lights)?;
+    Ok(vec![
+        air(&profile, altitudes, lights)?,
+        cold,
+        warm,
+        water(&profile, altitudes, lights)?,
+    ])
+}
+
+/// Rayleigh scattering, and absorption by the uniformly mixed gases.
+fn air(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<Constituent> {
     let rayleigh = table!("rayleigh_bodhaine1999.csv")?;
-    let ozone = table!("o3_xsec_1nm.csv")?;
     let cross_section = rayleigh.curve("wavelength_nm", "sigma_cm2")?;
     let depolarisation = rayleigh.curve("wavelength_nm", "depol")?;
-    let absorption = ozone.curve("wavelength_nm", "sigma_223K")?;
-    let (air, air_scale) = density(&profile.curve("z_km", "n_air")?, altitudes);
-    let (o3, o3_scale) = density(&profile.curve("z_km", "n_o3")?, altitudes);
-    let scattering: Vec<f64> = wavelengths
+    let (air, scale) = density(&profile.curve("z_km", "n_air")?, altitudes);
+    let scattering = lights
         .iter()
-        .map(|&w| cross_section.log_at(w) * air_scale)
-        .collect();
-    let rho = wavelengths.iter().map(|&w| depolarisation.at(w)).collect();
-    Ok(vec![
-        Constituent {
-            name: "air".into(),
-            profile: air,
+        .map(|l| cross_section.log_at(l.wavelength) * scale);
+    let scattering: Vec<f64> = scattering.collect();
+    let all = column(altitudes, &air);
+    let absorption = lights.iter().map(|l| l.mixed / all);
+    Ok(Constituent {
+        name: "air".into(),
+        extinction: scattering
+            .iter()
+            .zip(absorption)
+            .map(|(s, a)| s + a)
+            .collect(),
+        profile: air,
+        scatterers: vec![Scatterer {
+            name: "rayleigh".into(),
+            phase: Phase::Rayleigh {
+                depolarisation: lights
+                    .iter()
+                    .map(|l| depolarisation.at(l.wavelength))
+                    .collect(),
+            },
             extinction: scattering.clone(),
-            scatterers: vec![Scatterer {
-                name: "rayleigh".into(),
-                phase: Phase::Rayleigh {
-                    depolarisation: rho,
-                },
-                extinction: scattering.clone(),
-                scattering,
-            }],
-        },
-        Constituent {
-            name: "ozone".into(),
-            profile: o3,
-            extinction: wavelengths
+            scattering,
+        }],
+    })
+}
+
+/// Temperatures between which the absorption of ozone is linear, K.
+const OZONE_COLD: f64 = 223.0;
+const OZONE_WARM: f64 = 293.0;
+
+/// Ozone as a mixture of a cold and a warm one, so that each has one cross section.
+fn ozone(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<[Constituent; 2]> {
+    let cross_sections = table!("o3_xsec_1nm.csv")?;
+    let temperature = profile.curve("z_km", "T_K")?;
+    let (ozone, scale) = density(&profile.curve("z_km", "n_o3")?, altitudes);
+    let warmth = |z: &f64| {
+        let t = temperature.at(z / 1000.0);
+        ((t - OZONE_COLD) / (OZONE_WARM - OZONE_COLD)).clamp(0.0, 1.0)
+    };
+    let part = |name: &str, kelvin: &str, share: &dyn Fn(f64) -> f64| -> Result<Constituent> {
+        let absorption = cross_sections.curve("wavelength_nm", &format!("sigma_{kelvin}"))?;
+        let densities = altitudes.iter().zip(&ozone);
+        Ok(Constituent {
+            name: name.into(),
+            profile: densities.map(|(z, n)| n * share(warmth(z))).collect(),
+            extinction: lights
                 .iter()
-                .map(|&w| absorption.at(w) * o3_scale)
+                .map(|l| absorption.at(l.wavelength) * scale)
                 .collect(),
             scatterers: vec![],
-        },
+        })
+    };
+    Ok([
+        part("cold ozone", "223K", &|warmth| 1.0 - warmth)?,
+        part("warm ozone", "293K", &|warmth| warmth)?,
     ])
+}
+
+/// Absorption by water vapour.
+fn water(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<Constituent> {
+    /// g per molecule of water, and so cm of precipitable water per molecule in cm².
+    const MOLECULE: f64 = 18.015_28 / 6.022_140_76e23;
+    let (vapour, scale) = density(&profile.curve("z_km", "n_h2o")?, altitudes);
+    Ok(Constituent {
+        name: "water vapour".into(),
+        profile: vapour,
+        extinction: lights.iter().map(|l| l.water * MOLECULE * scale).collect(),
+        scatterers: vec![],
+    })
+}
+
+/// Integral of a profile over the altitude, m.
+fn column(altitudes: &[f64], profile: &[f64]) -> f64 {
+    let pairs = altitudes.windows(2).zip(profile.windows(2));
+    pairs
+        .map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0]))
+        .sum()
 }
 
 /// Profile normalised to its largest value, and the factor from cm² to m⁻¹ there.
@@ -284,13 +359,49 @@ mod tests {
     #[test]
     fn ozone_column_is_the_us_standard_one() {
         let air = real(59_400.0, &[600.0]).unwrap();
-        let sigma = table!("o3_xsec_1nm.csv")
-            .unwrap()
-            .curve("wavelength_nm", "sigma_223K")
-            .unwrap()
-            .at(600.0);
-        let dobson = air.vertical_optical_depth(1, 0) / sigma / 2.6867e16;
+        let sigma = |kelvin: &str| {
+            let table = table!("o3_xsec_1nm.csv").unwrap();
+            table.curve("wavelength_nm", kelvin).unwrap().at(600.0)
+        };
+        let dobson = (air.vertical_optical_depth(1, 0) / sigma("sigma_223K")
+            + air.vertical_optical_depth(2, 0) / sigma("sigma_293K"))
+            / 2.6867e16;
         assert!((dobson - 345.0).abs() < 10.0, "{dobson} DU");
+    }
+
+    /// The third temperature of the table, which the mixture does not know.
+    #[test]
+    fn ozone_absorbs_almost_linearly_with_temperature() {
+        let table = table!("o3_xsec_1nm.csv").unwrap();
+        let at = |kelvin: &str, nm| table.curve("wavelength_nm", kelvin).unwrap().at(nm);
+        for nm in (300..=340).map(f64::from) {
+            let (cold, middle, warm) = (
+                at("sigma_223K", nm),
+                at("sigma_243K", nm),
+                at("sigma_293K", nm),
+            );
+            let mixed = cold + 20.0 / 70.0 * (warm - cold);
+            assert!(
+                (mixed / middle - 1.0).abs() < 0.03,
+                "{nm} nm: {mixed} {middle}"
+            );
+        }
+    }
+
+    #[test]
+    fn water_and_mixed_gases_have_their_columns() {
+        let light = Monochromatic {
+            wavelength: 940.0,
+            water: 2.0,
+            mixed: 0.7,
+        };
+        let air = real_at(59_400.0, &[light], Particles::HenyeyGreenstein).unwrap();
+        let precipitable = air.vertical_optical_depth(3, 0) / 2.0;
+        assert!((precipitable - 1.42).abs() < 0.02, "{precipitable} cm");
+        let beside = real(59_400.0, &[940.0]).unwrap();
+        let mixed = air.vertical_optical_depth(0, 0) - beside.vertical_optical_depth(0, 0);
+        assert!((mixed - 0.7).abs() < 1e-9);
+        assert_eq!(beside.vertical_optical_depth(3, 0), 0.0);
     }
 
     #[test]
@@ -303,7 +414,9 @@ mod tests {
     }
 
     fn ozone_extinction(air: &Atmosphere) -> f64 {
-        air.profile(1, 0.0) * air.constituents[1].extinction[0]
+        (1..3)
+            .map(|k| air.profile(k, 0.0) * air.constituents[k].extinction[0])
+            .sum()
     }
 
     #[test]

@@ -6,6 +6,6 @@ mod tensor;
 mod truth;
 
 pub use checkpoint::{State, Store};
-pub use grid::{Axis, Grid, WAVELENGTHS};
+pub use grid::{Axis, Grid, NODES, WAVELENGTHS};
 pub use tensor::{CHANNELS, Tensor, trace_tensor};
 pub use truth::{Sample, truth};

@@ -108,7 +108,9 @@ fn normalised(solved: &Solved) -> (Tensor, [Vec<Spectrum>; SOURCE_FIELDS]) {
 
 /// Moments of the light field as moments of the source per unit of scattering coefficient.
 fn scattered(medium: &Medium, moments: &Moments) -> Vec<[Spectrum; COUNT]> {
-    let mut out = moments.nodes().to_vec();
+    let per_irradiance =
+        |node: &[Spectrum; COUNT]| node.map(|m| m.map(|v| v * grid::SOLAR_UNITS.recip()));
+    let mut out: Vec<_> = moments.nodes().iter().map(per_irradiance).collect();
     for (row, h) in out.chunks_exact_mut(SUNS).zip(ALTITUDES) {
         let mixture = mixture(medium, h);
         for node in row {

@@ -77,7 +77,13 @@ pub fn altitudes(top: f64) -> Vec<f64> {
 /// Nodes beyond [`ALTITUDES`].
 const BEYOND: i32 = 7;
 
-/// Moments at every node: `[altitude][sun][moment]`, per unit of solar irradiance.
+/// What the solar irradiance is in the units of moments: so large that products with little transmittance and few
+/// particles stay normal numbers, without which processors are slow.
+pub const SOLAR_UNITS: f32 = (1u64 << 40) as f32;
+/// Moments below are put out.
+const DARK: f32 = 1e-18 * SOLAR_UNITS;
+
+/// Moments at every node: `[altitude][sun][moment]`, times [`SOLAR_UNITS`] per unit of solar irradiance.
 #[derive(Clone)]
 pub struct Moments {
     /// Cube roots of the altitudes.
@@ -90,7 +96,7 @@ impl Moments {
     pub fn from_rows(altitudes: &[f64], rows: Vec<Vec<[Spectrum; COUNT]>>) -> Self {
         Self {
             roots: altitudes.iter().map(|h| h.cbrt()).collect(),
-            values: rows.into_iter().flatten().collect(),
+            values: rows.into_iter().flatten().map(without_traces).collect(),
         }
     }
 
@@ -123,6 +129,10 @@ impl Moments {
     pub fn nodes(&self) -> &[[Spectrum; COUNT]] {
         &self.values
     }
+}
+
+fn without_traces(node: [Spectrum; COUNT]) -> [Spectrum; COUNT] {
+    node.map(|moment| moment.map(|v| if v.abs() < DARK { 0.0 } else { v }))
 }
 
 /// Index of the first harmonic of order `m` when harmonics are sorted by m, then l.

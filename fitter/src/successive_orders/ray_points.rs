@@ -58,9 +58,10 @@ pub fn trace(
     let transmittance = |s: f64| medium.transmittance(&integrator.along(altitude, mu, s));
     let mut nodes = vec![];
     let mut s = 0.0;
+    let mut passed: Spectrum = [1.0; NW];
     while s < length {
         let (h, c) = at(s);
-        let ds = segment(medium, h, c, fineness).max(length / MOST_SEGMENTS);
+        let ds = segment(medium, h, c, &passed, fineness).max(length / MOST_SEGMENTS);
         let ds = ds.min(length - s);
         for x in GAUSS {
             let d = s + x * ds;
@@ -74,7 +75,8 @@ pub fn trace(
             });
         }
         s += ds;
-        if transmittance(s).iter().all(|&t| t < 1e-6) {
+        passed = transmittance(s);
+        if passed.iter().all(|&t| t < 1e-6) {
             return Path {
                 nodes,
                 transmittance: [0.0; NW],
@@ -89,22 +91,25 @@ pub fn trace(
     }
 }
 
-/// Segment length at altitude `h` where the ray rises with `cosine`: bounded in optical depth, in height and in arc.
-fn segment(medium: &Medium, h: f64, cosine: f64, fineness: f64) -> f64 {
+/// Segment length at altitude `h` where the ray rises with `cosine`: bounded in the optical depth of the lights that
+/// have `passed` so far, in height and in arc.
+fn segment(medium: &Medium, h: f64, cosine: f64, passed: &Spectrum, fineness: f64) -> f64 {
     let profiles = medium.profiles(h);
-    let extinction: f32 = medium
-        .parts
-        .iter()
-        .zip(profiles)
-        .map(|(part, p)| part.extinction[2] * p)
-        .sum();
+    let mut extinction = [0f32; NW];
+    for (part, p) in medium.parts.iter().zip(profiles) {
+        for (sum, coefficient) in extinction.iter_mut().zip(&part.extinction) {
+            *sum += p * coefficient;
+        }
+    }
+    let seen = extinction.iter().zip(passed).map(|(e, t)| e * t.sqrt());
+    let extinction = seen.fold(0.0, f32::max);
     let climb = fineness * height_step(h, medium.atmosphere.top());
     let r = medium.atmosphere.planet_radius + h;
     // |cosine·ds + ds²/2r| = climb, the curvature of the planet included.
     let slope = cosine.abs();
     let by_height = 2.0 * climb / (slope + (slope * slope + 2.0 * climb / r).sqrt());
     by_height
-        .min(fineness * 0.5 / f64::from(extinction).max(1e-12))
+        .min(fineness / f64::from(extinction).max(1e-12))
         .min(fineness * LONGEST)
 }
 

@@ -1,8 +1,8 @@
 //! Light scattered towards the observer at one node of a ray, for many suns at once.
 
 use super::moments::{
-    COUNT, DEGREES, Moments, ORDERS, SUNS, TENSOR, azimuth_harmonics, order_start, polar_harmonics,
-    sun_taps,
+    COUNT, DEGREES, Moments, ORDERS, SOLAR_UNITS, SUNS, TENSOR, azimuth_harmonics, order_start,
+    polar_harmonics, sun_taps,
 };
 use super::ray_points::Node;
 use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum};
@@ -119,6 +119,7 @@ impl SourceTable {
         for (m, c) in cosines.into_iter().enumerate() {
             add_scaled(&mut aerosol, c, spectrum(TENSOR + m));
         }
+        let weight = weight.map(|v| v * SOLAR_UNITS.recip());
         for w in 0..NW {
             let dipole = 1.5 * medium.polarising[w];
             let isotropic = (1.0 - medium.polarising[w]) * trace[w];

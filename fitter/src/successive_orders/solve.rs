@@ -2,8 +2,8 @@
 
 use super::first_order;
 use super::moments::{
-    ALTITUDES, COUNT, HARMONICS, Moments, SUNS, TENSOR, altitudes, azimuth_harmonics, order_start,
-    polar_harmonics, sun_coordinate, sun_node,
+    ALTITUDES, COUNT, HARMONICS, Moments, SOLAR_UNITS, SUNS, TENSOR, altitudes, azimuth_harmonics,
+    order_start, polar_harmonics, sun_coordinate, sun_node,
 };
 use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
@@ -134,8 +134,11 @@ pub fn solve(medium: &Medium, settings: Settings, progress: &(dyn Fn(f64) + Sync
     let mut returned = vec![[0.0; NW]; SUNS];
     solver.add_irradiance(&solver.sphere, &Source::Moments(&ground), &mut returned);
     let noon = sun_coordinate(0.5) as usize;
-    let spherical_albedo =
-        std::array::from_fn(|w| returned[noon][w] / (PI as f32 * emitted[noon][w]));
+    let spherical_albedo = std::array::from_fn(|w| match emitted[noon][w] {
+        // No sunlight comes through to the ground, nor would its light come back.
+        0.0 => 0.0,
+        lit => returned[noon][w] / (PI as f32 * lit),
+    });
     LightField {
         sky,
         ground,
@@ -298,7 +301,7 @@ fn project(
     let sine = ((1.0 - direction.mu) * (1.0 + direction.mu))
         .max(0.0)
         .sqrt() as f32;
-    let weight = (direction.weight * 2.0 * PI / azimuths.len() as f64) as f32;
+    let weight = SOLAR_UNITS * (direction.weight * 2.0 * PI / azimuths.len() as f64) as f32;
     for (j, moments) in row.iter_mut().enumerate() {
         for (k, &(cp, sp)) in azimuths.iter().enumerate() {
             let stokes = &light[j * azimuths.len() + k];

@@ -5,7 +5,7 @@ use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
 use anyhow::{Result, bail, ensure};
 
 /// Wavelengths that are treated together.
-pub const NW: usize = 12;
+pub const NW: usize = 24;
 /// One value per wavelength.
 pub type Spectrum = [f32; NW];
 
@@ -13,6 +13,10 @@ pub type Spectrum = [f32; NW];
 pub const DEGREE: usize = 12;
 /// Angular radius of the sun, rad (0.2667°, as in the published model).
 pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
+
+/// Optical depth beyond which nothing passes: products of what would are not normal numbers, with which processors
+/// are slow.
+const BLACK: f32 = 25.0;
 
 /// Isotropic share of a phase function, per steradian.
 pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
@@ -149,7 +153,7 @@ impl Medium {
                 *sum += extinction * c;
             }
         }
-        tau.map(|t| (-t).exp())
+        tau.map(|t| if t < BLACK { (-t).exp() } else { 0.0 })
     }
 }
 

@@ -1,8 +1,8 @@
 //! What is traced, and how finely.
 
 use super::unit::Kind;
-use crate::atmosphere::{Atmosphere, real};
-use crate::dataset::{CHANNELS, Grid, Sample, Store, Tensor, WAVELENGTHS, trace_tensor, truth};
+use crate::atmosphere::{Atmosphere, Particles, real_at};
+use crate::dataset::{CHANNELS, Grid, NODES, Sample, Store, Tensor, trace_tensor, truth};
 use crate::successive_orders::{
     Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
 };
@@ -61,7 +61,12 @@ impl Default for HeldOut {
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
 /// Changes whenever the physics or the layout of the units does.
-const UNIT_VERSION: u32 = 3;
+const UNIT_VERSION: u32 = 4;
+
+/// The air of a visibility (m) for the nodes.
+fn air(visibility: f64) -> Result<Atmosphere> {
+    real_at(visibility, &NODES, Particles::HenyeyGreenstein)
+}
 
 /// A visibility, solved.
 pub struct Solved {
@@ -105,7 +110,7 @@ impl Plan {
 
     /// What the light fields depend on.
     pub(super) fn light_key(&self) -> String {
-        format!("{UNIT_VERSION} {:?} {WAVELENGTHS:?}", self.settings)
+        format!("{UNIT_VERSION} {:?} {NODES:?}", self.settings)
     }
 
     /// What the traced tensors and samples depend on, besides altitude and visibility.
@@ -132,7 +137,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(real(visibility, &WAVELENGTHS)?, SOLAR_ANGULAR_RADIUS)?;
+        let medium = Medium::new(air(visibility)?, SOLAR_ANGULAR_RADIUS)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;
@@ -186,6 +191,6 @@ impl Plan {
             .iter()
             .flat_map(|&h| (0..directions as u64).flat_map(move |i| one(h, 1000 * i + h as u64)))
             .collect();
-        Ok((real(visibility, &WAVELENGTHS)?, samples))
+        Ok((air(visibility)?, samples))
     }
 }

@@ -1,0 +1,81 @@
+//! Traced spectra: light of every term of every cell at the same random lines of sight.
+
+use super::cells::Cell;
+use crate::atmosphere::{Monochromatic, Particles, real_at};
+use crate::dataset::{Sample, Store, truth};
+use crate::successive_orders::{Gatherer, Medium, NW, SOLAR_ANGULAR_RADIUS, Settings, solve};
+use anyhow::Result;
+
+/// How spectra are traced.
+#[derive(Clone, Debug)]
+pub struct Training {
+    /// Visibilities, m.
+    pub visibilities: Vec<f64>,
+    /// Altitudes of the observers, m.
+    pub altitudes: Vec<f64>,
+    /// View directions per altitude, and suns that they all have.
+    pub counts: [usize; 2],
+    /// Coarser than a model's: what is learned is how wavelengths depend on each other.
+    pub settings: Settings,
+    /// Length of segments of view rays relative to the finest.
+    pub fineness: f64,
+}
+
+impl Default for Training {
+    fn default() -> Self {
+        Self {
+            visibilities: vec![40_000.0, 131_800.0, 20_000.0],
+            altitudes: vec![0.5, 800.0, 3000.0, 8000.0, 15_000.0],
+            counts: [48, 16],
+            settings: Settings {
+                up: 8,
+                down: 5,
+                azimuths: 6,
+                first: 2,
+                orders: 5,
+                fineness: 6.0,
+            },
+            fineness: 2.0,
+        }
+    }
+}
+
+impl Training {
+    /// Samples of `lights` at a visibility, `[set of NW lights][sample]`.
+    fn traced(&self, visibility: f64, lights: &[Monochromatic]) -> Result<Vec<Sample>> {
+        let medium = Medium::new(
+            real_at(visibility, lights, Particles::HenyeyGreenstein)?,
+            SOLAR_ANGULAR_RADIUS,
+        )?;
+        let light = solve(&medium, self.settings, &|_| {});
+        let gatherer = Gatherer::new(&medium, &light, self.fineness);
+        let one = |&h: &f64| truth(&gatherer, &light, h, self.counts, (h + visibility) as u64);
+        Ok(self.altitudes.iter().flat_map(one).collect())
+    }
+
+    /// The samples of a visibility for the set `set` of all lights.
+    pub fn unit(
+        &self,
+        store: &Store,
+        visibility: f64,
+        lights: &[Monochromatic],
+        set: usize,
+    ) -> Result<Vec<Sample>> {
+        let mut chosen = lights[set * NW..lights.len().min((set + 1) * NW)].to_vec();
+        let last = *chosen.last().expect("a set is never empty");
+        chosen.resize(NW, last);
+        let values = store.unit(&format!("spectra-{visibility}-{set}"), || {
+            let samples = self.traced(visibility, &chosen)?;
+            Ok(samples.iter().flat_map(Sample::to_values).collect())
+        })?;
+        Ok(Sample::from_values(&values))
+    }
+}
+
+/// All lights of the terms of `cells`, cell by cell.
+pub fn lights(cells: &[Cell]) -> Vec<Monochromatic> {
+    cells
+        .iter()
+        .flat_map(|c| c.terms.iter().map(|t| t.light))
+        .collect()
+}
