@@ -75,7 +75,7 @@ impl Model {
         let nodes = NodeSubset::new(self, kept);
         Ok(Bands {
             file: identity(self),
-            projection: Projection::new(nodes.kept().len(), &made),
+            projection: Projection::new(nodes.kept().len(), &made, axis.has_cells()),
             nodes,
             residuals,
             air: TransmittanceFit::new(self, &axis, responses)?,

@@ -4,10 +4,9 @@ use super::examples::examples;
 use super::few_columns::{MOST, choose};
 use super::least_squares::{Problem, Weights};
 use super::projection::{Made, Power};
-use super::quadrature::{quadrature, spread};
 use super::residual::Residual;
 use super::response::Response;
-use super::spectral_axis::SpectralAxis;
+use super::spectral_axis::{SpectralAxis, Taps, power};
 use crate::error::Result;
 use crate::model::Model;
 
@@ -90,16 +89,15 @@ impl<'a> Examples<'a> {
 
     /// Relative radiance at a wavelength.
     fn at(&self, wavelength: f64) -> Vec<f64> {
-        let taps = self.axis.weights(wavelength);
         let rows = self.logarithms.iter();
-        let power = |row: &Vec<f64>| taps.iter().map(|&(n, w)| w * row[n]).sum::<f64>().exp();
-        rows.map(power).collect()
+        rows.map(|row| self.axis.radiance(wavelength, row))
+            .collect()
     }
 
     /// What a response sees of each.
     fn integrals(&self, response: &Response) -> Result<Vec<f64>> {
         let mut sums = vec![0.0; self.logarithms.len()];
-        for [wavelength, weight] in quadrature(self.model, self.axis, response)? {
+        for [wavelength, weight] in self.axis.quadrature(self.model.head(), response)? {
             let share = weight * self.model.head().solar_irradiance_at(wavelength);
             let light = self.at(wavelength);
             sums.iter_mut()
@@ -116,15 +114,19 @@ impl<'a> Examples<'a> {
         relative(nodes.map(column).collect(), values)
     }
 
-    /// A band of a few wavelengths between the nodes, which are interpolated.
+    /// A band of a few wavelengths between the nodes, or terms of its cells.
     fn between_nodes(&self, response: &Response, values: &[f64]) -> (Made, Residual) {
-        let wavelengths = spread(self.axis, response);
-        let columns = wavelengths.iter().map(|&l| self.at(l)).collect();
+        let pieces = self.axis.pieces(response.range());
+        let of = |taps: &Taps| {
+            let rows = self.logarithms.iter();
+            rows.map(|row| power(taps, row)).collect()
+        };
+        let columns = pieces.iter().map(of).collect();
         let problem = relative(columns, values);
         let weights = choose(std::slice::from_ref(&problem), &[], TOLERANCE, usize::MAX).remove(0);
         let power = |&(i, factor): &(usize, f64)| Power {
             factor,
-            taps: self.axis.weights(wavelengths[i]),
+            taps: pieces[i].clone(),
         };
         let made = Made {
             sum: Vec::new(),

@@ -14,6 +14,8 @@ pub(crate) struct Projection {
     sums: Vec<f32>,
     /// Bands with wavelengths between nodes.
     powers: Vec<(usize, Taps)>,
+    /// Whether darkness at a node counts as little light: with a spectrum.
+    floor: bool,
 }
 
 /// factor · exp(Σ W ln L).
@@ -54,7 +56,7 @@ impl Made {
 }
 
 impl Projection {
-    pub(super) fn new(nodes: usize, made: &[Made]) -> Self {
+    pub(super) fn new(nodes: usize, made: &[Made], floor: bool) -> Self {
         let bands = made.len();
         let mut sums = vec![0.0; nodes * bands];
         let mut powers = Vec::new();
@@ -72,6 +74,7 @@ impl Projection {
             bands,
             sums,
             powers,
+            floor,
         }
     }
 
@@ -105,9 +108,9 @@ impl Projection {
     }
 
     fn add_powers(&self, relative: &[f32], out: &mut [f32]) {
-        let logarithms = logarithms(relative);
+        let [logarithms, light] = self.logarithms(relative);
         for (band, power) in &self.powers {
-            out[*band] += power.of(relative, &logarithms);
+            out[*band] += power.of(&light[..relative.len()], &logarithms);
         }
     }
 
@@ -138,25 +141,34 @@ impl Projection {
         let radiance = &mut radiance[..relative.len()];
         let pairs = radiance.iter_mut().zip(relative);
         pairs.for_each(|(radiance, light)| *radiance = light.i);
-        let logarithms = logarithms(radiance);
+        let [logarithms, lit] = self.logarithms(radiance);
         for (band, power) in &self.powers {
-            let light = power.polarised(relative, power.of(radiance, &logarithms));
+            let light = power.polarised(relative, power.of(&lit, &logarithms));
             let sum = &mut out[*band];
             (sum.i, sum.q, sum.u) = (sum.i + light.i, sum.q + light.q, sum.u + light.u);
         }
     }
-}
 
-/// Binary logarithms.
-fn logarithms(relative: &[f32]) -> [f32; MOST_WAVELENGTHS] {
-    const WIDTH: usize = 8;
-    let mut out = [0.0; MOST_WAVELENGTHS];
-    out[..relative.len()].copy_from_slice(relative);
-    let blocks = out.as_chunks_mut::<WIDTH>().0;
-    for block in blocks.iter_mut().take(relative.len().div_ceil(WIDTH)) {
-        *block = Lanes(*block).max(Lanes::splat(f32::MIN_POSITIVE)).log2().0;
+    /// Binary logarithms of relative radiance at the nodes, and that as it counts.
+    fn logarithms(&self, relative: &[f32]) -> [[f32; MOST_WAVELENGTHS]; 2] {
+        const WIDTH: usize = 8;
+        /// Format specification, section 7.3: 2⁻²⁷ of the brightest.
+        const DARKEST: f32 = 1.0 / (1 << 27) as f32;
+        let mut light = [0.0; MOST_WAVELENGTHS];
+        light[..relative.len()].copy_from_slice(relative);
+        if self.floor {
+            let least = DARKEST * relative.iter().fold(0.0, |a: f32, &b| a.max(b));
+            light[..relative.len()]
+                .iter_mut()
+                .for_each(|l| *l = l.max(least));
+        }
+        let mut logarithms = light;
+        let blocks = logarithms.as_chunks_mut::<WIDTH>().0.iter_mut();
+        for block in blocks.take(relative.len().div_ceil(WIDTH)) {
+            *block = Lanes(*block).max(Lanes::splat(f32::MIN_POSITIVE)).log2().0;
+        }
+        [logarithms, light]
     }
-    out
 }
 
 impl Taps {

@@ -2,55 +2,44 @@
 
 use zerocopy::little_endian::F32;
 
+use super::quadrature::{quadrature, spread};
+use super::response::Response;
 use crate::error::Result;
 use crate::format::{Head, SpectrumView};
 use crate::kernel::axis::{hermite, linear};
 use crate::model::Model;
 
-/// Weights of nodes, or shares of exponentials.
-type Taps = Vec<(usize, f64)>;
+/// Nodes with weights of their logarithms.
+pub(super) type Taps = Vec<(usize, f64)>;
+
+/// Most terms that a band may be made of.
+const MOST_TERMS: usize = 128;
 
 /// Radiance and extinction at any wavelength of a model.
 pub(super) struct SpectralAxis {
     /// Where the rules between have their kinks: the cells of the spectrum, or the nodes. nm.
     pub wavelengths: Vec<f64>,
-    /// Weights of the nodes at each cell; `None` without a spectrum.
-    cells: Option<Vec<Taps>>,
+    /// `None` without a spectrum.
+    cells: Option<Vec<Vec<Term>>>,
     visibilities: usize,
     constituents: usize,
     /// K where the profile is 1, m⁻¹, `[visibility][constituent][wavelength]`.
     extinction: Vec<f64>,
-    /// What lines add, per wavelength; one of share 1 that is nothing without a spectrum.
-    terms: Vec<Vec<Term>>,
 }
 
-/// A share of a band with its extinction by lines.
+/// A share of a band with more or less absorption by lines.
 #[derive(Clone)]
-pub(super) struct Term {
-    pub share: f64,
-    /// m⁻¹ where the profile of each constituent is 1.
-    pub extinction: Vec<f64>,
-}
-
-impl Term {
-    /// The whole of a band without lines.
-    fn none(head: &Head) -> Self {
-        Self {
-            share: 1.0,
-            extinction: vec![0.0; head.constituents],
-        }
-    }
+struct Term {
+    share: f64,
+    /// By lines, m⁻¹ where the profile of each constituent is 1.
+    extinction: Vec<f64>,
+    taps: Taps,
 }
 
 impl SpectralAxis {
     pub fn new(model: &Model) -> Result<Self> {
         let head = model.head();
         let axis = Self {
-            terms: head
-                .wavelengths
-                .iter()
-                .map(|_| vec![Term::none(head)])
-                .collect(),
             wavelengths: head.wavelengths.clone(),
             cells: None,
             visibilities: head.visibilities.len(),
@@ -65,21 +54,27 @@ impl SpectralAxis {
 
     fn with(self, spectrum: &SpectrumView) -> Self {
         let wide = |v: &F32| f64::from(v.get());
-        let nodes = spectrum.tap_node.iter().map(|n| n.get() as usize);
-        let taps: Taps = nodes.zip(spectrum.tap_weight.iter().map(wide)).collect();
-        let shares = spectrum.term_weight.iter();
-        let terms = shares.zip(spectrum.term_extinction.chunks(self.constituents));
-        let terms: Vec<Term> = terms
-            .map(|(share, extinction)| Term {
-                share: wide(share),
-                extinction: extinction.iter().map(wide).collect(),
-            })
-            .collect();
+        let cell = |c: usize| {
+            let nodes = spectrum.tap_node[c * spectrum.taps..].iter();
+            let nodes = nodes.map(|n| n.get() as usize);
+            let weights = spectrum.tap_weight[c * spectrum.taps..].iter().map(wide);
+            let taps: Taps = nodes.zip(weights).take(spectrum.taps).collect();
+            let term = |g: usize| Term {
+                share: wide(&spectrum.term_weight[g]),
+                extinction: spectrum.term_extinction[g * self.constituents..]
+                    .iter()
+                    .take(self.constituents)
+                    .map(wide)
+                    .collect(),
+                taps: taps.clone(),
+            };
+            let terms = c * spectrum.terms..(c + 1) * spectrum.terms;
+            terms.map(term).collect()
+        };
         Self {
+            cells: Some((0..spectrum.wavelength.len()).map(cell).collect()),
             wavelengths: spectrum.wavelength.iter().map(|l| l.get()).collect(),
-            cells: Some(taps.chunks(spectrum.taps).map(<[_]>::to_vec).collect()),
             extinction: spectrum.extinction.iter().map(wide).collect(),
-            terms: terms.chunks(spectrum.terms).map(<[_]>::to_vec).collect(),
             ..self
         }
     }
@@ -92,22 +87,49 @@ impl SpectralAxis {
         ]
     }
 
-    /// Weights with which the logarithms of the radiance at the nodes make that at a wavelength.
-    pub fn weights(&self, wavelength: f64) -> Taps {
+    /// Wavelengths and weights of a response within the range of the model with this head: weights times integrand,
+    /// summed, are the integral.
+    pub fn quadrature(&self, head: &Head, response: &Response) -> Result<Vec<[f64; 2]>> {
+        let samples = 0..head.solar_irradiance.len();
+        let sunlight = samples.map(|i| head.solar_start + i as f64 * head.solar_step);
+        let kinks: Vec<f64> = sunlight.chain(self.wavelengths.iter().copied()).collect();
+        quadrature(self.range(), &kinks, response)
+    }
+
+    /// Whether cells say what lies between the nodes.
+    pub fn has_cells(&self) -> bool {
+        self.cells.is_some()
+    }
+
+    /// Relative radiance at a wavelength, where it has these logarithms at the nodes.
+    pub fn radiance(&self, wavelength: f64, logarithms: &[f64]) -> f64 {
         let Some(cells) = &self.cells else {
-            return hermite(&self.wavelengths, wavelength).taps().collect();
+            let taps: Taps = hermite(&self.wavelengths, wavelength).taps().collect();
+            return power(&taps, logarithms);
         };
-        let mut out: Taps = Vec::new();
-        for (cell, share) in linear(&self.wavelengths, wavelength).taps() {
-            for &(node, weight) in &cells[cell] {
-                match out.iter_mut().find(|known| known.0 == node) {
-                    Some(known) => known.1 += share * weight,
-                    None => out.push((node, share * weight)),
-                }
-            }
-        }
-        out.retain(|tap| tap.1 != 0.0);
-        out
+        let around = linear(&self.wavelengths, wavelength);
+        let of = |term: &Term| term.share * power(&term.taps, logarithms);
+        let cell = |c: usize| cells[c].iter().map(of).sum::<f64>().ln();
+        around.taps().map(|(c, w)| w * cell(c)).sum::<f64>().exp()
+    }
+
+    /// What bands from one wavelength to another can be sums of: terms, or wavelengths between the nodes.
+    pub fn pieces(&self, range: [f64; 2]) -> Vec<Taps> {
+        let Some(cells) = &self.cells else {
+            let taps = |&l: &f64| hermite(&self.wavelengths, l).taps().collect();
+            return spread(&self.wavelengths, range).iter().map(taps).collect();
+        };
+        let last = self.wavelengths.len() - 1;
+        let first = self.wavelengths.partition_point(|&l| l <= range[0]).max(1) - 1;
+        let end = self
+            .wavelengths
+            .partition_point(|&l| l < range[1])
+            .min(last);
+        let terms = cells[first..=end].iter().flatten();
+        let mut taps: Vec<&Taps> = terms.filter(|t| t.share > 0.0).map(|t| &t.taps).collect();
+        taps.dedup();
+        let step = taps.len().div_ceil(MOST_TERMS);
+        taps.into_iter().step_by(step.max(1)).cloned().collect()
     }
 
     /// Extinction without lines at a visibility node, `[constituent]`.
@@ -129,17 +151,22 @@ impl SpectralAxis {
         (0..self.constituents).map(at).collect()
     }
 
-    /// The cells around a wavelength with their shares.
-    pub fn cells(&self, wavelength: f64) -> impl Iterator<Item = (usize, f64)> {
-        linear(&self.wavelengths, wavelength)
-            .taps()
-            .collect::<Taps>()
-            .into_iter()
-    }
-
-    /// What lines add in a cell.
-    pub fn terms(&self, cell: usize) -> &[Term] {
-        &self.terms[cell]
+    /// What lines add to that in the shares of a wavelength: share and extinction, `[constituent]`.
+    pub fn lines(&self, wavelength: f64) -> Vec<(f64, Vec<f64>)> {
+        let Some(cells) = &self.cells else {
+            return vec![(1.0, vec![0.0; self.constituents])];
+        };
+        let mut lines: Vec<(f64, Vec<f64>)> = Vec::new();
+        for (cell, weight) in linear(&self.wavelengths, wavelength).taps() {
+            for term in cells[cell].iter().filter(|term| term.share > 0.0) {
+                let share = weight * term.share;
+                match lines.iter_mut().find(|(_, k)| *k == term.extinction) {
+                    Some(same) => same.0 += share,
+                    None => lines.push((share, term.extinction.clone())),
+                }
+            }
+        }
+        lines
     }
 
     pub fn visibilities(&self) -> usize {
@@ -149,4 +176,10 @@ impl SpectralAxis {
     pub fn constituents(&self) -> usize {
         self.constituents
     }
+}
+
+/// Radiance with these logarithms at the nodes.
+pub(super) fn power(taps: &Taps, logarithms: &[f64]) -> f64 {
+    let terms = taps.iter().map(|&(n, w)| w * logarithms[n]);
+    terms.sum::<f64>().exp()
 }

@@ -6,7 +6,7 @@
 use super::few_columns::choose;
 use super::least_squares::Problem;
 use super::mixture::Mixture;
-use super::quadrature::{quadrature, spread};
+use super::quadrature::spread;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use crate::error::Result;
@@ -18,6 +18,8 @@ use crate::transmittance::{Layers, Segment};
 /// Error that is to be kept (p99), relative to T where that is above [`DIM`].
 const TOLERANCE: f64 = 1e-3;
 const DIM: f64 = 0.02;
+/// Most exponentials that a band is chosen from.
+const MOST_CANDIDATES: usize = 160;
 /// Lines through the air.
 const LINES: u32 = 160;
 /// What the rule that weights add up to one counts.
@@ -97,19 +99,17 @@ fn candidates(axis: &SpectralAxis, response: &Response) -> Vec<Candidate> {
         visibilities.clone().map(at).collect()
     };
     let mut out = Vec::new();
-    for wavelength in spread(axis, response) {
-        for (cell, _) in axis.cells(wavelength) {
-            for term in axis.terms(cell).iter().filter(|term| term.share > 0.0) {
-                out.push(Candidate {
-                    wavelength,
-                    extinction: extinction(wavelength, &term.extinction),
-                });
-            }
+    for wavelength in spread(&axis.wavelengths, response.range()) {
+        for (_, lines) in axis.lines(wavelength) {
+            let extinction = extinction(wavelength, &lines);
+            out.push(Candidate {
+                wavelength,
+                extinction,
+            });
         }
     }
-    // Without lines all terms are one.
-    out.dedup_by(|a, b| a.wavelength == b.wavelength && a.extinction == b.extinction);
-    out
+    let step = out.len().div_ceil(MOST_CANDIDATES).max(1);
+    out.into_iter().step_by(step).collect()
 }
 
 fn problem(candidates: &[Candidate], lines: &[Line], means: &[f64]) -> Problem {
@@ -149,7 +149,7 @@ fn means(
     const DARKEST: f64 = 1e-12;
     let mut sums = vec![0.0; lines.len()];
     let (mut whole, mut sunlight) = (0.0, 0.0);
-    for [wavelength, weight] in quadrature(model, axis, response)? {
+    for [wavelength, weight] in axis.quadrature(model.head(), response)? {
         let irradiance = model.head().solar_irradiance_at(wavelength);
         sunlight += weight * irradiance;
         let weight = weight * irradiance.max(DARKEST);
@@ -157,11 +157,11 @@ fn means(
         let extinction: Vec<Vec<f64>> = (0..axis.visibilities())
             .map(|v| axis.extinction(v, wavelength))
             .collect();
+        let absorbing = axis.lines(wavelength);
         for (sum, line) in sums.iter_mut().zip(lines) {
-            let shares = axis.cells(wavelength).flat_map(|(cell, share)| {
-                let terms = axis.terms(cell).iter();
-                terms.map(move |t| share * t.share * (-line.depth(&t.extinction)).exp())
-            });
+            let shares = absorbing
+                .iter()
+                .map(|(share, k)| share * (-line.depth(k)).exp());
             *sum += weight * line.passes(&extinction) * shares.sum::<f64>();
         }
     }
