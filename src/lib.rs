@@ -134,16 +134,16 @@ cfg_if::cfg_if! {
         mod transmittance;
 
         pub use aerial_perspective::{
-            AerialPerspective, AerialPerspectiveQuery, JoinedAerialPerspective,
-            JoinedPolarisedAerialPerspective, SkyDifference,
+            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, JoinedAerialPerspective,
+            JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
             BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
             Directions, Part, Sample, SkySampler,
         };
         pub use bands::{
-            BandAerialPerspective, BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,
-            JoinedBandAerialPerspective, PolarisedBandSky, Residual, Response,
+            BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,
+            PolarisedBandSky, Residual, Response,
         };
         pub use budget::{Budget, Channels, Plan};
         #[cfg(feature = "default-model")]

@@ -4,7 +4,6 @@
 //! `fit` finds weights of nodes for the light and `transmittance_fit` exponentials for the air, both with
 //! `few_columns` and `least_squares`; `projection` and `mixture` apply them, and the rest are the public faces.
 
-mod band_aerial;
 mod band_air;
 mod band_set;
 mod band_sky;
@@ -22,7 +21,6 @@ mod response;
 mod spectral_axis;
 mod transmittance_fit;
 
-pub use band_aerial::{BandAerialPerspective, JoinedBandAerialPerspective};
 pub use band_air::BandTransmittance;
 pub use band_set::Bands;
 pub use band_sky::{BandSky, PolarisedBandSky};

@@ -1,10 +1,7 @@
 //! Segments in the bands of a sensor.
 
-use super::band_air::BandTransmittance;
-use super::band_set::Bands;
-use super::band_sky::{BandSky, PolarisedBandSky};
-use super::projection::Projection;
-use crate::aerial_perspective::AerialPerspective;
+use super::prepared::AerialPerspective;
+use crate::bands::{BandSky, BandTransmittance, Bands, PolarisedBandSky, Projection};
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::model::Model;
