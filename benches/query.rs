@@ -63,7 +63,9 @@ fn bands(c: &mut Criterion) {
     c.bench_function("prepare three bands between nodes", |b| {
         b.iter(|| model.band_sky(&conditions, &three))
     });
-    let sky = model.band_sky(&conditions, &three).expect("inside the model");
+    let sky = model
+        .band_sky(&conditions, &three)
+        .expect("inside the model");
     let directions = directions();
     let mut out = [0.0; 3];
     let mut next = 0;

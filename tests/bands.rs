@@ -16,12 +16,15 @@ fn with_spectrum() -> (Model, Spectrum) {
     let nodes = &head.wavelengths;
     let wavelength: Vec<f64> = (0..45).map(|c| 322.0 + 9.7 * f64::from(c)).collect();
     let (mut tap_node, mut tap_weight) = (Vec::new(), Vec::new());
+    // Two terms per cell, of which the second is darker in one band of five.
     for (c, l) in wavelength.iter().enumerate() {
         let i = nodes.partition_point(|n| n <= l).clamp(1, nodes.len() - 2);
         let t = ((l - nodes[i - 1]) / (nodes[i] - nodes[i - 1])) as f32;
         let lean = 0.1 * (c as f32).sin();
-        tap_node.extend([i - 1, i, i + 1].map(|n| n as u32));
-        tap_weight.extend([1.0 - t - lean, t + 2.0 * lean, -lean]);
+        for lean in [lean, lean + if c % 5 == 0 { 0.2 } else { 0.0 }] {
+            tap_node.extend([i - 1, i, i + 1].map(|n| n as u32));
+            tap_weight.extend([1.0 - t - lean, t + 2.0 * lean, -lean]);
+        }
     }
     let (cells, nk) = (wavelength.len(), head.constituents);
     let extinction = (0..head.visibilities.len() * nk * cells).map(|i| {
@@ -31,7 +34,7 @@ fn with_spectrum() -> (Model, Spectrum) {
     });
     let spectrum = Spectrum {
         taps: 3,
-        terms: 2,
+        first_term: (0..=cells as u32).map(|c| 2 * c).collect(),
         tap_node,
         tap_weight,
         extinction: extinction.collect(),
@@ -56,14 +59,16 @@ fn by_cells(spectrum: &Spectrum, relative: &[f32], wavelength: f64) -> f64 {
     let c = after.clamp(1, spectrum.wavelength.len() - 1) - 1;
     let (l, m) = (spectrum.wavelength[c], spectrum.wavelength[c + 1]);
     let t = (wavelength - l) / (m - l);
-    let mut logarithm = 0.0;
-    for (cell, share) in [(c, 1.0 - t), (c + 1, t)] {
-        for j in cell * spectrum.taps..(cell + 1) * spectrum.taps {
-            let radiance = f64::from(relative[spectrum.tap_node[j] as usize]);
-            logarithm += share * f64::from(spectrum.tap_weight[j]) * radiance.ln();
-        }
-    }
-    logarithm.exp()
+    let term = |g: usize| {
+        let taps = g * spectrum.taps..(g + 1) * spectrum.taps;
+        let logarithm = |j: usize| f64::from(relative[spectrum.tap_node[j] as usize]).ln();
+        let sum: f64 = taps
+            .map(|j| f64::from(spectrum.tap_weight[j]) * logarithm(j))
+            .sum();
+        f64::from(spectrum.term_weight[g]) * sum.exp()
+    };
+    let cell = |c: usize| (term(2 * c) + term(2 * c + 1)).ln();
+    ((1.0 - t) * cell(c) + t * cell(c + 1)).exp()
 }
 
 fn conditions(random: &mut Random) -> Conditions {
@@ -451,7 +456,7 @@ fn baked_bands_keep_their_tolerance() {
         .collect();
     for responses in [bells(), many] {
         let bands = model.bands(&responses).unwrap();
-        let n = bands.len();
+        let n = bands.count();
         let conditions = Conditions::default();
         let sky = model.polarised_band_sky(&conditions, &bands).unwrap();
         let baked = sky.bake(BakedSky::TOLERANCE).unwrap();
@@ -580,4 +585,37 @@ fn xyz_as_bands_are_the_colours_of_the_model() {
             assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
         }
     }
+}
+
+/// The air of a file with a spectrum passes what its lines leave.
+#[test]
+fn transmittance_is_the_mean_over_a_spectrum() {
+    let (model, _) = with_spectrum();
+    let bands = model.bands(&bells()).unwrap();
+    let mut random = Random(47);
+    let mut errors = Vec::new();
+    for _ in 0..60 {
+        let visibility = random.between(20e3, 131.8e3);
+        let air = model.transmittance(visibility).unwrap();
+        let band_air = model.band_transmittance(visibility, &bands).unwrap();
+        let from = [0.0, 0.0, 1e4 * random.share().powi(2)];
+        let to = point(&mut random, from);
+        let mut got = [0.0; BELLS.len()];
+        band_air.transmittance(from, to, &mut got).unwrap();
+        for (b, &[centre, width]) in BELLS.iter().enumerate() {
+            let (mut sum, mut whole) = (0.0, 0.0);
+            for i in 0..120 {
+                let l = centre - 3.0 * width + width / 20.0 * (f64::from(i) + 0.5);
+                let weight = bell_at(l, centre, width) * model.head().solar_irradiance_at(l);
+                sum += weight * f64::from(air.transmittance_at(from, to, l).unwrap());
+                whole += weight;
+            }
+            let mean = sum / whole;
+            errors.push((f64::from(got[b]) - mean).abs() / mean.max(0.02));
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let [median, p99] = [0.5, 0.99].map(|q| errors[(q * errors.len() as f64) as usize]);
+    println!("transmittance over a spectrum {median:.5} {p99:.5}");
+    assert!(median < 5e-4 && p99 < 3e-3, "{median} {p99}");
 }

@@ -88,8 +88,7 @@ impl Bands {
     pub const TOLERANCE: f64 = super::fit::TOLERANCE;
 
     /// How many bands there are.
-    #[expect(clippy::len_without_is_empty, reason = "there is always one")]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.projection.bands()
     }
 
@@ -165,7 +164,7 @@ impl Bands {
 
     /// What belongs to the nodes.
     fn pick<'k, T: Copy>(&self, all: &[T], bands: usize, kept: &'k mut [T]) -> Result<&'k [T]> {
-        check_length(bands, self.len())?;
+        check_length(bands, self.count())?;
         if all.len() != self.nodes.stored() {
             return Err(Error::Length {
                 what: "wavelengths of the model",

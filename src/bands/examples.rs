@@ -28,12 +28,15 @@ const VIEWS: [[f64; 2]; 14] = [
     [-0.6, 2.2],
 ];
 
+/// Light at a node counts as at least this share of the brightest, in a file with a spectrum: 2⁻²⁷.
+const FLOOR: f64 = -27.0 * core::f64::consts::LN_2;
+
 /// ln L (L per unit of solar irradiance) at the nodes: examples of the file, or what the model gives.
 pub(super) fn examples(model: &Model) -> Result<Vec<Vec<f64>>> {
     let stored = match model.spectrum_chunk()? {
         Some(spectrum) => {
             let rows = spectrum.example.chunks(model.head().wavelengths.len());
-            rows.map(|row| row.iter().map(|v| f64::from(v.get())).collect())
+            rows.map(|row| floored(row.iter().map(|v| f64::from(v.get())).collect()))
                 .collect()
         }
         None => Vec::new(),
@@ -42,6 +45,11 @@ pub(super) fn examples(model: &Model) -> Result<Vec<Vec<f64>>> {
         0..ENOUGH => made(model),
         _ => Ok(stored),
     }
+}
+
+fn floored(row: Vec<f64>) -> Vec<f64> {
+    let brightest = row.iter().copied().fold(f64::MIN, f64::max);
+    row.into_iter().map(|l| l.max(brightest + FLOOR)).collect()
 }
 
 /// Skies at nodes of the model, each of which costs one chunk. What the file lacks is left out.

@@ -54,23 +54,20 @@ impl SpectralAxis {
 
     fn with(self, spectrum: &SpectrumView) -> Self {
         let wide = |v: &F32| f64::from(v.get());
-        let cell = |c: usize| {
-            let nodes = spectrum.tap_node[c * spectrum.taps..].iter();
+        let term = |g: usize| {
+            let taps = g * spectrum.taps..(g + 1) * spectrum.taps;
+            let nodes = spectrum.tap_node[taps.clone()].iter();
             let nodes = nodes.map(|n| n.get() as usize);
-            let weights = spectrum.tap_weight[c * spectrum.taps..].iter().map(wide);
-            let taps: Taps = nodes.zip(weights).take(spectrum.taps).collect();
-            let term = |g: usize| Term {
+            let lines = &spectrum.term_extinction[g * self.constituents..];
+            Term {
                 share: wide(&spectrum.term_weight[g]),
-                extinction: spectrum.term_extinction[g * self.constituents..]
-                    .iter()
-                    .take(self.constituents)
-                    .map(wide)
+                extinction: lines.iter().take(self.constituents).map(wide).collect(),
+                taps: nodes
+                    .zip(spectrum.tap_weight[taps].iter().map(wide))
                     .collect(),
-                taps: taps.clone(),
-            };
-            let terms = c * spectrum.terms..(c + 1) * spectrum.terms;
-            terms.map(term).collect()
+            }
         };
+        let cell = |c: usize| spectrum.terms(c).map(term).collect();
         Self {
             cells: Some((0..spectrum.wavelength.len()).map(cell).collect()),
             wavelengths: spectrum.wavelength.iter().map(|l| l.get()).collect(),

@@ -17,6 +17,7 @@ pub(crate) use nodes::{NodeSubset, Nodes};
 #[cfg(feature = "default-model")]
 pub use opened::DEFAULT_MODEL;
 pub use opened::Model;
+pub(crate) use opened::SPECTRUM;
 pub(crate) use ranges::checked_visibility;
 pub use read_at::ReadAt;
 pub use store::Traffic;
