@@ -405,7 +405,7 @@ fn light_of_segments_in_bands_is_a_sum_over_wavelengths() {
     let bands = model.bands(&bells()).unwrap();
     let mut random = Random(31);
     let mut errors = Vec::new();
-    for _ in 0..60 {
+    for _ in 0..25 {
         let conditions = conditions(&mut random);
         let aerial = model.aerial_perspective(&conditions).unwrap();
         let band_aerial = model.band_aerial_perspective(&conditions, &bands).unwrap();
