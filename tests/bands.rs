@@ -82,7 +82,7 @@ fn conditions(random: &mut Random) -> Conditions {
 }
 
 fn view(random: &mut Random) -> [f32; 3] {
-    common::direction(random.between(0.001, 1.57), random.between(0.0, 6.28))
+    common::direction(random.between(0.001, 1.57), random.between(0.0, 6.0))
 }
 
 fn bell(centre: f64, width: f64) -> Response {
@@ -330,7 +330,7 @@ fn over_bells(model: &Model, at_nodes: &[f32], sunlit: bool) -> Vec<[f64; 2]> {
 
 fn point(random: &mut Random, from: [f64; 3]) -> [f64; 3] {
     let way = 10f64.powf(random.between(2.5, 5.0));
-    let to = common::unit(random.between(-0.02, 0.5), random.between(0.0, 6.28));
+    let to = common::unit(random.between(-0.02, 0.5), random.between(0.0, 6.0));
     std::array::from_fn(|c| from[c] + way * to[c])
 }
 
@@ -487,12 +487,12 @@ fn baked_bands_keep_their_tolerance() {
             let mut truth = vec![Stokes::default(); n];
             sky.stokes(view, PolarisationFrame::Vertical, &mut truth)
                 .unwrap();
-            for b in 0..n {
+            for (b, part) in truth.iter().enumerate() {
                 let at = k * n + b;
                 off.push((fast[at] / exact[at] - 1.0).abs());
                 off.push((i[at] / exact[at] - 1.0).abs());
-                let [dq, du] = [(q[at], truth[b].q), (u[at], truth[b].u)]
-                    .map(|(got, true_part)| got / i[at] - true_part / truth[b].i);
+                let [dq, du] = [(q[at], part.q), (u[at], part.u)]
+                    .map(|(got, true_part)| got / i[at] - true_part / part.i);
                 degrees.push(dq.hypot(du));
             }
         }

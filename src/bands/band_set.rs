@@ -1,7 +1,7 @@
 //! The bands of a sensor on the nodes of a model.
 
-use super::fit::Fit;
-use super::projection::{Made, Projection};
+use super::band_fit::Fit;
+use super::band_projection::{Made, Projection};
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
@@ -85,7 +85,7 @@ impl Model {
 
 impl Bands {
     /// What the 99th percentile of the residual of a curve is to keep, relative.
-    pub const TOLERANCE: f64 = super::fit::TOLERANCE;
+    pub const TOLERANCE: f64 = super::band_fit::TOLERANCE;
 
     /// How many bands there are.
     pub fn count(&self) -> usize {

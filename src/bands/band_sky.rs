@@ -1,7 +1,7 @@
 //! A prepared sky in the bands of a sensor.
 
+use super::band_projection::Projection;
 use super::band_set::Bands;
-use super::projection::Projection;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::model::Model;

@@ -2,7 +2,7 @@
 
 use zerocopy::little_endian::F32;
 
-use super::quadrature::{quadrature, spread};
+use super::band_integral::{quadrature, spread};
 use super::response::Response;
 use crate::error::Result;
 use crate::format::{Head, SpectrumView};

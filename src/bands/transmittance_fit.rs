@@ -3,10 +3,10 @@
 //! What a band sees through air is the mean of T, weighted by response and sunlight. That is Σ_j c_j exp(−Σ_k K_jk C_k)
 //! over the columns C of a line, with c ≥ 0 of sum 1, fitted to lines of all kinds.
 
+use super::band_integral::spread;
 use super::few_columns::choose;
 use super::least_squares::Problem;
 use super::mixture::Mixture;
-use super::quadrature::spread;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use crate::error::Result;

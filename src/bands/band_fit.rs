@@ -1,9 +1,9 @@
 //! Weights of nodes for bands.
 
+use super::band_projection::{Made, Power};
 use super::examples::examples;
 use super::few_columns::{MOST, choose};
 use super::least_squares::{Problem, Weights};
-use super::projection::{Made, Power};
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::{SpectralAxis, Taps, power};
