@@ -36,13 +36,13 @@ impl Default for Fitting {
     fn default() -> Self {
         Self {
             options: Options {
-                rank: 128,
-                sweeps: 150,
+                rank: 160,
+                sweeps: 250,
                 seed: 1,
             },
-            refinements: 12,
+            refinements: 24,
             polarisation: Options {
-                rank: 38,
+                rank: 48,
                 sweeps: 400,
                 seed: 1,
             },
