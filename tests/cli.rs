@@ -635,14 +635,15 @@ fn landscapes_and_froxel_volumes_are_written() {
         "spectral.raw",
     ]);
     let bytes = std::fs::read(bench.folder.path().join("spectral.raw")).unwrap();
-    assert_eq!(bytes.len(), 64 + 4 * 24 * 3 * 2 * 4);
-    assert_eq!(bytes[24..28], 24u32.to_le_bytes());
-    let spectra = bytes[64..].chunks_exact(4 * 24);
+    let n = Model::default_model().unwrap().wavelengths().len();
+    assert_eq!(bytes.len(), 64 + 4 * 2 * n * 3 * 2 * 4);
+    assert_eq!(bytes[24..28], (2 * n as u32).to_le_bytes());
+    let spectra = bytes[64..].chunks_exact(4 * 2 * n);
     for spectrum in spectra {
         let value = |i: usize| f32::from_le_bytes(spectrum[4 * i..][..4].try_into().unwrap());
         // Light in the first half, transmittance in the second, which grows with the wavelength at first.
-        assert!((0..12).all(|i| value(i) > 0.0) && (12..24).all(|i| value(i) <= 1.0));
-        assert!(value(12) < value(14));
+        assert!((0..n).all(|i| value(i) > 0.0) && (n..2 * n).all(|i| value(i) <= 1.0));
+        assert!(value(n) < value(n + 2));
     }
     run(&["froxels", "--size", "3x2x4", "--out", "volume.exr"]);
     assert!(exists("volume.exr") > 500);

@@ -24,11 +24,11 @@ fn differences(interpolation: Interpolation) -> [f64; 3] {
         let sky = model.sky(&conditions).unwrap();
         for _ in 0..4 {
             let direction = random::sphere(views.draw());
-            let [mut got, mut expected] = [[0.0; 12]; 2];
+            let [mut got, mut expected] = [(); 2].map(|()| vec![0.0; model.wavelengths().len()]);
             query.radiance(&conditions, direction, &mut got).unwrap();
             sky.radiance(direction, &mut expected).unwrap();
-            let pairs = got.iter().zip(expected).filter(|&(_, e)| e > 0.0);
-            differences.extend(pairs.map(|(&g, e)| f64::from((g - e).abs() / e)));
+            let pairs = got.iter().zip(&expected).filter(|&(_, e)| *e > 0.0);
+            differences.extend(pairs.map(|(g, e)| f64::from((g - e).abs() / e)));
         }
     }
     differences.sort_by(f64::total_cmp);
@@ -68,7 +68,8 @@ fn at_the_nodes_all_interpolations_agree() {
             visibility,
             ..Conditions::default()
         };
-        let [mut linear, mut lean, mut full] = [[0.0; 12]; 3];
+        let n = prepared(Interpolation::Full).wavelengths().len();
+        let [mut linear, mut lean, mut full] = [(); 3].map(|()| vec![0.0; n]);
         let direction = [0.3, 0.4, 0.2];
         for (interpolation, out) in [
             (Interpolation::Linear, &mut linear),
@@ -110,7 +111,7 @@ fn nothing_jumps_between_intervals() {
             .iter()
             .flat_map(|a| places[1].iter().map(move |v| (a, v)))
         {
-            let [mut below, mut above] = [[0.0; 12]; 2];
+            let [mut below, mut above] = [(); 2].map(|()| vec![0.0; model.wavelengths().len()]);
             for (nudge, out) in [(-1e-9, &mut below), (1e-9, &mut above)] {
                 let conditions = Conditions {
                     altitude: altitude * (1.0 + nudge),

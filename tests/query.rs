@@ -5,12 +5,17 @@ mod common;
 
 use std::path::Path;
 use std::process::Output;
+use std::sync::LazyLock;
 
 use common::command::{QUANTITIES, run};
 use common::random::Random;
 use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
+
+/// Of wavelengths of the embedded model, nm.
+static RANGE: LazyLock<[f64; 2]> =
+    LazyLock::new(|| Model::default_model().unwrap().wavelength_range().unwrap());
 
 fn query(arguments: &[&str], table: String) -> Output {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -57,6 +62,7 @@ impl Row {
             false => 10f64.powf(random.between(0.0, 5.5)),
         };
         let visibility = 1.0 / random.between(1.0 / 131.8, 1.0 / 20.0);
+        let [shortest, longest] = *RANGE;
         let altitude = 15e3 * random.share().powi(3);
         let numbers = [
             visibility,
@@ -66,7 +72,7 @@ impl Row {
             zenith,
             azimuth,
             distance,
-            random.between(320.0, 760.0),
+            random.between(shortest, longest),
         ];
         Self { quantity, numbers }
     }
@@ -81,7 +87,7 @@ impl Row {
             (4, 180.5, "view_zenith_deg must be in 0..=180"),
             (5, f64::INFINITY, "view_azimuth_deg must be finite"),
             (6, -1.0, "distance_m must"),
-            (7, 900.0, "wavelength must be in"),
+            (7, 2000.0, "wavelength must be in"),
         ][(random.share() * 8.0) as usize];
         self.numbers[column] = value;
         error

@@ -10,14 +10,17 @@ pub mod random;
 pub mod server;
 pub mod spectrum;
 
+use std::sync::LazyLock;
+
+use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
-use welkin::Sky;
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
-    PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode,
+    PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode, unpack,
 };
 use welkin::geometry::Planet;
+use welkin::{Model, Sky};
 
 pub const RANK: usize = 5;
 
@@ -47,6 +50,42 @@ pub fn radiance(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
     let mut out = vec![f32::NAN; sky.wavelengths().len()];
     sky.radiance(direction, &mut out).unwrap();
     out
+}
+
+/// The wavelength (nm) that is nearest to `nm`, by number.
+pub fn nearest(wavelengths: &[f64], nm: f64) -> usize {
+    let off = |w: usize| (wavelengths[w] - nm).abs();
+    (0..wavelengths.len())
+        .min_by(|&a, &b| off(a).total_cmp(&off(b)))
+        .expect("some wavelengths")
+}
+
+/// Four wavelengths in the range of the embedded model, nm.
+#[cfg(feature = "default-model")]
+pub fn wavelengths() -> impl Strategy<Value = [f32; 4]> {
+    let model = Model::default_model().unwrap();
+    let [shortest, longest] = model.wavelength_range().unwrap().map(|nm| nm as f32);
+    proptest::array::uniform4(shortest..=longest)
+}
+
+/// The most that the nodes of the embedded model weigh together in what lies between them, all signs taken as plus: by
+/// so much errors at the nodes can grow.
+#[cfg(feature = "default-model")]
+pub fn most_weight() -> f64 {
+    static MOST: LazyLock<f64> = LazyLock::new(|| {
+        let (_, chunks) = unpack(welkin::DEFAULT_MODEL).unwrap();
+        let spectrum = chunks.iter().find_map(|chunk| match &chunk.payload {
+            Payload::Spectrum(spectrum) => Some(spectrum),
+            _ => None,
+        });
+        // Without a spectrum cubics, evenly spaced.
+        spectrum.map_or(1.25, |spectrum| {
+            let sums = spectrum.tap_weight.chunks_exact(spectrum.taps);
+            let sums = sums.map(|row| row.iter().map(|w| f64::from(w.abs())).sum());
+            sums.fold(0.0, f64::max)
+        })
+    });
+    *MOST
 }
 
 /// Unit vector at an elevation and an azimuth, rad.
