@@ -80,6 +80,28 @@ pub fn scatter(aerial: &AerialPerspective, from: [f64; 3], to: [f64; 3]) {
     }
 }
 
+/// Everything at one wavelength is finite and in its range.
+fn look_between(model: &Model, conditions: &Conditions, wavelength: f64) {
+    let (frame, [from, to]) = (PolarisationFrame::Vertical, SEGMENTS[1]);
+    let bright = |l: f32| assert!(l.is_finite() && l >= 0.0, "{l}");
+    if let Ok(air) = model.transmittance(conditions.visibility) {
+        let through = air.transmittance_at(from, to, wavelength).expect("valid points");
+        assert!((0.0..=1.0).contains(&through), "{through}");
+    }
+    if let Ok(disc) = model.solar_disc(conditions) {
+        bright(disc.radiance_at(disc.direction(), wavelength).expect("a wavelength of the model"));
+    }
+    if let Ok(sky) = model.polarised_sky(conditions) {
+        let light = sky.stokes_at([0.3, -0.2, 0.5], frame, wavelength);
+        check_polarised(&[light.expect("a wavelength of the model")]);
+    }
+    if let Ok(aerial) = model.aerial_perspective(conditions) {
+        bright(aerial.in_scattering_at(from, to, wavelength).expect("valid points"));
+        let light = aerial.relative_stokes_at(from, to, frame, wavelength);
+        check_polarised(&[light.expect("valid points")]);
+    }
+}
+
 /// Stokes vectors are finite, and no light is more than polarised.
 pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
     let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
@@ -116,6 +138,9 @@ pub fn interrogate(model: &Model) {
         };
         if let Ok(air) = model.transmittance(conditions.visibility) {
             look_through(&air);
+        }
+        if let Ok(range) = model.wavelength_range() {
+            look_between(model, &conditions, within(range));
         }
         if let Ok(aerial) = model.aerial_perspective(&conditions) {
             look_into(&aerial);

@@ -3,7 +3,7 @@
 use crate::baked::{check_tolerance, largest_colour, largest_polarised, largest_spectral};
 use crate::error::{Error, Result};
 use crate::format::{Entry, KIND_COLUMN, KIND_RADIANCE, KIND_RADIANCE_BASIS, Kind};
-use crate::model::{Key, Model};
+use crate::model::{Key, Model, SPECTRUM};
 use crate::point_query::{Chunks, Factors, PointQuery, checked_head};
 use crate::polarisation::PolarisedPointQuery;
 
@@ -142,6 +142,9 @@ impl Model {
                 keys.extend(kinds.iter().map(|&[_, own]| (own, Some(a), Some(v))));
             }
         }
+        if self.has_spectrum() {
+            keys.push(SPECTRUM);
+        }
         let chunks = keys
             .into_iter()
             .map(|(kind, a, v)| self.find(kind, a, v))
@@ -197,7 +200,7 @@ impl Model {
             let place = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
             chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
         }
-        PointQuery::assemble(head, chunks)
+        PointQuery::assemble(head, chunks, self.spectrum_chunk()?)
     }
 }
 

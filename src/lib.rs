@@ -113,6 +113,7 @@ mod kernel;
 mod phase_function;
 mod place;
 mod point_query;
+mod spectrum;
 
 pub use conditions::Conditions;
 pub use error::{Error, Result};
@@ -146,7 +147,8 @@ cfg_if::cfg_if! {
         pub use polarisation::{
             PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,
         };
-        pub use sky::{Sky, between_wavelengths, xyz_to_linear_srgb};
+        pub use sky::{Sky, xyz_to_linear_srgb};
+        pub use spectrum::{SpectralInterpolation, between_wavelengths};
         pub use sun::{SOLAR_ANGULAR_RADIUS, SolarDisc};
         pub use transmittance::Transmittance;
     }

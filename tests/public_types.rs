@@ -39,6 +39,7 @@ all_shared! {
     DensityView<'static>,
     Spectrum,
     SpectrumView<'static>,
+    SpectralInterpolation,
     Directions<'static>,
     ElevationAxis,
     Ends,

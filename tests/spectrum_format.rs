@@ -149,7 +149,8 @@ fn stays_where_all_nodes_with_a_weight_do() {
 
 #[test]
 fn writers_refuse_what_readers_do() {
-    let broken: [(&str, &dyn Fn(&mut Spectrum)); 15] = [
+    type Change<'a> = &'a dyn Fn(&mut Spectrum);
+    let broken: [(&str, Change); 15] = [
         ("a node that is none", &|s| s.tap_node[4] = 6),
         ("a weight beyond 1e3", &|s| s.tap_weight[0] = 1.001e3),
         ("a weight that is no number", &|s| {
@@ -165,7 +166,7 @@ fn writers_refuse_what_readers_do() {
             s.extinction[1] = f32::INFINITY
         }),
         ("a share above 1", &|s| {
-            s.term_weight[..2].copy_from_slice(&[1.1, -0.1])
+            s.term_weight[1..3].copy_from_slice(&[1.1, -0.1])
         }),
         ("shares of sum 1.0001", &|s| s.term_weight[0] += 1e-4),
         ("lines that shine", &|s| s.term_extinction[0] = -1e-9),
@@ -189,7 +190,7 @@ fn edges_of_rules_are_within_them() {
     let mut edge = spectrum(&head);
     edge.tap_weight[..3].copy_from_slice(&[1e3, -1e3, -0.0]);
     edge.extinction[0] = -0.0;
-    edge.term_weight[0] += 5e-6;
+    edge.term_weight[1] += 5e-6;
     edge.term_extinction[3] = 1e6;
     edge.wavelength[0] = head.solar_start;
     edge.wavelength[8] = 800.0;

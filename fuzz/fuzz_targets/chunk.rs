@@ -9,13 +9,16 @@ use libfuzzer_sys::fuzz_target;
 use welkin::{Model, ReadAt};
 use welkin_fuzz::{forged, interrogate};
 
-static FILES: [&[u8]; 6] = [
+static FILES: [&[u8]; 9] = [
     include_bytes!("../../format-spec/conformance/files/minimal.welkin"),
     include_bytes!("../../format-spec/conformance/files/pairs.welkin"),
     include_bytes!("../../format-spec/conformance/files/zstd.welkin"),
     include_bytes!("../../format-spec/conformance/files/polarised.welkin"),
     include_bytes!("../../format-spec/conformance/files/air.welkin"),
     include_bytes!("../../format-spec/conformance/files/aerial-perspective.welkin"),
+    include_bytes!("../../format-spec/conformance/files/spectrum-polarised.welkin"),
+    include_bytes!("../../format-spec/conformance/files/spectrum-air.welkin"),
+    include_bytes!("../../format-spec/conformance/files/spectrum-aerial-perspective.welkin"),
 ];
 
 /// Ends at `end`, and fails when asked beyond `end` often.

@@ -15,7 +15,7 @@ use crate::kernel::axis::{Stencil, hermite, linear};
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::model::Model;
 use crate::polarisation::{PolarisationFrame, Stokes};
-use crate::transmittance::{Extinction, Segment};
+use crate::transmittance::Segment;
 
 /// Transmittance and in-scattered light of segments that share no conditions, like the rows of a table.
 ///
@@ -136,6 +136,23 @@ impl AerialPerspectiveQuery<'_> {
             .to_end(from, direction, in_scattering, transmittance)
     }
 
+    /// As [`AerialPerspective::in_scattering_at`], under these conditions.
+    ///
+    /// # Errors
+    /// As [`Model::aerial_perspective`] and [`AerialPerspective::in_scattering_at`].
+    pub fn in_scattering_at(
+        &mut self,
+        conditions: &Conditions,
+        from: [f64; 3],
+        to: [f64; 3],
+        wavelength: f64,
+    ) -> Result<f32> {
+        self.set(conditions)?;
+        let segment = self.aerial.segment(from, to)?;
+        self.fill(&segment)?;
+        self.aerial.in_scattering_at(from, to, wavelength)
+    }
+
     /// As [`AerialPerspective::relative_stokes_at`], under these conditions.
     ///
     /// # Errors
@@ -188,7 +205,7 @@ impl AerialPerspectiveQuery<'_> {
             .collect();
         let aerial = &mut self.aerial;
         aerial.species = Scatterers::new(head, around.into_iter());
-        aerial.air.extinction = Extinction::new(head, visibility);
+        aerial.air.set_visibility(head, visibility);
         aerial.grey = aerial.air.grey();
         aerial.beam.turn(&aerial.air.planet(), solar_elevation);
         self.suns = sun_nodes(solar_elevation, reach(&head.planet));

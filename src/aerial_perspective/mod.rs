@@ -20,6 +20,7 @@ mod sky_difference;
 mod source_expansion;
 mod source_nodes;
 mod source_table;
+mod spectral_light;
 mod spherical_harmonics;
 mod stokes_integral;
 mod sun_transmittance;

@@ -13,7 +13,6 @@ use crate::kernel::simd::dispatch;
 use crate::polarisation::{
     Plane, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra, between, limit,
 };
-use crate::sky::spectrum::between_wavelengths;
 use crate::sky::xyz_to_linear_srgb;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 
@@ -94,6 +93,7 @@ impl AerialPerspective {
         frame: PolarisationFrame,
         wavelength: f64,
     ) -> Result<Stokes> {
+        self.air.interpolation().check(wavelength)?;
         let nodes = self.wavelengths();
         let mut lights = [Stokes::default(); MOST_WAVELENGTHS];
         let mut relative = [0.0; MOST_WAVELENGTHS];
@@ -105,8 +105,10 @@ impl AerialPerspective {
                 relative[block * LANES + lane] = i;
             }
         })?;
-        let total = between_wavelengths(nodes, &relative[..nodes.len()], wavelength)?;
-        Ok(between(nodes, &lights[..nodes.len()], wavelength, total))
+        let relative = &relative[..nodes.len()];
+        let total = self.relative_at(relative, wavelength);
+        let shares = self.air.interpolation().shares(relative, wavelength);
+        Ok(between(&shares, &lights[..nodes.len()], total))
     }
 
     /// As [`AerialPerspective::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the aerial

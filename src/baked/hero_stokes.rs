@@ -10,6 +10,7 @@ use super::spline_table::Spots;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
 use crate::polarisation::{PolarisationFrame, Stokes};
+use crate::spectrum::{CellTable, MOST_WAVELENGTHS};
 
 /// Most blocks of wavelengths.
 const BLOCKS: usize = 256usize.div_ceil(polarisation_table::LANES);
@@ -89,9 +90,13 @@ impl Sink<LANES> for Heroes<'_> {
         let turn = self.axes.turn(sky.frame(), group.vectors);
         for i in 0..group.count {
             let wavelengths = &self.wavelengths[group.first + i];
-            let light = sky.axis.radiance(group, i, wavelengths);
-            let ratios = self.ratios(group.spots, &turn, i, wavelengths);
-            self.out[group.first + i] = bounded(light, ratios);
+            self.out[group.first + i] = match sky.axis.cells() {
+                Some(cells) => self.of_cells(cells, group, &turn, i, wavelengths),
+                None => {
+                    let light = sky.axis.radiance(group, i, wavelengths);
+                    bounded(light, self.ratios(group.spots, &turn, i, wavelengths))
+                }
+            };
         }
     }
 }
@@ -106,18 +111,57 @@ impl Heroes<'_> {
         i: usize,
         wavelengths: &[f32; 4],
     ) -> [Lanes<4>; 2] {
-        let degrees = &self.sky.degrees;
         let axis = &self.sky.sky().axis;
-        let at = |block: usize| turned(&degrees.at(spots, i, block), turn, i);
-        if degrees.blocks == 1 {
-            return at(0).map(|ratios| axis.mix(wavelengths, &ratios.0));
+        if self.sky.degrees.blocks == 1 {
+            let degrees = self.sky.degrees.at(spots, i, 0);
+            return turned(&degrees, turn, i).map(|ratios| axis.mix(wavelengths, &ratios.0));
         }
+        let ratios = self.at_nodes(spots, turn, i);
+        ratios.map(|ratios| axis.mix(wavelengths, ratios.as_flattened()))
+    }
+
+    /// Q/I and U/I at the nodes.
+    #[inline(always)]
+    fn at_nodes<const W: usize>(
+        &self,
+        spots: &Spots<W>,
+        turn: &FrameRotation<W>,
+        i: usize,
+    ) -> [[[f32; polarisation_table::LANES]; BLOCKS]; 2] {
+        let degrees = &self.sky.degrees;
         let mut ratios = [[[0.0; polarisation_table::LANES]; BLOCKS]; 2];
         for block in 0..degrees.blocks {
-            let [q, u] = at(block);
+            let [q, u] = turned(&degrees.at(spots, i, block), turn, i);
             (ratios[0][block], ratios[1][block]) = (q.0, u.0);
         }
-        ratios.map(|ratios| axis.mix(wavelengths, ratios.as_flattened()))
+        ratios
+    }
+
+    /// Stokes vectors of cells: nodes count by the light that they give.
+    #[inline(always)]
+    fn of_cells<const W: usize>(
+        &self,
+        cells: &CellTable,
+        group: &Group<LANES, W>,
+        turn: &FrameRotation<W>,
+        i: usize,
+        wavelengths: &[f32; 4],
+    ) -> [Stokes; 4] {
+        let axis = &self.sky.sky().axis;
+        let logarithms = axis.logarithms(group, i);
+        let opacity = group.spots.opacity.0[i];
+        let light = axis.radiance_of_cells(cells, opacity, wavelengths, &logarithms);
+        let ratios = self.at_nodes(group.spots, turn, i);
+        let mut sums = [Lanes::splat(0.0); 2];
+        for (lane, &wavelength) in wavelengths.iter().enumerate() {
+            let mut shares = [0.0; MOST_WAVELENGTHS];
+            cells.add_shares(wavelength, &logarithms, &mut shares);
+            for (sum, ratios) in sums.iter_mut().zip(&ratios) {
+                let terms = shares.iter().zip(ratios.as_flattened());
+                sum.0[lane] = terms.map(|(share, ratio)| share * ratio).sum();
+            }
+        }
+        bounded(light, sums)
     }
 }
 

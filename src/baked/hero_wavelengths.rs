@@ -1,15 +1,20 @@
 //! Radiance at a few wavelengths that differ from query to query, as hero wavelength sampling asks (Wilkie et al.
-//! 2014). Format specification, section 7.3, with the weights of each interval as polynomials.
+//! 2014). Format specification, section 7.3; of models without cells with the weights of each interval as polynomials.
+
+use std::sync::Arc;
 
 use super::batch::{Group, Sink};
 use crate::kernel::axis::hermite;
 use crate::kernel::lanes::Lanes;
 use crate::sky::Sky;
+use crate::spectrum::{CellTable, SpectralInterpolation};
 
 /// Wavelengths of a table that are computed together.
 const LANES: usize = 16;
 /// Most blocks of wavelengths.
 const BLOCKS: usize = 256 / LANES;
+/// Light at a node counts as at least 2 to minus this power of the brightest.
+const DARKEST: f32 = 27.0;
 
 /// Wavelengths and solar spectrum, ready for interpolation.
 #[derive(Clone, Debug)]
@@ -21,6 +26,8 @@ pub(super) struct WavelengthAxis {
     /// First wavelength and samples per nanometre of the solar spectrum.
     solar_axis: [f32; 2],
     range: [f32; 2],
+    /// What lies between the wavelengths, where that is more than a curve.
+    cells: Option<Arc<SpectralInterpolation>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +56,8 @@ impl WavelengthAxis {
                 .collect(),
             solar: solar.to_vec(),
             solar_axis: [start as f32, (1.0 / step) as f32],
-            range: [wavelengths[0] as f32, wavelengths[inner.len()] as f32],
+            range: sky.interpolation().range().map(|l| l as f32),
+            cells: (sky.interpolation().table()).map(|_| sky.interpolation().clone()),
         }
     }
 
@@ -151,6 +159,15 @@ impl WavelengthAxis {
         i: usize,
         wavelengths: &[f32; 4],
     ) -> Lanes<4> {
+        if let Some(cells) = self.cells() {
+            let logarithms = self.logarithms(group, i);
+            return self.radiance_of_cells(
+                cells,
+                group.spots.opacity.0[i],
+                wavelengths,
+                &logarithms,
+            );
+        }
         let (table, spots) = (group.table, group.spots);
         let mixed = if table.blocks() == 1 {
             self.mix(wavelengths, &table.logarithm(spots, i, 0).0)
@@ -164,6 +181,48 @@ impl WavelengthAxis {
         let irradiance = Lanes(wavelengths.map(|wavelength| self.irradiance(wavelength)));
         let radiance = mixed.exp2() * irradiance * spots.opacity.0[i];
         radiance.min(Lanes::splat(f32::MAX))
+    }
+
+    /// What lies between the wavelengths, where that is more than a curve.
+    #[inline(always)]
+    pub fn cells(&self) -> Option<&CellTable> {
+        self.cells.as_ref().and_then(|cells| cells.table())
+    }
+
+    /// Logarithms of relative radiance at the nodes for direction `i`, none far below the greatest.
+    #[inline(always)]
+    pub fn logarithms<const W: usize>(
+        &self,
+        group: &Group<LANES, W>,
+        i: usize,
+    ) -> [f32; BLOCKS * LANES] {
+        let mut logarithms = [[0.0; LANES]; BLOCKS];
+        for (block, out) in logarithms[..group.table.blocks()].iter_mut().enumerate() {
+            *out = group.table.logarithm(group.spots, i, block).0;
+        }
+        let opacity = group.spots.opacity.0[i].max(f32::MIN_POSITIVE);
+        let [opacity] = Lanes([opacity]).log2().0;
+        let nodes = &mut logarithms.as_flattened_mut()[..self.intervals.len() + 1];
+        let least = nodes.iter().copied().fold(f32::MIN, f32::max) - DARKEST;
+        nodes.iter_mut().for_each(|l| *l = l.max(least) + opacity);
+        core::array::from_fn(|n| logarithms[n / LANES][n % LANES])
+    }
+
+    /// Spectral radiance at four wavelengths from logarithms at the nodes; none where there is no air.
+    #[inline(always)]
+    pub fn radiance_of_cells(
+        &self,
+        cells: &CellTable,
+        opacity: f32,
+        wavelengths: &[f32; 4],
+        logarithms: &[f32],
+    ) -> Lanes<4> {
+        if opacity == 0.0 {
+            return Lanes::splat(0.0);
+        }
+        let mixed = Lanes(wavelengths.map(|wavelength| cells.logarithm(wavelength, logarithms)));
+        let irradiance = Lanes(wavelengths.map(|wavelength| self.irradiance(wavelength)));
+        (mixed.exp2() * irradiance).min(Lanes::splat(f32::MAX))
     }
 
     /// Values at the nodes, interpolated.

@@ -12,7 +12,7 @@ pub use layout::{
     KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE,
     MOST_EXPANSION, NO_INDEX, POLARISATION_PARTS, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
-pub use spectrum_view::{MAX_TAPS, MAX_TERMS, SpectrumView};
+pub use spectrum_view::{MAX_TAPS, SpectrumView};
 pub use views::{BasisView, ColumnView, FactorsView, Payload16};
 
 cfg_if::cfg_if! {

@@ -19,13 +19,13 @@ use crate::error::{Error, Result};
 /// let (cells, last) = (2, head.wavelengths.len() - 1);
 /// let spectrum = Spectrum {
 ///     taps: 1,
-///     terms: 1,
 ///     wavelength: vec![head.wavelengths[0], head.wavelengths[last]], // nm
+///     first_term: vec![0, 1, 2],
+///     term_weight: vec![1.0; cells],
+///     term_extinction: vec![0.0; cells * head.constituents], // m⁻¹
 ///     tap_node: vec![0, last as u32],
 ///     tap_weight: vec![1.0; cells],
 ///     extinction: vec![1e-5; head.visibilities.len() * head.constituents * cells], // m⁻¹
-///     term_weight: vec![1.0; cells],
-///     term_extinction: vec![0.0; cells * head.constituents], // m⁻¹
 ///     example: vec![],
 /// };
 /// let chunk = Chunk::new(None, None, Payload::Spectrum(spectrum));
@@ -35,22 +35,22 @@ use crate::error::{Error, Result};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectrum {
-    /// Taps per cell, 1..=16.
+    /// Taps per term, 1..=16.
     pub taps: usize,
-    /// Terms per cell, 1..=16.
-    pub terms: usize,
     /// The cells, nm, strictly increasing.
     pub wavelength: Vec<f64>,
-    /// Nodes that a cell is made of, `[cells][taps]`.
+    /// First term of each cell, `[cells + 1]`: 0 first, the number of terms last, 1 to 64 terms per cell.
+    pub first_term: Vec<u32>,
+    /// Shares of the band, `[terms]`, of sum 1 in each cell.
+    pub term_weight: Vec<f32>,
+    /// Extinction by lines in each share where the profile is 1, m⁻¹, `[terms][constituents]`.
+    pub term_extinction: Vec<f32>,
+    /// Nodes that a term is made of, `[terms][taps]`.
     pub tap_node: Vec<u32>,
-    /// Their weights, `[cells][taps]`; 0 for taps that are not used.
+    /// Their weights, `[terms][taps]`; 0 for taps that are not used.
     pub tap_weight: Vec<f32>,
     /// Extinction without absorption lines where the profile is 1, m⁻¹, `[visibilities][constituents][cells]`.
     pub extinction: Vec<f32>,
-    /// Shares of the band, `[cells][terms]`, of sum 1 in each cell.
-    pub term_weight: Vec<f32>,
-    /// Extinction by lines in each share where the profile is 1, m⁻¹, `[cells][terms][constituents]`.
-    pub term_extinction: Vec<f32>,
     /// ln L (sr⁻¹) of some skies of the model, `[examples][nodes]`: what weights of sensors are fitted to.
     pub example: Vec<f32>,
 }
@@ -59,13 +59,13 @@ impl From<&SpectrumView<'_>> for Spectrum {
     fn from(view: &SpectrumView) -> Self {
         Self {
             taps: view.taps,
-            terms: view.terms,
             wavelength: view.wavelength.iter().map(|l| l.get()).collect(),
+            first_term: view.first_term.iter().map(|g| g.get()).collect(),
+            term_weight: narrow(view.term_weight),
+            term_extinction: narrow(view.term_extinction),
             tap_node: view.tap_node.iter().map(|n| n.get()).collect(),
             tap_weight: narrow(view.tap_weight),
             extinction: narrow(view.extinction),
-            term_weight: narrow(view.term_weight),
-            term_extinction: narrow(view.term_extinction),
             example: narrow(view.example),
         }
     }
@@ -93,41 +93,46 @@ impl Spectrum {
         let counts = SpectrumCounts {
             cells: count(self.wavelength.len()),
             taps: count(self.taps),
-            terms: count(self.terms),
+            terms: count(self.term_weight.len()),
             examples: count(self.example.len() / head.wavelengths.len()),
         };
         let mut bytes = counts.as_bytes().to_vec();
         bytes.extend(self.wavelength.iter().flat_map(|l| l.to_le_bytes()));
+        bytes.extend(self.first_term.iter().flat_map(|g| g.to_le_bytes()));
+        push_f32(&mut bytes, &self.term_weight);
+        push_f32(&mut bytes, &self.term_extinction);
         bytes.extend(self.tap_node.iter().flat_map(|n| n.to_le_bytes()));
-        for values in [
-            &self.tap_weight,
-            &self.extinction,
-            &self.term_weight,
-            &self.term_extinction,
-            &self.example,
-        ] {
-            push_f32(&mut bytes, values);
-        }
+        push_f32(&mut bytes, &self.tap_weight);
+        push_f32(&mut bytes, &self.extinction);
+        push_f32(&mut bytes, &self.example);
         view(head, &bytes)?;
         Ok(bytes)
     }
 
     /// Lengths that could make up for each other in the length of the payload.
     fn check_lengths(&self, head: &Head) -> Result<()> {
-        let (cells, nk) = (self.wavelength.len(), head.constituents);
-        if self.tap_node.len() != cells * self.taps {
-            return Err(Error::Length {
-                what: "tap_node",
-                expected: (cells * self.taps) as u64,
-                got: self.tap_node.len() as u64,
-            });
+        let (cells, terms, nk) = (
+            self.wavelength.len(),
+            self.term_weight.len(),
+            head.constituents,
+        );
+        for (what, got, expected) in [
+            ("first_term", self.first_term.len(), cells + 1),
+            ("tap_node", self.tap_node.len(), terms * self.taps),
+        ] {
+            if got != expected {
+                return Err(Error::Length {
+                    what,
+                    expected: expected as u64,
+                    got: got as u64,
+                });
+            }
         }
-        check("tap_weight", &self.tap_weight, cells * self.taps)?;
+        check("term_weight", &self.term_weight, terms)?;
+        check("term_extinction", &self.term_extinction, terms * nk)?;
+        check("tap_weight", &self.tap_weight, terms * self.taps)?;
         let extinctions = head.visibilities.len() * nk * cells;
         check("extinction of cells", &self.extinction, extinctions)?;
-        check("term_weight", &self.term_weight, cells * self.terms)?;
-        let term_extinctions = cells * self.terms * nk;
-        check("term_extinction", &self.term_extinction, term_extinctions)?;
         let rows = self.example.len() / head.wavelengths.len();
         check("example", &self.example, rows * head.wavelengths.len())
     }

@@ -1,5 +1,7 @@
 //! What lies between the wavelength nodes (kind 9), in place. Format specification, section 6.9.
 
+use core::ops::Range;
+
 use zerocopy::little_endian::{F32, F64, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
@@ -9,10 +11,11 @@ use crate::error::{Error, Result};
 
 /// Most cells.
 const MAX_CELLS: u32 = 4096;
-/// Most taps of a cell.
+/// Most taps of a term.
 pub const MAX_TAPS: usize = 16;
-/// Most terms of a cell.
-pub const MAX_TERMS: usize = 16;
+/// Most terms of all cells, and of one.
+const MAX_TERMS: u32 = 65_536;
+const MAX_TERMS_OF_CELL: u32 = 64;
 /// Most example spectra.
 const MAX_EXAMPLES: u32 = 1024;
 /// Largest magnitude of a weight.
@@ -33,8 +36,8 @@ pub(super) struct SpectrumCounts {
 
 /// What lies between the wavelength nodes, and what absorption lines make of it.
 ///
-/// A *cell* is a wavelength whose radiance is the exponential of a weighted sum of the logarithms at a few nodes, its
-/// *taps*. Its *terms* are the shares of its band in which lines absorb more or less.
+/// A *cell* is a wavelength. Its *terms* are the shares of its band in which lines absorb more or less; the radiance of
+/// each is the exponential of a weighted sum of the logarithms at a few nodes, its *taps*.
 ///
 /// ```
 /// use welkin::format::{Kind, SpectrumView, parse};
@@ -46,28 +49,29 @@ pub(super) struct SpectrumCounts {
 ///     let bytes = &file[entry.offset..][..entry.length];
 ///     let (shape, visibilities) = (head.shape(), head.visibilities.len());
 ///     let view = SpectrumView::new(bytes, &shape, visibilities, head.solar_range())?;
-///     assert_eq!(view.tap_weight.len(), view.wavelength.len() * view.taps);
+///     assert_eq!(view.terms(0).start, 0);
+///     assert_eq!(view.tap_weight.len(), view.term_weight.len() * view.taps);
 /// }
 /// # Ok::<(), welkin::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SpectrumView<'a> {
-    /// Taps per cell.
+    /// Taps per term.
     pub taps: usize,
-    /// Terms per cell.
-    pub terms: usize,
     /// The cells, nm, strictly increasing.
     pub wavelength: &'a [F64],
-    /// Nodes that a cell is made of, `[cells][taps]`.
+    /// First term of each cell, `[cells + 1]`, the last their number.
+    pub first_term: &'a [U32],
+    /// Shares of the band, `[terms]`, of sum 1 in each cell.
+    pub term_weight: &'a [F32],
+    /// Extinction by lines in each share where the profile is 1, m⁻¹, `[terms][constituents]`.
+    pub term_extinction: &'a [F32],
+    /// Nodes that a term is made of, `[terms][taps]`.
     pub tap_node: &'a [U32],
-    /// Their weights, `[cells][taps]`.
+    /// Their weights, `[terms][taps]`.
     pub tap_weight: &'a [F32],
     /// Extinction without absorption lines where the profile is 1, m⁻¹, `[visibilities][constituents][cells]`.
     pub extinction: &'a [F32],
-    /// Shares of the band, `[cells][terms]`, of sum 1.
-    pub term_weight: &'a [F32],
-    /// Extinction by lines in each share where the profile is 1, m⁻¹, `[cells][terms][constituents]`.
-    pub term_extinction: &'a [F32],
     /// ln L (sr⁻¹) of some skies of the model, `[examples][nodes]`.
     pub example: &'a [F32],
 }
@@ -84,35 +88,46 @@ impl<'a> SpectrumView<'a> {
         visibilities: usize,
         solar: [f64; 2],
     ) -> Result<Self> {
+        let view = Self::divide(bytes, shape, visibilities)?;
+        view.check_cells(solar)?;
+        view.check_numbers(shape.wavelengths)?;
+        Ok(view)
+    }
+
+    /// The same without a look at the numbers.
+    pub(crate) fn divide(bytes: &'a [u8], shape: &Shape, visibilities: usize) -> Result<Self> {
         let mut rest = bytes;
         let counts = take::<SpectrumCounts>(&mut rest, 1)?[0];
         let cells = within(counts.cells, 2, MAX_CELLS)?;
         let taps = within(counts.taps, 1, MAX_TAPS as u32)?;
-        let terms = within(counts.terms, 1, MAX_TERMS as u32)?;
+        let terms = within(counts.terms, cells as u32, MAX_TERMS)?;
         let examples = within(counts.examples, 0, MAX_EXAMPLES)?;
         let (nodes, constituents) = (shape.wavelengths, shape.constituents);
         let extinctions = visibilities * constituents * cells;
-        let term_extinctions = cells * terms * constituents;
-        let singles =
-            cells * (2 * taps + terms) + extinctions + term_extinctions + examples * nodes;
+        let of_terms = terms * (1 + constituents + 2 * taps);
+        let singles = (cells + 1) + of_terms + extinctions + examples * nodes;
         let expected = size_of::<SpectrumCounts>() + 8 * cells + 4 * singles;
         check_length("spectrum chunk", bytes, expected)?;
-        let view = Self {
+        Ok(Self {
             taps,
-            terms,
             wavelength: take(&mut rest, cells)?,
-            tap_node: take(&mut rest, cells * taps)?,
-            tap_weight: take(&mut rest, cells * taps)?,
+            first_term: take(&mut rest, cells + 1)?,
+            term_weight: take(&mut rest, terms)?,
+            term_extinction: take(&mut rest, terms * constituents)?,
+            tap_node: take(&mut rest, terms * taps)?,
+            tap_weight: take(&mut rest, terms * taps)?,
             extinction: take(&mut rest, extinctions)?,
-            term_weight: take(&mut rest, cells * terms)?,
-            term_extinction: take(&mut rest, term_extinctions)?,
             example: take(&mut rest, examples * nodes)?,
-        };
-        view.check(nodes, solar)?;
-        Ok(view)
+        })
     }
 
-    fn check(&self, nodes: usize, [start, end]: [f64; 2]) -> Result<()> {
+    /// The terms of a cell.
+    pub fn terms(&self, cell: usize) -> Range<usize> {
+        let [first, end] = [cell, cell + 1].map(|c| self.first_term[c].get() as usize);
+        first..end
+    }
+
+    fn check_cells(&self, [start, end]: [f64; 2]) -> Result<()> {
         let (first, last) = (start.max(1.0), end.min(1e6));
         let mut cells = self.wavelength.iter().map(|l| l.get());
         let mut pairs = self.wavelength.windows(2);
@@ -121,6 +136,30 @@ impl<'a> SpectrumView<'a> {
                 && pairs.all(|pair| pair[0].get() < pair[1].get()),
             "cells must increase strictly within the solar spectrum",
         )?;
+        let bounds = self.first_term;
+        let mut pairs = bounds.windows(2);
+        let has_few = |pair: &[U32]| {
+            let count = pair[1].get().checked_sub(pair[0].get());
+            count.is_some_and(|count| (1..=MAX_TERMS_OF_CELL).contains(&count))
+        };
+        let ends = [0, bounds.len() - 1].map(|i| bounds[i].get() as usize);
+        require(
+            ends == [0, self.term_weight.len()] && pairs.all(has_few),
+            "cells must share the terms, 1 to 64 each",
+        )?;
+        let mut cells = 0..self.wavelength.len();
+        let sums_to_one = |cell| {
+            let shares = self.term_weight[self.terms(cell)].iter();
+            let sum: f64 = shares.map(|w| f64::from(w.get())).sum();
+            (sum - 1.0).abs() <= 1e-5
+        };
+        require(
+            cells.all(sums_to_one),
+            "weights of the terms of a cell must add up to 1",
+        )
+    }
+
+    fn check_numbers(&self, nodes: usize) -> Result<()> {
         let mut taps = self.tap_node.iter();
         require(
             taps.all(|n| (n.get() as usize) < nodes),
@@ -156,15 +195,7 @@ impl<'a> SpectrumView<'a> {
             let mut values = values.iter();
             require(values.all(|v| (low..=high).contains(&v.get())), detail)?;
         }
-        let mut shares = self.term_weight.chunks_exact(self.terms);
-        let sums_to_one = |row: &[F32]| {
-            let sum: f64 = row.iter().map(|w| f64::from(w.get())).sum();
-            (sum - 1.0).abs() <= 1e-5
-        };
-        require(
-            shares.all(sums_to_one),
-            "weights of the terms of a cell must add up to 1",
-        )
+        Ok(())
     }
 }
 

@@ -12,10 +12,11 @@ pub(crate) trait Real: Sized {
     fn atan2(self, x: Self) -> Self;
     fn sinh(self) -> Self;
     fn ln(self) -> Self;
+    fn exp(self) -> Self;
 }
 
 macro_rules! real {
-    ($type:ty, $sqrt:path, $cbrt:path, $pow:path, $sin:path, $cos:path, $atan:path, $atan2:path, $sinh:path, $ln:path) => {
+    ($type:ty, $sqrt:path, $cbrt:path, $pow:path, $sin:path, $cos:path, $atan:path, $atan2:path, $sinh:path, $ln:path, $exp:path) => {
         impl Real for $type {
             #[inline]
             fn sqrt(self) -> Self {
@@ -48,6 +49,9 @@ macro_rules! real {
             fn ln(self) -> Self {
                 $ln(self)
             }
+            fn exp(self) -> Self {
+                $exp(self)
+            }
         }
     };
 }
@@ -62,7 +66,8 @@ real!(
     libm::atan,
     libm::atan2,
     libm::sinh,
-    libm::log
+    libm::log,
+    libm::exp
 );
 real!(
     f32,
@@ -74,5 +79,6 @@ real!(
     libm::atanf,
     libm::atan2f,
     libm::sinhf,
-    libm::logf
+    libm::logf,
+    libm::expf
 );

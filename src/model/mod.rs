@@ -15,6 +15,7 @@ pub(crate) use crate::format::Key;
 #[cfg(feature = "default-model")]
 pub use opened::DEFAULT_MODEL;
 pub use opened::Model;
+pub(crate) use opened::SPECTRUM;
 pub(crate) use ranges::checked_visibility;
 pub use read_at::ReadAt;
 pub use store::Traffic;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
 use super::read_at::ReadAt;
 use super::store::{Bytes, Store, Traffic};
@@ -10,6 +11,7 @@ use crate::format::{
     BasisView, ColumnView, Contents, DensityView, Entry, FactorsView, Head, Key, Kind,
     SourceBasisView, SourceView, SpectrumView, spectrum_view,
 };
+use crate::spectrum::SpectralInterpolation;
 
 /// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
 ///
@@ -28,6 +30,7 @@ use crate::format::{
 pub struct Model {
     store: Store,
     contents: Contents,
+    interpolation: OnceLock<Arc<SpectralInterpolation>>,
 }
 
 /// The bytes of the embedded model: a file like any other.
@@ -107,7 +110,11 @@ impl Model {
     }
 
     fn assemble((store, contents): (Store, Contents)) -> Self {
-        Self { store, contents }
+        Self {
+            store,
+            contents,
+            interpolation: OnceLock::new(),
+        }
     }
 
     /// Verifies all chunks at once instead of at their first touch.
@@ -156,11 +163,32 @@ impl Model {
     /// # Errors
     /// Those of a damaged chunk; [`Error::Read`].
     pub fn wavelength_range(&self) -> Result<[f64; 2]> {
-        let cells = self.spectrum_chunk()?.map(|spectrum| spectrum.wavelength);
-        Ok(match cells {
-            Some(cells) => [cells[0].get(), cells[cells.len() - 1].get()],
-            None => ends(&self.head().wavelengths),
-        })
+        Ok(self.shared_interpolation()?.range())
+    }
+
+    /// Whether the file has a spectrum chunk: what lies between the wavelengths, and what absorption lines make of it.
+    pub fn has_spectrum(&self) -> bool {
+        self.contents.index.contains_key(&SPECTRUM)
+    }
+
+    /// How values at the wavelengths make values at any wavelength. Reads the spectrum chunk where the file has one.
+    ///
+    /// # Errors
+    /// Those of a damaged chunk; [`Error::Read`].
+    pub fn spectral_interpolation(&self) -> Result<&SpectralInterpolation> {
+        self.shared_interpolation().map(AsRef::as_ref)
+    }
+
+    /// The same, for what outlives the model.
+    pub(crate) fn shared_interpolation(&self) -> Result<&Arc<SpectralInterpolation>> {
+        if let Some(known) = self.interpolation.get() {
+            return Ok(known);
+        }
+        let made = match self.contents.index.get(&SPECTRUM) {
+            Some(&i) => SpectralInterpolation::of_cells(self.head(), self.chunk(i)?)?,
+            None => SpectralInterpolation::of_nodes(self.head()),
+        };
+        Ok(self.interpolation.get_or_init(|| Arc::new(made)))
     }
 
     /// Length of the file, bytes.
@@ -260,7 +288,7 @@ impl Model {
 
     /// What lies between the wavelengths, if the file says.
     pub(crate) fn spectrum_chunk(&self) -> Result<Option<SpectrumView<'_>>> {
-        let place = self.contents.index.get(&(Kind::Spectrum, None, None));
+        let place = self.contents.index.get(&SPECTRUM);
         let chunk = place.map(|&i| spectrum_view(self.head(), self.chunk(i)?));
         chunk.transpose()
     }
@@ -293,6 +321,9 @@ impl fmt::Debug for Model {
             .finish_non_exhaustive()
     }
 }
+
+/// Where the spectrum chunk stands.
+pub(crate) const SPECTRUM: Key = (Kind::Spectrum, None, None);
 
 fn ends(axis: &[f64]) -> [f64; 2] {
     [axis[0], axis[axis.len() - 1]]

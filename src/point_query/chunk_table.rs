@@ -4,7 +4,7 @@ use super::head_view::HeadView;
 use crate::error::{Error, Result};
 use crate::format::{
     BasisView, ColumnView, ENCODING_RAW, FactorsView, KIND_COLUMN, KIND_RADIANCE,
-    KIND_RADIANCE_BASIS,
+    KIND_RADIANCE_BASIS, KIND_SPECTRUM, RawEntry, SpectrumView,
 };
 
 /// Most chunks of radiance, and most altitudes.
@@ -41,17 +41,7 @@ impl<'a> Chunks<'a> {
             if ![KIND_RADIANCE, KIND_COLUMN, KIND_RADIANCE_BASIS].contains(&kind) {
                 continue;
             }
-            if entry.encoding.get() != ENCODING_RAW {
-                let got = entry.encoding.get();
-                return Err(Error::Encoding { chunk: i, got });
-            }
-            let range = usize::try_from(entry.offset.get()).ok();
-            let start = range.and_then(|start| bytes.get(start..));
-            let length = usize::try_from(entry.stored_length.get()).unwrap_or(usize::MAX);
-            let payload = start.and_then(|rest| rest.get(..length));
-            let payload = payload.ok_or_else(|| {
-                Error::invalid("directory", "a chunk reaches beyond the end of the file")
-            })?;
+            let payload = payload(i, entry, bytes)?;
             let place = [entry.altitude.get(), entry.visibility.get()].map(usize::from);
             chunks.insert(head, kind, place, entry.rank.get() as usize, payload)?;
         }
@@ -98,6 +88,38 @@ impl<'a> Chunks<'a> {
     pub fn basis(&self) -> Option<&BasisView<'a>> {
         self.basis.as_ref()
     }
+}
+
+/// The raw bytes of chunk `i` of a file.
+fn payload<'a>(i: usize, entry: &RawEntry, bytes: &'a [u8]) -> Result<&'a [u8]> {
+    let got = entry.encoding.get();
+    if got != ENCODING_RAW {
+        return Err(Error::Encoding { chunk: i, got });
+    }
+    let start = usize::try_from(entry.offset.get()).ok();
+    let start = start.and_then(|start| bytes.get(start..));
+    let length = usize::try_from(entry.stored_length.get()).unwrap_or(usize::MAX);
+    let payload = start.and_then(|rest| rest.get(..length));
+    payload.ok_or_else(|| Error::invalid("directory", "a chunk reaches beyond the end of the file"))
+}
+
+/// The spectrum of a file, if it has one.
+pub(super) fn spectrum_of_file<'a>(
+    head: &HeadView,
+    bytes: &'a [u8],
+) -> Result<Option<SpectrumView<'a>>> {
+    let mut entries = head.directory.iter().enumerate();
+    let Some((i, entry)) = entries.find(|(_, entry)| entry.kind.get() == KIND_SPECTRUM) else {
+        return Ok(None);
+    };
+    let payload = payload(i, entry, bytes)?;
+    SpectrumView::new(
+        payload,
+        &head.shape,
+        head.visibilities.len(),
+        head.solar_range(),
+    )
+    .map(Some)
 }
 
 /// Refuses what is too large for the fixed arrays of this evaluator.

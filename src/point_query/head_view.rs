@@ -119,6 +119,12 @@ impl<'a> HeadView<'a> {
         Ok((view, rest))
     }
 
+    /// Wavelengths of the first and last sample of the solar spectrum, nm.
+    pub fn solar_range(&self) -> [f64; 2] {
+        let [start, step] = self.solar_axis;
+        [start, start + (self.solar.len() - 1) as f64 * step]
+    }
+
     /// Solar spectral irradiance, W m⁻² nm⁻¹.
     pub fn solar_irradiance(&self, wavelength: f64) -> f32 {
         let [start, step] = self.solar_axis;

@@ -14,6 +14,7 @@ mod neighbours;
 mod opened;
 mod optics;
 mod query_coordinates;
+mod spectral_query;
 #[cfg(feature = "std")]
 mod stokes_query;
 

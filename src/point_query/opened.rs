@@ -2,13 +2,14 @@
 
 use super::capacity::WAVELENGTH_BLOCKS;
 use super::chunk_directory;
-use super::chunk_table::{Chunks, limit};
+use super::chunk_table::{Chunks, limit, spectrum_of_file};
 use super::contraction::{MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::head_rules::checked_head;
 use super::head_view::HeadView;
 use super::neighbours::{Axis, Interpolation};
 use super::optics::Light;
 use crate::error::{Error, Result};
+use crate::format::SpectrumView;
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
@@ -43,12 +44,14 @@ pub struct PointQuery<'a> {
     /// Solar spectral irradiance at the wavelengths.
     pub(super) irradiance: [f32; WAVELENGTH_BLOCKS * WIDTH],
     pub(super) light: Light,
+    /// What lies between the wavelengths, if the file says.
+    pub(super) spectrum: Option<SpectrumView<'a>>,
     pub(super) interpolation: Interpolation,
 }
 
 impl<'a> PointQuery<'a> {
     /// Opens a file that is in memory, whose chunks are raw. Checks the head; the values in chunks are taken as they
-    /// are, and give some number where they are none (see [`PointQuery::verify`]).
+    /// are, and give some number where they are none (see [`PointQuery::verify`]); those of a spectrum are checked.
     ///
     /// # Errors
     /// Typed errors for a head or a directory that breaks the format specification, [`Error::Limit`] for a model that
@@ -63,7 +66,8 @@ impl<'a> PointQuery<'a> {
             });
         }
         let chunks = Chunks::of_file(&head, bytes)?;
-        Self::assemble(head, chunks)
+        let spectrum = spectrum_of_file(&head, bytes)?;
+        Self::assemble(head, chunks, spectrum)
     }
 
     /// Compares the checksums of all chunks of known kinds of the file that this was made from.
@@ -92,7 +96,11 @@ impl<'a> PointQuery<'a> {
         Ok(())
     }
 
-    pub(crate) fn assemble(head: HeadView<'a>, chunks: Chunks<'a>) -> Result<Self> {
+    pub(crate) fn assemble(
+        head: HeadView<'a>,
+        chunks: Chunks<'a>,
+        spectrum: Option<SpectrumView<'a>>,
+    ) -> Result<Self> {
         let shape = &head.shape;
         limit("wavelengths", shape.wavelengths, WAVELENGTH_BLOCKS * WIDTH)?;
         limit(
@@ -119,6 +127,7 @@ impl<'a> PointQuery<'a> {
             interpolation: Interpolation::default(),
             head,
             chunks,
+            spectrum,
         })
     }
 
@@ -135,7 +144,6 @@ impl<'a> PointQuery<'a> {
     }
 
     /// Solar spectral irradiance (W m⁻² nm⁻¹) at a wavelength, nm.
-    #[cfg(feature = "std")]
     pub(crate) fn solar_irradiance(&self, wavelength: f64) -> f32 {
         self.head.solar_irradiance(wavelength)
     }

@@ -8,7 +8,6 @@ use crate::error::Result;
 use crate::kernel::math::LANES;
 use crate::point_query::{Factors, Interpolation, Parts, PointQuery};
 use crate::sky::check_length;
-use crate::sky::spectrum;
 
 /// A model with its polarisation, evaluated where it stands: [`PointQuery`] with Stokes vectors, always with
 /// [`Interpolation::Full`](Interpolation::Full).
@@ -97,15 +96,16 @@ impl<'a> PolarisedPointQuery<'a> {
         frame: PolarisationFrame,
         wavelength: f64,
     ) -> Result<Stokes> {
-        let nodes = self.wavelengths.as_slice();
         let mut values = [Stokes::default(); crate::sky::MOST_WAVELENGTHS];
-        let values = &mut values[..nodes.len()];
+        let values = &mut values[..self.wavelengths.len()];
         let parts = self.evaluate(conditions, direction, frame, values)?;
-        spectrum::check(wavelength, [nodes[0], nodes[nodes.len() - 1]])?;
-        let relative = spectrum::between(nodes, &parts.radiance[..nodes.len()], wavelength);
+        self.query.check_wavelength(wavelength)?;
+        let radiance = &parts.radiance[..self.wavelengths.len()];
+        let relative = self.query.relative_between(radiance, wavelength);
         let irradiance = f64::from(self.query.solar_irradiance(wavelength));
         let i = (relative * irradiance).min(f64::from(f32::MAX)) as f32;
-        Ok(between(nodes, values, wavelength, i))
+        let shares = self.query.shares(radiance, wavelength);
+        Ok(between(&shares, values, i))
     }
 
     /// Writes Q and U over I beside an I of 1.

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
 use crate::kernel::math::{LANES, finite};
-use crate::model::Model;
+use crate::model::{Model, SPECTRUM};
 use crate::phase_function::SunAngle;
 use crate::sky::prepare::NodeWeights;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
@@ -53,7 +53,7 @@ impl Model {
         let place = NodeWeights::new(self.head(), &conditions);
         let basis = (Kind::PolarisationBasis, None, None);
         let chunks = place.keys_of(Kind::Polarisation);
-        self.prefetch(place.keys().chain(chunks).chain([basis]))?;
+        self.prefetch(place.keys().chain(chunks).chain([basis, SPECTRUM]))?;
         let sky = Sky::prepare(self, &conditions)?;
         let polarisation = prepare(self, &place, conditions.albedo, &sky.tables().layout)?;
         Ok(PolarisedSky { sky, polarisation })
@@ -128,11 +128,16 @@ impl PolarisedSky {
     ) -> Result<Stokes> {
         let i = self.sky.radiance_at(direction, wavelength)?;
         let mut values = [Stokes::default(); MOST_WAVELENGTHS];
-        let nodes = self.sky.wavelengths();
+        let mut relative = [0.0; MOST_WAVELENGTHS];
+        let nodes = self.sky.wavelengths().len();
+        let (values, relative) = (&mut values[..nodes], &mut relative[..nodes]);
         self.evaluate(direction, frame, |block, light| {
-            store(&mut values[..nodes.len()], block, [1.0; LANES], &light);
+            store(values, block, [1.0; LANES], &light);
+            let out = relative[block * LANES..].iter_mut();
+            out.zip(light.radiance).for_each(|(out, l)| *out = l);
         })?;
-        Ok(between(nodes, &values[..nodes.len()], wavelength, i))
+        let shares = self.sky.interpolation().shares(relative, wavelength);
+        Ok(between(&shares, values, i))
     }
 
     /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².

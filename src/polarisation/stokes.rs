@@ -1,7 +1,6 @@
 //! Stokes vectors of linearly polarised light.
 
 use crate::error::Result;
-use crate::kernel::axis::hermite;
 use crate::kernel::math::finite;
 use crate::sky::check_length;
 
@@ -111,17 +110,16 @@ impl Stokes {
     }
 }
 
-/// Light of the radiance `i` at a wavelength (nm) among nodes at which it is polarised as `values` are. Format
-/// specification, section 7.5.
-pub(crate) fn between(nodes: &[f64], values: &[Stokes], wavelength: f64, i: f32) -> Stokes {
+/// Light of the radiance `i` in which the nodes, where it is polarised as `values` are, have these shares. Format specification, section 7.5.
+pub(crate) fn between(shares: &[f64], values: &[Stokes], i: f32) -> Stokes {
     let (mut q, mut u) = (0.0, 0.0);
-    for (k, weight) in hermite(nodes, wavelength).taps() {
+    for (&weight, value) in shares.iter().zip(values) {
         // Nodes without light count 0.
-        let share = weight as f32 / values[k].i.max(f32::MIN_POSITIVE);
-        q += share * values[k].q;
-        u += share * values[k].u;
+        let share = weight as f32 / value.i.max(f32::MIN_POSITIVE);
+        q += share * value.q;
+        u += share * value.u;
     }
-    // Between the wavelengths the cubic can overshoot.
+    // Weights of both signs can overshoot.
     let share = i / (q.hypot(u) * (1.0 + 4.0 * f32::EPSILON)).max(1.0);
     Stokes {
         i,

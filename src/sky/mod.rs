@@ -2,8 +2,9 @@
 
 mod colour_space;
 pub(crate) mod prepare;
-pub(crate) mod spectrum;
 pub(crate) mod tables;
+
+use std::sync::Arc;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
@@ -11,13 +12,11 @@ use crate::format::Head;
 use crate::geometry::{Planet, Ray, Side};
 use crate::kernel::math::{LANES, finite};
 use crate::phase_function::SunAngle;
+pub(crate) use crate::spectrum::MOST_WAVELENGTHS;
+use crate::spectrum::SpectralInterpolation;
 pub(crate) use colour_space::XYZ_TO_SRGB;
 pub use colour_space::xyz_to_linear_srgb;
-pub use spectrum::between_wavelengths;
 use tables::{Lookup, Row, Tables, azimuth};
-
-/// Most wavelengths that a file can have.
-pub(crate) const MOST_WAVELENGTHS: usize = 256;
 
 /// The clear sky at one set of conditions.
 ///
@@ -50,11 +49,17 @@ pub struct Sky {
     wavelengths: Vec<f64>,
     solar: Vec<f32>,
     solar_axis: [f64; 2],
+    interpolation: Arc<SpectralInterpolation>,
     tables: Tables,
 }
 
 impl Sky {
-    pub(crate) fn new(head: &Head, conditions: Conditions, tables: Tables) -> Self {
+    pub(crate) fn new(
+        head: &Head,
+        conditions: Conditions,
+        tables: Tables,
+        interpolation: Arc<SpectralInterpolation>,
+    ) -> Self {
         Self {
             sun: conditions.sun_direction(),
             azimuth: conditions.solar_azimuth.sin_cos(),
@@ -65,6 +70,7 @@ impl Sky {
             solar: head.solar_irradiance.clone(),
             solar_axis: [head.solar_start, head.solar_step],
             conditions,
+            interpolation,
             tables,
         }
     }
@@ -200,6 +206,11 @@ impl Sky {
         blocks.map(move |block| core::array::from_fn(|i| lane(block, i)))
     }
 
+    /// What lies between the wavelengths.
+    pub(crate) fn interpolation(&self) -> &Arc<SpectralInterpolation> {
+        &self.interpolation
+    }
+
     /// Solar irradiance, W m⁻² nm⁻¹, with the wavelength of the first sample and the step, nm.
     pub(crate) fn solar_spectrum(&self) -> (&[f32], [f64; 2]) {
         (&self.solar, self.solar_axis)
@@ -254,12 +265,12 @@ impl Sky {
 
     fn relative_at(&self, direction: [f32; 3], wavelength: f64) -> Result<f64> {
         let nodes = self.wavelengths.as_slice();
-        spectrum::check(wavelength, [nodes[0], nodes[nodes.len() - 1]])?;
+        self.interpolation.check(wavelength)?;
         let lookup = self.lookup(direction)?;
         let mut values = [0.0; MOST_WAVELENGTHS];
         let values = &mut values[..nodes.len()];
         self.relative_into(&lookup, values);
-        Ok(spectrum::between(nodes, values, wavelength))
+        Ok(self.interpolation.radiance(values, wavelength))
     }
 
     fn solar_irradiance(&self, wavelength: f64) -> f64 {

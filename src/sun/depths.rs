@@ -4,11 +4,13 @@ use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::{AlphaAxis, Kind};
 use crate::geometry::{Planet, Side};
+use crate::kernel::axis::Stencil;
 use crate::kernel::axis::{Ends, alpha_coordinate, spline};
 use crate::kernel::math::{LANES, exp};
 use crate::model::Model;
 use crate::sky::prepare::NodeWeights;
-use crate::transmittance::{Amounts, Extinction, Layers};
+use crate::spectrum::SpectralInterpolation;
+use crate::transmittance::{Amounts, Extinction, Layers, visibility_weights};
 
 /// Elevations at which depths are kept, over the visible part of the disc.
 const NODES: usize = 129;
@@ -23,6 +25,9 @@ pub(super) struct Depths {
     wavelengths: usize,
     /// `[node][wavelength]`.
     depths: Vec<f32>,
+    /// Columns to space, m, `[node]`; for models with a spectrum.
+    columns: Vec<Amounts>,
+    visibility: Stencil,
 }
 
 impl Depths {
@@ -33,9 +38,13 @@ impl Depths {
         let extinction = Extinction::new(head, conditions.visibility);
         let columns = Columns::new(model, conditions)?;
         let mut depths = Vec::with_capacity(NODES * wavelengths);
+        let mut kept = Vec::new();
         for i in 0..NODES {
             let elevation = low + (high - low) * (i as f64 / (NODES - 1) as f64);
             let amounts = columns.to_space(elevation);
+            if model.has_spectrum() {
+                kept.push(amounts);
+            }
             for first in (0..wavelengths).step_by(LANES) {
                 let block = extinction.depth(&amounts, first / LANES);
                 let bounded = block.map(|depth| if depth < OPAQUE { depth } else { OPAQUE });
@@ -47,21 +56,45 @@ impl Depths {
             nodes_per_radian: (NODES - 1) as f64 / (high - low).max(f64::MIN_POSITIVE),
             wavelengths,
             depths,
+            columns: kept,
+            visibility: visibility_weights(head, conditions.visibility),
         })
     }
 
     /// Transmittance at an elevation (rad): cubic in four depths.
     pub fn transmittance(&self, elevation: f64, out: &mut [f32]) {
-        let last = (NODES - 1) as f64;
-        let u = ((elevation - self.lowest) * self.nodes_per_radian).clamp(0.0, last);
-        let first = (u as usize).clamp(1, NODES - 3) - 1;
-        let [a, b, c, d] = cubic((u - first as f64) as f32);
+        let (first, [a, b, c, d]) = self.around(elevation);
         let row = |i: usize| &self.depths[(first + i) * self.wavelengths..][..out.len()];
         let (p, q, r, s) = (row(0), row(1), row(2), row(3));
         for (w, out) in out.iter_mut().enumerate() {
             let depth = a * p[w] + b * q[w] + c * r[w] + d * s[w];
             *out = exp(-depth.max(0.0));
         }
+    }
+
+    /// Transmittance at an elevation (rad) and any wavelength (nm) in range, if the model has a spectrum: columns are
+    /// cubic in four.
+    pub fn transmittance_at(
+        &self,
+        interpolation: &SpectralInterpolation,
+        elevation: f64,
+        wavelength: f64,
+    ) -> Option<f64> {
+        let (first, weights) = self.around(elevation);
+        let nodes = self.columns.get(first..first + weights.len())?;
+        let column = |k: usize| -> f32 {
+            let terms = weights.iter().zip(nodes);
+            terms.map(|(w, node)| w * node.get(k)).sum::<f32>().max(0.0)
+        };
+        interpolation.transmittance(wavelength, &self.visibility, column)
+    }
+
+    /// The first of four nodes around an elevation, and their weights.
+    fn around(&self, elevation: f64) -> (usize, [f32; 4]) {
+        let last = (NODES - 1) as f64;
+        let u = ((elevation - self.lowest) * self.nodes_per_radian).clamp(0.0, last);
+        let first = (u as usize).clamp(1, NODES - 3) - 1;
+        (first, cubic((u - first as f64) as f32))
     }
 }
 

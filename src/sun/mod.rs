@@ -8,11 +8,14 @@ mod depths;
 mod limb_darkening;
 mod quadrature;
 
+use std::sync::Arc;
+
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
+use crate::spectrum::SpectralInterpolation;
 use cap::Cap;
 pub use cap::SOLAR_ANGULAR_RADIUS;
 use depths::Depths;
@@ -49,6 +52,7 @@ pub struct SolarDisc {
     xyz: Vec<[f32; 3]>,
     /// None where the sun has set.
     depths: Option<Depths>,
+    interpolation: Arc<SpectralInterpolation>,
 }
 
 impl Model {
@@ -83,6 +87,7 @@ impl SolarDisc {
             wavelengths: head.wavelengths.clone(),
             cap,
             depths,
+            interpolation: model.shared_interpolation()?.clone(),
         })
     }
 
@@ -117,6 +122,35 @@ impl SolarDisc {
         let pairs = out.iter_mut().zip(&self.irradiance);
         pairs.for_each(|(out, irradiance)| *out = (*out * irradiance).min(f32::MAX));
         Ok(())
+    }
+
+    /// [`SolarDisc::radiance`] at any wavelength (nm) within the range of the model. In a model without a spectrum it is
+    /// interpolated as that of the sky is.
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a vector that is zero or not finite; [`Error::OutOfRange`] for the wavelength.
+    pub fn radiance_at(&self, direction: [f32; 3], wavelength: f64) -> Result<f32> {
+        let interpolation = &self.interpolation;
+        interpolation.check(wavelength)?;
+        let Some(spot) = self.spot(direction)? else {
+            return Ok(0.0);
+        };
+        let known = (spot.depths).transmittance_at(interpolation, spot.elevation, wavelength);
+        let relative = match known {
+            Some(transmittance) => {
+                let profile = limb_darkening::profile(wavelength);
+                let disc = limb_darkening::evaluate(&profile, spot.mu);
+                transmittance * f64::from(disc) / self.cap.solid_angle()
+            }
+            None => {
+                let mut values = [0.0; MOST_WAVELENGTHS];
+                let values = &mut values[..self.wavelengths.len()];
+                self.relative_radiance(&spot, values);
+                interpolation.radiance(values, wavelength)
+            }
+        };
+        let radiance = relative * interpolation.solar_irradiance(wavelength);
+        Ok(radiance.clamp(0.0, f64::from(f32::MAX)) as f32)
     }
 
     /// CIE 1931 XYZ of the disc alone; Y is the luminance in cd m⁻².

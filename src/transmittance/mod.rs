@@ -2,19 +2,23 @@
 
 mod layers;
 mod segment;
+mod spectral_transmittance;
 
 pub(crate) use layers::{Amounts, Layers, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
+use std::sync::Arc;
+
 use crate::error::{Error, Result};
 use crate::format::{Head, visibility_node};
 use crate::geometry::Planet;
-use crate::kernel::axis::linear;
+use crate::kernel::axis::{Stencil, linear};
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::model::Model;
 use crate::model::checked_visibility;
+use crate::spectrum::SpectralInterpolation;
 
 /// The air at one visibility: transmittance along straight lines, without refraction.
 ///
@@ -41,6 +45,9 @@ pub struct Transmittance {
     pub(crate) layers: Layers,
     pub(crate) extinction: Extinction,
     wavelengths: Vec<f64>,
+    /// Nodes of visibility, linear in 1/V.
+    visibility: Stencil,
+    interpolation: Arc<SpectralInterpolation>,
 }
 
 /// Extinction coefficients where a profile is 1, m⁻¹, `[constituent][block of wavelengths]`, with constituents of none
@@ -56,7 +63,7 @@ impl Extinction {
         let nw = head.wavelengths.len();
         let rows = head.constituents * nw;
         let mut row = vec![0.0; rows];
-        for (v, weight) in linear(&head.visibility_nodes(), visibility_node(visibility)).taps() {
+        for (v, weight) in visibility_weights(head, visibility).taps() {
             for (sum, k) in row.iter_mut().zip(&head.extinction[v * rows..]) {
                 *sum += weight * k;
             }
@@ -90,6 +97,11 @@ impl Extinction {
     }
 }
 
+/// Nodes of visibility and their weights, linear in 1/V.
+pub(crate) fn visibility_weights(head: &Head, visibility: f64) -> Stencil {
+    linear(&head.visibility_nodes(), visibility_node(visibility))
+}
+
 impl Model {
     /// Prepares the air at a visibility (m).
     ///
@@ -103,6 +115,8 @@ impl Model {
             layers: Layers::new(&self.density_chunk()?, head.planet, head.constituents),
             extinction: Extinction::new(head, visibility),
             wavelengths: head.wavelengths.clone(),
+            visibility: visibility_weights(head, visibility),
+            interpolation: self.shared_interpolation()?.clone(),
         })
     }
 }
@@ -111,6 +125,17 @@ impl Transmittance {
     /// Wavelengths of the results, nm.
     pub fn wavelengths(&self) -> &[f64] {
         &self.wavelengths
+    }
+
+    /// Goes over to another visibility (m) of the same model.
+    pub(crate) fn set_visibility(&mut self, head: &Head, visibility: f64) {
+        self.extinction = Extinction::new(head, visibility);
+        self.visibility = visibility_weights(head, visibility);
+    }
+
+    /// What lies between the wavelengths.
+    pub(crate) fn interpolation(&self) -> &SpectralInterpolation {
+        &self.interpolation
     }
 
     /// Extinction at a typical wavelength, m⁻¹: the mean over all, as a polynomial of each layer.
@@ -213,6 +238,26 @@ impl Transmittance {
         Ok(())
     }
 
+    fn attenuate(&self, segment: &Segment, out: &mut [f32]) {
+        dispatch(Depths::<true> {
+            air: self,
+            segment,
+            out,
+        });
+    }
+
+    /// Columns on a segment, m.
+    #[inline(always)]
+    fn columns(&self, segment: &Segment) -> Amounts {
+        let (from, to) = (segment.from, segment.to());
+        // The same both ways: outwards where it can be, so that branches are alike.
+        let (from, to) = match from + to < 0.0 {
+            true => (-to, -from),
+            false => (from, to),
+        };
+        self.layers.columns(segment.line, from, to)
+    }
+
     fn check_output(&self, out: &[f32]) -> Result<()> {
         if out.len() == self.wavelengths.len() {
             return Ok(());
@@ -248,14 +293,8 @@ impl<const ATTENUATE: bool> Kernel for Depths<'_, ATTENUATE> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) {
-        let (air, segment) = (self.air, self.segment);
-        let (line, from, to) = (segment.line, segment.from, segment.to());
-        // The same both ways: outwards where it can be, so that branches are alike.
-        let (from, to) = match from + to < 0.0 {
-            true => (-to, -from),
-            false => (from, to),
-        };
-        let columns = air.layers.columns(line, from, to);
+        let air = self.air;
+        let columns = air.columns(self.segment);
         let (whole, rest) = self.out.as_chunks_mut();
         for (block, out) in whole.iter_mut().enumerate() {
             *out = Self::block(air, &columns, block);

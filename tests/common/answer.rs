@@ -44,6 +44,18 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
         "in_scattering_stokes" => {
             return in_scattering_stokes(model, &conditions, segment).map_err(|e| e.class());
         }
+        "transmittance_at" => {
+            let through = transmittance_at(model, visibility, segment, wavelength);
+            return through.map_err(|e| e.class());
+        }
+        "in_scattering_at" => {
+            let light = in_scattering_at(model, &conditions, segment, wavelength);
+            return light.map(|[l, ..]| vec![l]).map_err(|e| e.class());
+        }
+        "in_scattering_stokes_at" => {
+            let light = in_scattering_stokes_at(model, &conditions, segment, wavelength);
+            return light.map(Vec::from).map_err(|e| e.class());
+        }
         _ => {}
     }
     let direction = [x, y, z].map(|v| v as f32);
@@ -105,6 +117,40 @@ fn transmittance(
     let mut row = vec![0.0; air.wavelengths().len()];
     air.transmittance(from, to, &mut row)?;
     Ok(row)
+}
+
+fn transmittance_at(
+    model: &Model,
+    visibility: f64,
+    [from, to]: [[f64; 3]; 2],
+    wavelength: f64,
+) -> Result<Vec<f32>, Error> {
+    let air = model.transmittance(visibility)?;
+    Ok(vec![air.transmittance_at(from, to, wavelength)?])
+}
+
+/// Per unit of solar irradiance.
+fn in_scattering_at(
+    model: &Model,
+    conditions: &Conditions,
+    [from, to]: [[f64; 3]; 2],
+    wavelength: f64,
+) -> Result<[f32; 1], Error> {
+    let aerial = aerial(model, conditions)?;
+    Ok([aerial.relative_in_scattering_at(from, to, wavelength)?])
+}
+
+/// L, Q and U.
+fn in_scattering_stokes_at(
+    model: &Model,
+    conditions: &Conditions,
+    [from, to]: [[f64; 3]; 2],
+    wavelength: f64,
+) -> Result<[f32; 3], Error> {
+    let aerial = aerial(model, conditions)?;
+    let frame = PolarisationFrame::Vertical;
+    let light = aerial.relative_stokes_at(from, to, frame, wavelength)?;
+    Ok([light.i, light.q, light.u])
 }
 
 /// Per unit of solar irradiance.

@@ -2,6 +2,7 @@
 //! line of the library.
 
 mod aerial;
+mod spectrum;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -110,6 +111,11 @@ impl<'a> Oracle<'a> {
 
     /// Offset and rank of a chunk; 65535 stands for no index.
     fn chunk(&self, kind: u32, altitude: usize, visibility: usize) -> (usize, usize) {
+        self.find(kind, altitude, visibility).unwrap()
+    }
+
+    /// The same, if it is there.
+    fn find(&self, kind: u32, altitude: usize, visibility: usize) -> Option<(usize, usize)> {
         (0..self.n.chunks)
             .map(|i| &self.file[self.at.directory + 64 * i..][..64])
             .find(|e| {
@@ -122,7 +128,6 @@ impl<'a> Oracle<'a> {
                 let rank = u32::from_le_bytes(e[40..44].try_into().unwrap());
                 (offset as usize, rank as usize)
             })
-            .unwrap()
     }
 
     /// Relative radiance at every wavelength.
@@ -135,6 +140,31 @@ impl<'a> Oracle<'a> {
 
     /// Transmittance over a distance from the observer, by brute force.
     pub fn transmittance(&self, q: &Query, distance: f64) -> Vec<f64> {
+        let n = &self.n;
+        let columns = self.columns(q, distance);
+        let visibility = self.visibilities(q);
+        let depth = |w: usize| -> f64 {
+            (0..n.k)
+                .map(|k| {
+                    let row = |m: usize| (m * n.k + k) * n.w + w;
+                    let extinction = visibility.iter();
+                    let extinction =
+                        extinction.map(|&(m, t)| t * self.f64(self.at.extinction, row(m)));
+                    columns[k] * extinction.sum::<f64>()
+                })
+                .sum()
+        };
+        (0..n.w).map(|w| (-depth(w)).exp()).collect()
+    }
+
+    /// Weights of the visibilities, linear in 1/V.
+    fn visibilities(&self, q: &Query) -> Vec<(usize, f64)> {
+        let inverses = self.axis(self.at.visibility, self.n.v, f64::recip);
+        piecewise(&inverses, 1.0 / q.visibility)
+    }
+
+    /// Columns of the constituents over a distance from the observer, by brute force.
+    fn columns(&self, q: &Query, distance: f64) -> Vec<f64> {
         const STEPS: usize = 100_000;
         let n = &self.n;
         let radius = self.f64(64, 0);
@@ -151,20 +181,7 @@ impl<'a> Oracle<'a> {
                 *column += step * self.density(at, altitude, k);
             }
         }
-        let inverses = self.axis(self.at.visibility, n.v, f64::recip);
-        let visibility = piecewise(&inverses, 1.0 / q.visibility);
-        let depth = |w: usize| -> f64 {
-            (0..n.k)
-                .map(|k| {
-                    let row = |m: usize| (m * n.k + k) * n.w + w;
-                    let extinction = visibility.iter();
-                    let extinction =
-                        extinction.map(|&(m, t)| t * self.f64(self.at.extinction, row(m)));
-                    columns[k] * extinction.sum::<f64>()
-                })
-                .sum()
-        };
-        (0..n.w).map(|w| (-depth(w)).exp()).collect()
+        columns
     }
 
     /// Profile of a constituent from the chunk of densities at `at`.
@@ -401,18 +418,7 @@ impl<'a> Oracle<'a> {
 
     /// Relative radiance between wavelengths, and the solar irradiance there.
     pub fn radiance_at(&self, q: &Query, wavelength: f64) -> (f64, f64) {
-        let nodes = self.axis(self.at.wavelength, self.n.w, |x| x);
-        let values = self.radiance(q);
-        let smooth = hermite(&nodes, wavelength);
-        let straight = piecewise(&nodes, wavelength);
-        let relative = match smooth.iter().all(|&(i, _)| values[i] > 0.0) {
-            true => smooth
-                .iter()
-                .map(|&(i, w)| w * values[i].ln())
-                .sum::<f64>()
-                .exp(),
-            false => straight.iter().map(|&(i, w)| w * values[i]).sum(),
-        };
+        let relative = self.mixed(&self.radiance(q), wavelength);
         let x = (wavelength - self.f64(self.at.solar_axis, 0)) / self.f64(self.at.solar_axis, 1);
         let i = (x.floor() as usize).min(self.n.s - 2);
         let t = x - i as f64;
@@ -422,16 +428,7 @@ impl<'a> Oracle<'a> {
 
     /// Relative L, Q and U between wavelengths.
     pub fn stokes_at(&self, q: &Query, wavelength: f64) -> [f64; 3] {
-        let (light, _) = self.radiance_at(q, wavelength);
-        let nodes = self.axis(self.at.wavelength, self.n.w, |x| x);
-        let values = self.stokes(q);
-        let [q, u] = [1, 2].map(|part| -> f64 {
-            let smooth = hermite(&nodes, wavelength).into_iter();
-            let lit = smooth.filter(|&(i, _)| values[i][0] > 0.0);
-            lit.map(|(i, w)| w * values[i][part] / values[i][0]).sum()
-        });
-        let share = light / q.hypot(u).max(1.0);
-        [light, share * q, share * u]
+        self.mixed_stokes(&self.stokes(q), wavelength)
     }
 
     pub fn xyz(&self, q: &Query) -> [f64; 3] {

@@ -4,12 +4,15 @@ use welkin::format::{Chunk, Head, Payload, Spectrum};
 
 /// Cells of the synthetic spectrum.
 pub const CELLS: usize = 9;
-/// Taps and terms of each.
+/// Taps of each term.
 pub const TAPS: usize = 3;
-pub const TERMS: usize = 2;
+/// First term of each cell: the odd ones are bands with two terms.
+pub const FIRST_TERM: [u32; CELLS + 1] = [0, 1, 3, 4, 6, 7, 9, 10, 12, 13];
+/// Terms of all cells.
+pub const TERMS: usize = 13;
 
-/// Cells between 2 nm before the first node and 2 nm after the last but one, one of them at a node. Each has three taps
-/// whose weights are not the same as a curve through the nodes would have, and a term that absorbs more than the other.
+/// Cells from 2 nm before the first node to 2 nm after the last at most, one of them in the middle between those. Terms
+/// have three taps with weights that no curve through the nodes has; the second of a band absorbs more than the first.
 pub fn spectrum(head: &Head) -> Spectrum {
     let (nodes, nk) = (head.wavelengths.len(), head.constituents);
     let (first, last) = (head.wavelengths[0], head.wavelengths[nodes - 1]);
@@ -19,9 +22,26 @@ pub fn spectrum(head: &Head) -> Spectrum {
     let wavelength: Vec<f64> = (0..CELLS)
         .map(|c| (first + step * c as f64 + shift(c)).clamp(first - 2.0, last + 2.0))
         .collect();
-    let node = |c: usize, j: usize| (c * (nodes - 1) / (CELLS - 1) + j) % nodes;
-    let lean = |c: usize| 0.4 * (0.9 * c as f32).sin();
-    let weights = |c: usize| [0.9 - lean(c), 0.35 + lean(c), -0.25];
+    // Cell and place in it of each term.
+    let terms: Vec<(usize, usize)> = (0..CELLS)
+        .flat_map(|c| (0..(FIRST_TERM[c + 1] - FIRST_TERM[c]) as usize).map(move |g| (c, g)))
+        .collect();
+    let node = |c: usize, g: usize, j: usize| (c * (nodes - 1) / (CELLS - 1) + g + j) % nodes;
+    let lean = |c: usize, g: usize| 0.4 * (0.9 * c as f32 + 2.0 * g as f32).sin();
+    let weights = |c: usize, g: usize| {
+        let lean = lean(c, g);
+        [0.9 - lean, 0.35 + lean, -0.25]
+    };
+    let share = |c: usize, g: usize| match (c % 2, g) {
+        (0, _) => 1.0,
+        (_, 0) => 0.7 - 0.05 * c as f32,
+        _ => 1.0 - (0.7 - 0.05 * c as f32),
+    };
+    let lines = |c: usize, g: usize, k: usize| match (g, k) {
+        (1, 0) => 1e-5 * (c % 4) as f32,
+        (1, _) => 2e-6 * c as f32,
+        _ => 0.0,
+    };
     let extinction = (0..head.visibilities.len() * nk * CELLS).map(|i| {
         let (v, k, c) = (i / CELLS / nk, i / CELLS % nk, i % CELLS);
         let relative = (550.0 / wavelength[c]) as f32;
@@ -30,27 +50,18 @@ pub fn spectrum(head: &Head) -> Spectrum {
             _ => 3.0 / head.visibilities[v] as f32 * relative,
         }
     });
-    let share = |c: usize| 0.2 + 0.6 * (c % 3) as f32 / 2.0;
-    let lines = |c: usize, g: usize, k: usize| match (g, k) {
-        (1, 0) => 1e-5 * (c % 4) as f32,
-        (1, _) => 2e-6 * c as f32,
-        _ => 0.0,
-    };
-    let terms = (0..CELLS).flat_map(|c| (0..TERMS).map(move |g| (c, g)));
     Spectrum {
         taps: TAPS,
-        terms: TERMS,
-        tap_node: (0..CELLS * TAPS)
-            .map(|i| node(i / TAPS, i % TAPS) as u32)
-            .collect(),
-        tap_weight: (0..CELLS).flat_map(weights).collect(),
         extinction: extinction.collect(),
-        term_weight: (0..CELLS)
-            .flat_map(|c| [1.0 - share(c), share(c)])
+        first_term: FIRST_TERM.to_vec(),
+        term_weight: terms.iter().map(|&(c, g)| share(c, g)).collect(),
+        term_extinction: (terms.iter())
+            .flat_map(|&(c, g)| (0..nk).map(move |k| lines(c, g, k)))
             .collect(),
-        term_extinction: terms
-            .flat_map(|(c, g)| (0..nk).map(move |k| lines(c, g, k)))
+        tap_node: (terms.iter())
+            .flat_map(|&(c, g)| (0..TAPS).map(move |j| node(c, g, j) as u32))
             .collect(),
+        tap_weight: terms.iter().flat_map(|&(c, g)| weights(c, g)).collect(),
         example: (0..4 * nodes)
             .map(|i| -3.0 - 0.1 * (i % nodes) as f32 - 0.5 * (i / nodes) as f32)
             .collect(),

@@ -1,8 +1,11 @@
 //! The valid files.
 
-use welkin::format::{Chunk, ENCODING_ZSTD, Head, Payload, PhaseFunction, encode, parse, recode};
+use welkin::format::{
+    Chunk, ENCODING_ZSTD, Head, MAX_TAPS, Payload, PhaseFunction, Spectrum, encode, parse, recode,
+};
 
 use crate::common;
+use crate::common::spectrum::with_spectrum;
 use crate::frames::{Start, restarted, with_checksum};
 
 pub struct Case {
@@ -112,6 +115,12 @@ pub fn valid() -> Vec<Case> {
         needs: vec!["transmittance"],
         ..case("air-thin", "a layer of one millimetre", thin_air())
     });
+    for (name, shows, need, file) in spectra() {
+        cases.push(Case {
+            needs: need.into_iter().collect(),
+            ..case(name, shows, file)
+        });
+    }
     for (name, shows, file) in aerial() {
         let needs = vec!["aerial-perspective"];
         cases.push(Case {
@@ -152,7 +161,18 @@ fn case(name: &str, shows: &'static str, bytes: Vec<u8>) -> Case {
 
 /// A head with short axes, so that files stay small.
 pub fn small(altitudes: &[f64], visibilities: &[f64]) -> Head {
-    let mut head = common::head_with(altitudes, visibilities, 4);
+    small_with(altitudes, visibilities, 4)
+}
+
+/// The same with five nodes, and a sun that shines at all cells of the synthetic spectrum.
+pub fn small_spectral(altitudes: &[f64], visibilities: &[f64]) -> Head {
+    let mut head = small_with(altitudes, visibilities, 5);
+    head.solar_irradiance.push(1.3);
+    head
+}
+
+fn small_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) -> Head {
+    let mut head = common::head_with(altitudes, visibilities, wavelengths);
     head.up.intervals = 3;
     head.down.intervals = 2;
     head.phi_intervals = 2;
@@ -355,6 +375,86 @@ fn aerial() -> [(&'static str, &'static str, Vec<u8>); 4] {
     ]
 }
 
+type Spectral = (&'static str, &'static str, Option<&'static str>, Vec<u8>);
+
+/// What lies between the nodes.
+fn spectra() -> [Spectral; 6] {
+    let head = small_spectral(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
+    let file = |chunks| encode(&head, &with_spectrum(&head, chunks)).expect("a valid model");
+    let mut negative = common::chunks(&head);
+    common::negate_components(&mut negative);
+    let mut odd = common::chunks(&head);
+    let payload = Payload::Spectrum(odd_spectrum(&head));
+    odd.push(Chunk::new(None, None, payload));
+    let densities = Payload::Transmittance(common::densities());
+    let densities = Chunk::new(None, None, densities);
+    [
+        (
+            "spectrum",
+            "cells of three taps between five nodes, and beyond them",
+            None,
+            file(common::chunks(&head)),
+        ),
+        (
+            "spectrum-taps",
+            "taps that are not used, twice the same or all one, weights that do not add up to 1",
+            None,
+            encode(&head, &odd).expect("a valid model"),
+        ),
+        (
+            "spectrum-dark",
+            "nodes without light among those of a cell",
+            None,
+            file(negative),
+        ),
+        (
+            "spectrum-polarised",
+            "Stokes vectors of cells",
+            Some("polarisation"),
+            file(common::polarised_chunks(&head, 0.02)),
+        ),
+        (
+            "spectrum-air",
+            "transmittance of cells whose bands have two terms",
+            Some("transmittance"),
+            file(vec![densities]),
+        ),
+        (
+            "spectrum-aerial-perspective",
+            "light that segments scatter at cells, and its polarisation",
+            Some("aerial-perspective"),
+            file(common::aerial::polarised_chunks(&head)),
+        ),
+    ]
+}
+
+/// Two cells of 16 taps and one term.
+fn odd_spectrum(head: &Head) -> Spectrum {
+    let (cells, taps) = (2, MAX_TAPS);
+    let node = |c: usize, j: usize| [(j / 2) % 5, 3][c] as u32;
+    let weight = |c: usize, j: usize| match (c, j) {
+        (0, 0..6) => 0.2,
+        (0, 6..10) => -0.05,
+        (1, 4) => 1.1,
+        _ => 0.0,
+    };
+    Spectrum {
+        taps,
+        wavelength: vec![400.0, 700.0],
+        first_term: vec![0, 1, 2],
+        tap_node: (0..cells * taps)
+            .map(|i| node(i / taps, i % taps))
+            .collect(),
+        tap_weight: (0..cells * taps)
+            .map(|i| weight(i / taps, i % taps))
+            .collect(),
+        extinction: vec![1e-5; head.visibilities.len() * head.constituents * cells],
+        term_weight: vec![1.0; cells],
+        term_extinction: vec![0.0; cells * head.constituents],
+        example: Vec::new(),
+    }
+}
+
 fn compressed(raw: &[u8]) -> Vec<u8> {
     recode(raw, ENCODING_ZSTD).expect("a valid model")
 }
@@ -421,8 +521,8 @@ fn unknown_kinds(raw: &[u8]) -> Vec<u8> {
         entry
     };
     chunks.insert(0, (unknown(0), &[]));
-    chunks.insert(2, (unknown(9), b"twice"));
-    chunks.insert(3, (unknown(9), b"twice"));
+    chunks.insert(2, (unknown(10), b"twice"));
+    chunks.insert(3, (unknown(10), b"twice"));
     chunks.push((unknown(u32::MAX), &[]));
     let mut bytes = raw[..directory].to_vec();
     bytes.resize(directory + 64 * chunks.len(), 0);

@@ -4,7 +4,7 @@ use welkin::format::{ENCODING_ZSTD, Head, encode, parse, recode};
 
 use crate::common;
 use crate::files::{minimal, small};
-use crate::{invalid_chunks, invalid_head, invalid_segments};
+use crate::{invalid_chunks, invalid_head, invalid_segments, invalid_spectrum};
 
 #[derive(Clone)]
 pub struct Case {
@@ -22,6 +22,7 @@ impl Case {
             Some(&"transmittance") => "transmittance",
             Some(&"aerial-perspective") => "in_scattering",
             Some(&"polarisation") => "stokes",
+            _ if self.name.starts_with("spectrum") => "relative_radiance_at",
             _ => "relative_radiance",
         }
     }
@@ -54,6 +55,7 @@ pub fn all() -> Vec<Case> {
     cases.extend(invalid_head::all());
     cases.extend(invalid_chunks::all());
     cases.extend(invalid_segments::all());
+    cases.extend(invalid_spectrum::all());
     cases
 }
 

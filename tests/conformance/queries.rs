@@ -22,16 +22,25 @@ const LONGEST_PIECE: f64 = 250.0;
 /// Spread queries per file, besides the special ones.
 const SPREAD: usize = 14;
 
+/// The same of files with a spectrum, which are asked for several wavelengths each.
+const SPECTRAL: usize = 9;
+
 /// The same of files that show nothing new about evaluation.
 const BRIEF: usize = 2;
 
 /// All queries of a file.
 pub fn of(case: &Case) -> Vec<Value> {
-    let spread_queries = if case.brief { BRIEF } else { SPREAD };
+    // What is between nodes does not depend on where they are special.
+    let spectral = !Oracle::new(&case.raw).cells().is_empty();
+    let spread_queries = match (case.brief, spectral) {
+        (true, _) => BRIEF,
+        (_, true) => SPECTRAL,
+        _ => SPREAD,
+    };
     let mut all: Vec<Query> = (0..spread_queries)
         .map(|i| spread(&case.bytes, i))
         .collect();
-    if !case.brief {
+    if !case.brief && !spectral {
         all.extend(special(&case.bytes));
     }
     if let Some(&("transmittance" | "aerial-perspective")) = case.needs.first() {
@@ -71,7 +80,7 @@ pub fn refused(quantity: &str, class: &str) -> Value {
         direction: [0.0, 0.0, 1.0],
     };
     let asked = match quantity {
-        "relative_radiance" => value(quantity, &query, 500.0),
+        "relative_radiance" | "relative_radiance_at" => value(quantity, &query, 500.0),
         _ => over(quantity, &query, 1000.0),
     };
     with_error(asked, class)
@@ -228,12 +237,20 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     // The logarithm of almost nothing is no test of a reader.
     let firm = |(l, floor): (&f64, &f64)| *l == 0.0 || *l > 1e3 * floor;
     if relative.iter().zip(&floor).all(firm) {
+        for wavelength in cells(&oracle, query.albedo) {
+            let (at, _) = oracle.radiance_at(query, wavelength);
+            let asked = value("relative_radiance_at", asking, wavelength);
+            queries.push(with_values(asked, &[at], &[lowest]));
+        }
         queries.push(with_values(ask("relative_radiance_at"), &[at], &[lowest]));
         if case.needs.contains(&"polarisation") {
-            let expected = oracle.stokes_at(query, wavelength);
-            let wide = lowest.max(OF_LIGHT * expected[0]);
-            let absolute = [lowest, wide, wide];
-            queries.push(with_values(ask("stokes_at"), &expected, &absolute));
+            for wavelength in cells(&oracle, query.albedo).into_iter().chain([wavelength]) {
+                let expected = oracle.stokes_at(query, wavelength);
+                let wide = lowest.max(OF_LIGHT * expected[0]);
+                let absolute = [lowest, wide, wide];
+                let asked = value("stokes_at", asking, wavelength);
+                queries.push(with_values(asked, &expected, &absolute));
+            }
         }
         queries.push(with_values(
             ask("radiance_at"),
@@ -244,25 +261,49 @@ fn asked(case: &Case, query: &Query) -> Vec<Value> {
     queries
 }
 
+/// Wavelengths that only files with a spectrum are asked for: a cell, ends among them, one between cells, and a node.
+fn cells(oracle: &Oracle, place: f64) -> Vec<f64> {
+    let cells = oracle.cells();
+    let Some(last) = cells.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let cell = (place * last as f64).round() as usize;
+    let before = cell.min(last - 1);
+    let between = cells[before] + 0.382 * (cells[before + 1] - cells[before]);
+    let nodes = oracle.nodes().into_iter();
+    let node = nodes.filter(|node| (cells[0]..=cells[last]).contains(node));
+    [cells[cell], between]
+        .into_iter()
+        .chain(node.skip(1).take(1))
+        .collect()
+}
+
 /// What is asked about a segment.
 fn segment(case: &Case, query: &Query, i: usize) -> Vec<Value> {
     match case.needs.contains(&"aerial-perspective") {
         true => into(case, query, i),
-        false => vec![through(case, query, i)],
+        false => through(case, query, i),
     }
 }
 
 /// Transmittance from the observer over some distance, from a metre to beyond the air.
-fn through(case: &Case, query: &Query, i: usize) -> Value {
+fn through(case: &Case, query: &Query, i: usize) -> Vec<Value> {
     let distance = 10f64.powf(6.2 * (0.618_034 * i as f64).fract()).round();
     let within = Query {
         altitude: query.altitude,
         ..clamped(query, &ranges(&case.bytes))
     };
-    let expected = Oracle::new(&case.raw).transmittance(&within, distance);
+    let oracle = Oracle::new(&case.raw);
+    let expected = oracle.transmittance(&within, distance);
     let absolute = vec![1e-9; expected.len()];
     let asked = over("transmittance", query, distance);
-    with_values(asked, &expected, &absolute)
+    let mut queries = vec![with_values(asked, &expected, &absolute)];
+    for wavelength in cells(&oracle, query.albedo) {
+        let expected = oracle.transmittance_at(&within, distance, wavelength);
+        let asked = over_at("transmittance_at", query, distance, wavelength);
+        queries.push(with_values(asked, &[expected], &[1e-9]));
+    }
+    queries
 }
 
 /// Light that is scattered towards the observer, without and with its polarisation, over the same distances and, every
@@ -280,7 +321,8 @@ fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
             .round(),
     };
     let asked = ["in_scattering", "in_scattering_stokes"].map(|name| over(name, query, distance));
-    let query = Query {
+    let asking = query;
+    let query = &Query {
         altitude: query.altitude,
         ..clamped(query, &ranges(&case.bytes))
     };
@@ -293,20 +335,38 @@ fn into(case: &Case, query: &Query, i: usize) -> Vec<Value> {
     }) {
         return asked.map(|asked| with_error(asked, error.class())).into();
     }
-    let light = Oracle::new(&case.raw).in_scattering(&query, distance, LONGEST_PIECE);
+    let oracle = Oracle::new(&case.raw);
+    let light = oracle.in_scattering(query, distance, LONGEST_PIECE);
     let part = |i: usize| -> Vec<f64> { light.iter().map(|light| light[i]).collect() };
     let tolerance = if distance <= 100.0 { OF_SHORT } else { OF_LONG };
     let [l, q, u] = [0, 1, 2].map(part);
     let absolute: Vec<f64> = l.iter().map(|l| tolerance * l).collect();
     let [plain, stokes] = asked;
-    vec![
+    let mut queries = vec![
         with_values(plain, &l, &absolute),
         with_values(stokes, &[l, q, u].concat(), &absolute.repeat(3)),
-    ]
+    ];
+    for wavelength in cells(&oracle, query.albedo) {
+        let light = oracle.mixed_stokes(&light, wavelength);
+        let absolute = [tolerance * light[0]; 3];
+        let ask = |quantity| over_at(quantity, asking, distance, wavelength);
+        let plain = ask("in_scattering_at");
+        queries.push(with_values(plain, &light[..1], &absolute[..1]));
+        queries.push(with_values(
+            ask("in_scattering_stokes_at"),
+            &light,
+            &absolute,
+        ));
+    }
+    queries
 }
 
 fn over(quantity: &str, query: &Query, distance: f64) -> Value {
-    let mut asked = value(quantity, query, 500.0);
+    over_at(quantity, query, distance, 500.0)
+}
+
+fn over_at(quantity: &str, query: &Query, distance: f64, wavelength: f64) -> Value {
+    let mut asked = value(quantity, query, wavelength);
     asked["distance"] = json!(distance);
     asked
 }
@@ -321,17 +381,30 @@ fn segment_refusals(case: &Case, query: &Query) -> Vec<Value> {
     };
     let ranges = ranges(&case.bytes);
     let far = |q: &mut Query| q.visibility = ranges.visibility[1] * 1.1;
+    let quantity = if aerial {
+        "in_scattering_at"
+    } else {
+        "transmittance_at"
+    };
+    let cells = Oracle::new(&case.raw).cells();
+    let beyond = cells.first().zip(cells.last());
+    let beyond = beyond.map_or(Vec::new(), |(first, last)| vec![first - 0.1, last + 0.1]);
+    let beyond = beyond.into_iter().map(|wavelength| {
+        let near = clamped(query, &ranges);
+        with_error(over_at(quantity, &near, 100.0, wavelength), "range")
+    });
     if !aerial {
-        return vec![ask("transmittance", &far)];
+        return beyond.chain([ask("transmittance", &far)]).collect();
     }
-    vec![
+    let refusals = vec![
         ask("in_scattering", &far),
         ask("in_scattering", &|q| q.albedo = 1.1),
         ask("in_scattering", &|q| {
             q.solar_elevation = ranges.elevation[0] - 0.01
         }),
         ask("in_scattering_stokes", &far),
-    ]
+    ];
+    beyond.chain(refusals).collect()
 }
 
 /// What a query means whose conditions lie outside by no more than rounding.
@@ -402,8 +475,9 @@ fn has_sky(file: &[u8], query: &Query) -> bool {
 
 /// A wavelength beyond the last by no more than rounding.
 fn rounded_up(file: &[u8]) -> f64 {
-    let head = parse(file).expect("a valid file").head;
-    head.wavelengths[head.wavelengths.len() - 1] * (1.0 + 1e-12)
+    let model = Model::from_bytes(file).expect("a valid model");
+    let [_, last] = model.wavelength_range().expect("a sound spectrum");
+    last * (1.0 + 1e-12)
 }
 
 fn value(quantity: &str, query: &Query, wavelength: f64) -> Value {

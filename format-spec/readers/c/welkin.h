@@ -3,9 +3,11 @@
  * In exactly one C file: #define WELKIN_IMPLEMENTATION, then include this header. Link with -lm.
  *
  * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and
- * every number of the file is checked before use. What a file stores for its own wavelengths (nodes) comes as arrays,
- * what lies between them one wavelength at a time, from functions with names in _at. Bytes may be unaligned; the host may have either byte order.
+ * every number of the file is checked before use. Bytes may be unaligned; the host may have either byte order.
  * Numbers must be IEEE 754, so do not compile the implementation with -ffast-math.
+ *
+ * Arrays of results belong to the wavelengths that the file stores, its nodes. Functions whose names end in _at answer
+ * at any wavelength in its range.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
@@ -51,8 +53,8 @@ typedef enum welkin_error {
 /* What lies between the nodes: where the tables of the spectrum chunk are; private. */
 typedef struct welkin_spectrum {
     welkin_error error; /* why it cannot be used: WELKIN_ERROR_MISSING in a file without one */
-    uint32_t cells, taps, terms;
-    const unsigned char *wavelength, *tap_node, *tap_weight, *extinction, *term_weight, *term_extinction;
+    uint32_t cells, taps, terms; /* terms of all cells together */
+    const unsigned char *wavelength, *first_term, *term_weight, *term_extinction, *tap_node, *tap_weight, *extinction;
 } welkin_spectrum;
 
 /* A checked file. The public members are for reading only. */
@@ -231,7 +233,7 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
 #define WELKIN__NONE 65535u
 #define WELKIN__HALF_PI 1.57079632679489661923
 #define WELKIN__HAS_SPECTRUM 1u /* bit of required_features */
-#define WELKIN__MAX_TAPS 16u
+#define WELKIN__CELL_TERMS 64u /* at most */
 
 enum {
     WELKIN__RADIANCE = 1,
@@ -767,44 +769,57 @@ static welkin_error welkin__payload(const welkin_file *f, const welkin__entry *e
 /* Bytes of a payload with these counts. */
 static uint64_t welkin__spectrum_length(const welkin_file *f, const welkin_spectrum *s, uint32_t examples)
 {
-    uint64_t cells = s->cells, nk = f->constituents, cell = 8 + 8 * (uint64_t)s->taps + 4 * (f->visibilities * nk + s->terms * (1 + nk));
-    return 16 + cells * cell + 4 * (uint64_t)examples * f->wavelengths;
+    uint64_t cells = s->cells, nk = f->constituents, term = 4 * (1 + nk) + 8 * (uint64_t)s->taps;
+    return 16 + 8 * cells + 4 * (cells + 1) + s->terms * term + 4 * cells * nk * f->visibilities + 4 * (uint64_t)examples * f->wavelengths;
 }
 
-static int welkin__taps_are_good(const welkin_file *f, const welkin_spectrum *s)
+/* The terms of a cell: the first, and how many; none where a mapped file changed. */
+static uint32_t welkin__cell_terms(const welkin_spectrum *s, uint32_t cell, uint32_t *first)
 {
-    size_t taps = (size_t)s->cells * s->taps, i;
-    for (i = 0; i < taps; i++)
-        if (welkin__u32(s->tap_node + 4 * i) >= f->wavelengths) return 0;
-    return welkin__f32s_are_within(s->tap_weight, taps, -1e3, 1e3);
+    uint32_t end = welkin__u32(s->first_term + 4 * ((size_t)cell + 1));
+    *first = welkin__u32(s->first_term + 4 * (size_t)cell);
+    return end <= s->terms && *first < end && end - *first <= WELKIN__CELL_TERMS ? end - *first : 0;
 }
 
 static int welkin__terms_are_good(const welkin_file *f, const welkin_spectrum *s)
 {
-    size_t terms = (size_t)s->cells * s->terms, i, g;
-    for (i = 0; i < terms; i += s->terms) {
+    uint32_t c, g, first, count, end = 0;
+    for (c = 0; c < s->cells; c++) {
         double sum = 0;
-        for (g = 0; g < s->terms; g++) sum += (double)welkin__f32(s->term_weight + 4 * (i + g));
+        count = welkin__cell_terms(s, c, &first);
+        if (count == 0 || first != end) return 0;
+        end = first + count;
+        for (g = first; g < end; g++) sum += (double)welkin__f32(s->term_weight + 4 * (size_t)g);
         if (!welkin__within(sum - 1, -1e-5, 1e-5)) return 0;
     }
-    return welkin__f32s_are_within(s->term_weight, terms, 0, 1) && welkin__f32s_are_within(s->term_extinction, terms * f->constituents, 0, 1e6);
+    return end == s->terms && welkin__f32s_are_within(s->term_weight, s->terms, 0, 1) &&
+           welkin__f32s_are_within(s->term_extinction, (size_t)s->terms * f->constituents, 0, 1e6);
+}
+
+static int welkin__taps_are_good(const welkin_file *f, const welkin_spectrum *s)
+{
+    size_t taps = (size_t)s->terms * s->taps, i;
+    for (i = 0; i < taps; i++)
+        if (welkin__u32(s->tap_node + 4 * i) >= f->wavelengths) return 0;
+    return welkin__f32s_are_within(s->tap_weight, taps, -1e3, 1e3);
 }
 
 /* Sets where the tables are, and checks them; the counts are in their ranges and the length is right. */
 static welkin_error welkin__place_spectrum(const welkin_file *f, const unsigned char *p, uint32_t examples,
                                            welkin_spectrum *s)
 {
-    size_t cells = s->cells, air = cells * f->visibilities * f->constituents;
+    size_t cells = s->cells, terms = s->terms, air = cells * f->visibilities * f->constituents;
     const unsigned char *example;
     s->wavelength = p + 16;
-    s->tap_node = s->wavelength + 8 * cells;
-    s->tap_weight = s->tap_node + 4 * cells * s->taps;
-    s->extinction = s->tap_weight + 4 * cells * s->taps;
-    s->term_weight = s->extinction + 4 * air;
-    s->term_extinction = s->term_weight + 4 * cells * s->terms;
-    example = s->term_extinction + 4 * cells * s->terms * f->constituents;
+    s->first_term = s->wavelength + 8 * cells;
+    s->term_weight = s->first_term + 4 * (cells + 1);
+    s->term_extinction = s->term_weight + 4 * terms;
+    s->tap_node = s->term_extinction + 4 * terms * f->constituents;
+    s->tap_weight = s->tap_node + 4 * terms * s->taps;
+    s->extinction = s->tap_weight + 4 * terms * s->taps;
+    example = s->extinction + 4 * air;
     if (!welkin__axis_is_good(s->wavelength, cells, 1, 1e6) || !welkin__solar_spans(f, s->wavelength, s->cells)) return WELKIN_ERROR_VALUE;
-    if (!welkin__taps_are_good(f, s) || !welkin__f32s_are_within(s->extinction, air, 0, 1e6) || !welkin__terms_are_good(f, s))
+    if (!welkin__terms_are_good(f, s) || !welkin__taps_are_good(f, s) || !welkin__f32s_are_within(s->extinction, air, 0, 1e6))
         return WELKIN_ERROR_VALUE;
     return welkin__f32s_are_within(example, (size_t)examples * f->wavelengths, -100, 100) ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
@@ -822,8 +837,8 @@ static welkin_error welkin__read_spectrum(const welkin_file *f, welkin_spectrum 
     s->taps = welkin__u32(p + 4);
     s->terms = welkin__u32(p + 8);
     examples = welkin__u32(p + 12);
-    if (s->cells < 2 || s->cells > 4096 || s->taps < 1 || s->taps > WELKIN__MAX_TAPS) return WELKIN_ERROR_VALUE;
-    if (s->terms < 1 || s->terms > 16 || examples > 1024) return WELKIN_ERROR_VALUE;
+    if (s->cells < 2 || s->cells > 4096 || s->taps < 1 || s->taps > 16) return WELKIN_ERROR_VALUE;
+    if (s->terms < s->cells || s->terms > 65536 || examples > 1024) return WELKIN_ERROR_VALUE;
     if (entry.raw != welkin__spectrum_length(f, s, examples)) return WELKIN_ERROR_VALUE;
     return welkin__place_spectrum(f, p, examples, s);
 }
@@ -850,7 +865,8 @@ static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t le
     welkin__find_ranks(file);
     if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
     file->spectrum.error = welkin__read_spectrum(file, &file->spectrum);
-    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM)) return WELKIN_ERROR_VALUE;
+    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM))
+        return WELKIN_ERROR_VALUE;
     file->metadata = (const char *)(file->bytes + file->metadata_at);
     return WELKIN_OK;
 }
@@ -1834,121 +1850,144 @@ static welkin_error welkin__check_wavelength(const welkin_file *f, double wavele
     return welkin__is_on_axis(axis, n, wavelength) ? WELKIN_OK : WELKIN_ERROR_RANGE;
 }
 
-/* What ln L at a wavelength is made of. */
-typedef struct welkin__blend {
-    uint32_t count, node[2 * WELKIN__MAX_TAPS];
-    double weight[2 * WELKIN__MAX_TAPS];
-} welkin__blend;
-
-static void welkin__blend_nodes(const welkin_file *f, double wavelength, welkin__blend *blend)
+/* L, Q/L and U/L between the nodes of a file without a spectrum. Without Q and U only the first. */
+static void welkin__light_of_nodes(const welkin_file *f, const float *radiance, const float *q, const float *u,
+                                   double wavelength, double light[3])
 {
-    welkin__stencil cubic = welkin__cubic(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
+    const unsigned char *axis = f->bytes + f->wavelength_at;
+    welkin__stencil cubic = welkin__cubic(axis, f->wavelengths, wavelength, WELKIN__PLAIN), linear;
+    double logarithm = 0, plain = 0;
+    int dark = 0;
     uint32_t i;
-    blend->count = cubic.count;
+    light[1] = light[2] = 0;
     for (i = 0; i < cubic.count; i++) {
-        blend->node[i] = cubic.node[i];
-        blend->weight[i] = cubic.weight[i];
+        double node = (double)radiance[cubic.node[i]];
+        if (cubic.weight[i] == 0) continue;
+        if (!(node > 0)) {
+            dark = 1;
+            continue;
+        }
+        logarithm += cubic.weight[i] * log(node);
+        if (!q) continue;
+        light[1] += cubic.weight[i] * (double)q[cubic.node[i]] / node;
+        light[2] += cubic.weight[i] * (double)u[cubic.node[i]] / node;
     }
+    light[0] = exp(logarithm);
+    if (!dark) return;
+    linear = welkin__linear(axis, f->wavelengths, wavelength, WELKIN__PLAIN);
+    for (i = 0; i < linear.count; i++) plain += linear.weight[i] * (double)radiance[linear.node[i]];
+    light[0] = plain;
 }
 
-/* The place of a node in a blend, a new one if it has none. */
-static uint32_t welkin__place_in(welkin__blend *blend, uint32_t node)
+/* Tables of the nodes: ln L, none less than 2^-27 of the largest, Q/L and U/L. */
+typedef struct welkin__node_tables {
+    int parts; /* 1, or 3 with Q and U */
+    double table[3][WELKIN_MAX_WAVELENGTHS];
+} welkin__node_tables;
+
+/* Whether there is light at all. */
+static int welkin__tabulate(uint32_t nw, const float *radiance, const float *q, const float *u,
+                            welkin__node_tables *nodes)
 {
-    uint32_t i = 0;
-    while (i < blend->count && blend->node[i] != node) i++;
-    blend->node[i] = node;
-    if (i == blend->count) blend->count++;
-    return i;
+    double largest = 0;
+    uint32_t w;
+    for (w = 0; w < nw; w++) largest = fmax(largest, (double)radiance[w]);
+    if (!(largest > 0)) return 0;
+    nodes->parts = q ? 3 : 1;
+    for (w = 0; w < nw; w++) {
+        double node = (double)radiance[w];
+        nodes->table[0][w] = log(fmax(node, largest / 134217728));
+        if (!q) continue;
+        nodes->table[1][w] = node > 0 ? (double)q[w] / node : 0;
+        nodes->table[2][w] = node > 0 ? (double)u[w] / node : 0;
+    }
+    return 1;
 }
 
-/* Sums the taps of each cell first, so that those that cancel leave exactly nothing. */
-static welkin_error welkin__blend_cells(const welkin_file *f, double wavelength, welkin__blend *blend)
+/* What the taps of a term make of a table of the nodes. */
+static double welkin__term_sum(const welkin_file *f, size_t term, const double *table)
 {
     const welkin_spectrum *s = &f->spectrum;
-    welkin__stencil cells = welkin__linear(s->wavelength, s->cells, wavelength, WELKIN__PLAIN);
-    double sum[2 * WELKIN__MAX_TAPS][2] = {{0, 0}};
-    uint32_t c, j, i;
-    blend->count = 0;
-    for (c = 0; c < cells.count; c++)
-        for (j = 0; j < s->taps; j++) {
-            size_t tap = 4 * ((size_t)cells.node[c] * s->taps + j);
-            uint32_t node = welkin__u32(s->tap_node + tap);
-            if (node >= f->wavelengths) return WELKIN_ERROR_VALUE; /* a mapped file that changed */
-            sum[welkin__place_in(blend, node)][c] += (double)welkin__f32(s->tap_weight + tap);
-        }
-    for (i = 0; i < blend->count; i++) blend->weight[i] = cells.weight[0] * sum[i][0] + cells.weight[1] * sum[i][1];
-    return WELKIN_OK;
+    double sum = 0;
+    size_t i;
+    for (i = term * s->taps; i < (term + 1) * s->taps; i++) {
+        uint32_t node = welkin__u32(s->tap_node + 4 * i);
+        if (node < f->wavelengths) sum += (double)welkin__f32(s->tap_weight + 4 * i) * table[node]; /* is, unless a mapped file changed */
+    }
+    return sum;
 }
 
-static welkin_error welkin__blend_at(const welkin_file *f, double wavelength, welkin__blend *blend)
+/* ln L, Q/L and U/L of a cell, the mean over its terms. Exponentials are of differences from the brightest. */
+static void welkin__cell_light(const welkin_file *f, uint32_t cell, const welkin__node_tables *nodes, double light[3])
+{
+    double logarithm[WELKIN__CELL_TERMS], brightest = -DBL_MAX, total = 0;
+    uint32_t first, i, count = welkin__cell_terms(&f->spectrum, cell, &first);
+    int k;
+    light[1] = light[2] = 0;
+    for (i = 0; i < count; i++) {
+        logarithm[i] = welkin__term_sum(f, first + i, nodes->table[0]);
+        if (welkin__f32(f->spectrum.term_weight + 4 * (size_t)(first + i)) > 0) brightest = fmax(brightest, logarithm[i]);
+    }
+    for (i = 0; i < count; i++) {
+        double weight = (double)welkin__f32(f->spectrum.term_weight + 4 * (size_t)(first + i));
+        if (!(weight > 0)) continue;
+        weight *= exp(logarithm[i] - brightest);
+        total += weight;
+        for (k = 1; k < nodes->parts; k++) light[k] += weight * welkin__term_sum(f, first + i, nodes->table[k]);
+    }
+    light[0] = brightest + log(total);
+    for (k = 1; k < nodes->parts; k++) light[k] /= total;
+}
+
+/* L, Q/L and U/L from the spectrum. */
+static void welkin__light_of_cells(const welkin_file *f, const float *radiance, const float *q, const float *u,
+                                   double wavelength, double light[3])
+{
+    welkin__stencil cells = welkin__linear(f->spectrum.wavelength, f->spectrum.cells, wavelength, WELKIN__PLAIN);
+    welkin__node_tables nodes;
+    double cell[3];
+    uint32_t c;
+    int k;
+    for (k = 0; k < 3; k++) light[k] = 0;
+    if (!welkin__tabulate(f->wavelengths, radiance, q, u, &nodes)) return;
+    for (c = 0; c < cells.count; c++) {
+        welkin__cell_light(f, cells.node[c], &nodes, cell);
+        for (k = 0; k < 3; k++) light[k] += cells.weight[c] * cell[k];
+    }
+    light[0] = exp(light[0]);
+}
+
+static welkin_error welkin__light_at(const welkin_file *f, const float *radiance, const float *q, const float *u,
+                                     double wavelength, double light[3])
 {
     welkin_error error = welkin__check_wavelength(f, wavelength);
     if (error) return error;
-    if (f->spectrum.error == WELKIN_OK) return welkin__blend_cells(f, wavelength, blend);
-    welkin__blend_nodes(f, wavelength, blend);
-    return WELKIN_OK;
-}
-
-/* L where it is 0 at a node of the blend. */
-static double welkin__dark_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance, double wavelength)
-{
-    double sum = 0, lit = 0;
-    uint32_t i;
-    if (f->spectrum.error == WELKIN_ERROR_MISSING) {
-        welkin__stencil linear = welkin__linear(f->bytes + f->wavelength_at, f->wavelengths, wavelength, WELKIN__PLAIN);
-        for (i = 0; i < linear.count; i++) sum += linear.weight[i] * (double)radiance[linear.node[i]];
-        return sum;
-    }
-    for (i = 0; i < blend->count; i++) {
-        sum += fmax(0, blend->weight[i]) * (double)radiance[blend->node[i]];
-        lit += fmax(0, blend->weight[i]);
-    }
-    return lit > 0 ? sum / lit : 0;
-}
-
-static welkin_error welkin__blend_radiance(const welkin_file *f, const welkin__blend *blend, const float *radiance,
-                                           double wavelength, double *value)
-{
-    double logarithm = 0;
-    int dark = 0;
-    uint32_t i;
-    for (i = 0; i < blend->count; i++) {
-        double node = (double)radiance[blend->node[i]];
-        if (blend->weight[i] == 0) continue;
-        if (node > 0)
-            logarithm += blend->weight[i] * log(node);
-        else
-            dark = 1;
-    }
-    *value = dark ? welkin__dark_radiance(f, blend, radiance, wavelength) : exp(logarithm);
-    return *value <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
+    if (f->spectrum.error == WELKIN_ERROR_MISSING)
+        welkin__light_of_nodes(f, radiance, q, u, wavelength, light);
+    else
+        welkin__light_of_cells(f, radiance, q, u, wavelength, light);
+    return light[0] <= DBL_MAX ? WELKIN_OK : WELKIN_ERROR_VALUE;
 }
 
 WELKIN_API welkin_error welkin_radiance_at(const welkin_file *f, const float *radiance, double wavelength,
                                            double *value)
 {
-    welkin__blend blend;
-    welkin_error error = welkin__blend_at(f, wavelength, &blend);
-    return error ? error : welkin__blend_radiance(f, &blend, radiance, wavelength, value);
+    double light[3];
+    welkin_error error = welkin__light_at(f, radiance, NULL, NULL, wavelength, light);
+    if (!error) *value = light[0];
+    return error;
 }
 
 WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radiance, const float *q, const float *u,
                                          double wavelength, double stokes[3])
 {
-    welkin__blend blend;
-    double share[2] = {0, 0}, degree;
-    uint32_t i;
-    welkin_error error = welkin__blend_at(f, wavelength, &blend);
-    if (!error) error = welkin__blend_radiance(f, &blend, radiance, wavelength, &stokes[0]);
+    double light[3], degree;
+    welkin_error error = welkin__light_at(f, radiance, q, u, wavelength, light);
     if (error) return error;
-    for (i = 0; i < blend.count; i++) {
-        double node = (double)radiance[blend.node[i]];
-        if (!(node > 0)) continue;
-        share[0] += blend.weight[i] * (double)q[blend.node[i]] / node;
-        share[1] += blend.weight[i] * (double)u[blend.node[i]] / node;
-    }
-    degree = fmax(1, sqrt(share[0] * share[0] + share[1] * share[1])); /* weights below 0 can overshoot */
-    for (i = 0; i < 2; i++) stokes[1 + i] = share[i] / degree * stokes[0];
+    degree = fmax(1, sqrt(light[1] * light[1] + light[2] * light[2])); /* weights below 0 can overshoot */
+    stokes[0] = light[0];
+    stokes[1] = light[1] / degree * light[0];
+    stokes[2] = light[2] / degree * light[0];
     return WELKIN_OK;
 }
 
@@ -2134,15 +2173,16 @@ static double welkin__cell_depth(const welkin_transmittance_profile *air, const 
 }
 
 /* What absorption lines leave of the light of a cell, in the mean over its band. */
-static double welkin__cell_lines(const welkin_file *f, const double *columns, size_t cell)
+static double welkin__cell_lines(const welkin_file *f, const double *columns, uint32_t cell)
 {
     const welkin_spectrum *s = &f->spectrum;
     double mean = 0;
-    size_t g, k, nk = f->constituents;
-    for (g = cell * s->terms; g < (cell + 1) * s->terms; g++) {
+    size_t nk = f->constituents, k;
+    uint32_t first, i, count = welkin__cell_terms(s, cell, &first);
+    for (i = first; i < first + count; i++) {
         double depth = 0;
-        for (k = 0; k < nk; k++) depth += columns[k] * (double)welkin__f32(s->term_extinction + 4 * (g * nk + k));
-        mean += (double)welkin__f32(s->term_weight + 4 * g) * exp(-depth);
+        for (k = 0; k < nk; k++) depth += columns[k] * (double)welkin__f32(s->term_extinction + 4 * (i * nk + k));
+        mean += (double)welkin__f32(s->term_weight + 4 * (size_t)i) * exp(-depth);
     }
     return mean;
 }

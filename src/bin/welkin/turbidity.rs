@@ -6,7 +6,7 @@
 
 use std::io::Write;
 
-use welkin::{Error, Model, between_wavelengths};
+use welkin::{Error, Model};
 
 use crate::failure::{Result, plain};
 
@@ -49,9 +49,7 @@ pub fn visibility(model: &Model, turbidity: f64, clamp: bool) -> Result<f64> {
 /// The turbidity at a visibility, m.
 fn of(model: &Model, visibility: f64) -> Result<f64> {
     let air = model.transmittance(visibility)?;
-    let mut through = vec![0.0; air.wavelengths().len()];
-    air.transmittance_to_space([0.0; 3], [0.0, 0.0, 1.0], &mut through)?;
-    let through = between_wavelengths(air.wavelengths(), &through, WAVELENGTH)?;
+    let through = air.transmittance_to_space_at([0.0; 3], [0.0, 0.0, 1.0], WAVELENGTH)?;
     Ok((-f64::from(through).ln() - OZONE) / MOLECULES)
 }
 

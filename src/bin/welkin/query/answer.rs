@@ -58,6 +58,11 @@ impl<'a> Answerer<'a> {
                 let relative = self.at(question)?;
                 Ok(self.shared.times_irradiance(relative, wavelength))
             }
+            // Of transmittance through lines nodes tell nothing.
+            Quantity::Transmittance if self.shared.model.has_spectrum() => {
+                self.transmittance_at(question)
+            }
+            Quantity::SunRadiance if self.shared.model.has_spectrum() => self.sun_at(question),
             Quantity::RelativeRadiance | Quantity::Transmittance => self.at(question),
             Quantity::InScatter | Quantity::SunRadiance => {
                 let relative = self.at(question)?;
@@ -134,6 +139,29 @@ impl<'a> Answerer<'a> {
             true => air.transmittance_to_end(from, question.ray.direction, out),
             false => air.transmittance(from, to, out),
         }
+    }
+
+    fn transmittance_at(&mut self, question: &Question) -> Result<f32> {
+        let (model, wavelength) = (self.shared.model, question.wavelength);
+        let conditions = self.shared.reachable(&question.conditions)?;
+        let visibility = conditions.checked(model)?.visibility;
+        let air = kept(&mut self.air, visibility.to_bits(), || {
+            model.transmittance(visibility)
+        })?;
+        let [from, to] = question.ray.ends(&conditions);
+        match question.ray.is_endless() {
+            true => air.transmittance_to_end_at(from, question.ray.direction, wavelength),
+            false => air.transmittance_at(from, to, wavelength),
+        }
+    }
+
+    fn sun_at(&mut self, question: &Question) -> Result<f32> {
+        let model = self.shared.model;
+        let conditions = self.shared.reachable(&question.conditions)?;
+        let disc = kept(&mut self.disc, question.place(), || {
+            model.solar_disc(&conditions)
+        })?;
+        disc.radiance_at(question.ray.narrow(), question.wavelength)
     }
 
     fn in_scattering(&mut self, question: &Question, conditions: &Conditions) -> Result<()> {

@@ -99,7 +99,8 @@ impl<'a> Shared<'a> {
 
     /// Between the wavelengths of the model.
     pub fn between(&self, values: &[f32], wavelength: f64) -> Result<f32> {
-        welkin::between_wavelengths(self.model.wavelengths(), values, wavelength)
+        let interpolation = self.model.spectral_interpolation()?;
+        interpolation.between(values, wavelength)
     }
 
     /// Spectral radiance from relative radiance.

@@ -1,4 +1,4 @@
-"""Interpolation between wavelengths (section 7.3)."""
+"""Interpolation between wavelengths (sections 7.3 and 7.5)."""
 
 import numpy as np
 
@@ -13,11 +13,25 @@ class _Nodes:
     def __init__(self, axis):
         self.axis = axis
 
-    def weights(self, wavelength):
-        return node_weights(self.axis, wavelength)
+    def width(self, wavelength):
+        return len(wavelength)
 
-    def plain_weights(self, wavelength):
-        return linear_weights(self.axis, wavelength)
+    def radiance(self, radiance, wavelength):
+        """Logarithmic, linear where a node is dark."""
+        weights, plain = node_weights(self.axis, wavelength), linear_weights(self.axis, wavelength)
+        used = np.flatnonzero(np.any((weights != 0.0) | (plain != 0.0), axis=0))
+        radiance, weights, plain = radiance[:, used], weights[:, used], plain[:, used]
+        dark = radiance == 0.0
+        smooth = np.exp(np.log(np.where(dark, 1.0, radiance)) @ weights.T)
+        if not np.any(dark):
+            return smooth
+        touched = dark.astype(np.float64) @ (weights != 0.0).T > 0.0
+        return np.where(touched, radiance @ plain.T, smooth)
+
+    def stokes(self, stokes, wavelength):
+        lit = np.where(stokes[:, :1] > 0.0, stokes[:, :1], 1.0)
+        shares = (stokes[:, 1:] / lit) @ node_weights(self.axis, wavelength).T
+        return np.concatenate([self.radiance(stokes[:, 0], wavelength)[:, None], shares], axis=1)
 
 
 class Wavelengths:
@@ -36,13 +50,14 @@ class Wavelengths:
         return self._chunks.get(_head.SPECTRUM)
 
     @property
-    def _rule(self):
+    def rule(self):
+        """What answers between the nodes: radiance (N, nw) → (N, K), and L, Q, U → L, Q/L, U/L."""
         return self.spectrum if self._has_spectrum else _Nodes(self.nodes)
 
     @property
     def range(self):
         """First and last wavelength that can be asked, nm."""
-        axis = self._rule.axis
+        axis = self.rule.axis
         return float(axis[0]), float(axis[-1])
 
     def checked(self, wavelength):
@@ -58,19 +73,3 @@ class Wavelengths:
     def irradiance(self, wavelength):
         """Solar spectral irradiance (K,), W m⁻² nm⁻¹."""
         return np.interp(wavelength, self._grid, self._irradiance)
-
-    def weights(self, wavelength):
-        """Weights of the nodes in ln L: (K, nw)."""
-        return self._rule.weights(wavelength)
-
-    def interpolate_radiance(self, radiance, wavelength):
-        """Radiance (N, nw) at wavelengths (K,): (N, K). Logarithmic, linear where a node is dark."""
-        weights, plain = self._rule.weights(wavelength), self._rule.plain_weights(wavelength)
-        used = np.flatnonzero(np.any((weights != 0.0) | (plain != 0.0), axis=0))
-        radiance, weights, plain = radiance[:, used], weights[:, used], plain[:, used]
-        dark = radiance == 0.0
-        smooth = np.exp(np.log(np.where(dark, 1.0, radiance)) @ weights.T)
-        if not np.any(dark):
-            return smooth
-        touched = dark.astype(np.float64) @ (weights != 0.0).T > 0.0
-        return np.where(touched, radiance @ plain.T, smooth)

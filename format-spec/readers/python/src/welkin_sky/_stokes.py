@@ -13,7 +13,5 @@ def bounded_stokes(radiance, q, u):
 
 def interpolate_stokes(wavelengths, stokes, wavelength):
     """L, Q, U (N, 3, nw) of the nodes at wavelengths (K,): (N, 3, K)."""
-    radiance = wavelengths.interpolate_radiance(stokes[:, 0], wavelength)
-    lit = np.where(stokes[:, :1] > 0.0, stokes[:, :1], 1.0)
-    q, u = np.moveaxis((stokes[:, 1:] / lit) @ wavelengths.weights(wavelength).T, 1, 0)
-    return bounded_stokes(radiance, q * radiance, u * radiance)
+    light, q, u = np.moveaxis(wavelengths.rule.stokes(stokes, wavelength), 1, 0)
+    return bounded_stokes(light, q * light, u * light)

@@ -22,6 +22,9 @@ from .sky import Conditions, Sky
 FARTHEST = 1e9
 """Largest coordinate of an end of a segment, m."""
 
+_BLOCK_NUMBERS = 1 << 20
+"""Numbers that one block of lines may hold at once in an intermediate array."""
+
 LOWEST = -500.0
 """Altitude below which no land lies, m."""
 
@@ -147,7 +150,10 @@ class Model:
         weights = self._visibility_weights(visibility)
         profiles, spectrum = self._chunks.get(_head.TRANSMITTANCE), self._wavelengths.spectrum
         columns = self._columns(profiles, directions, distance, altitude)
-        result = spectrum.transmittance(columns, weights, self._wavelengths.checked(wavelength))
+        wavelength = self._wavelengths.checked(wavelength)
+        step = max(1, _BLOCK_NUMBERS // max(1, spectrum.width(wavelength)))
+        blocks = (columns[i : i + step] for i in range(0, max(1, len(columns)), step))
+        result = np.concatenate([spectrum.transmittance(b, weights, wavelength) for b in blocks])
         return _finite(result).reshape(*np.shape(directions)[:-1], -1)
 
     def _visibility_weights(self, visibility):

@@ -88,9 +88,9 @@ class Sky:
         wavelength = self._wavelengths.checked(wavelength)
 
         def evaluate(units):
-            return self._wavelengths.interpolate_radiance(self._relative(units), wavelength)
+            return self._wavelengths.rule.radiance(self._relative(units), wavelength)
 
-        return self._blockwise(directions, evaluate, len(wavelength))
+        return self._blockwise(directions, evaluate, self._wavelengths.rule.width(wavelength))
 
     def radiance_at(self, directions, wavelength):
         """Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm: (…, 3) → (…, K)."""
@@ -118,7 +118,7 @@ class Sky:
         def evaluate(units):
             return interpolate_stokes(self._wavelengths, self._stokes(units), wavelength)
 
-        return self._blockwise(directions, evaluate, len(wavelength))
+        return self._blockwise(directions, evaluate, self._wavelengths.rule.width(wavelength))
 
     @np.errstate(all="ignore")
     def _blockwise(self, directions, evaluate, columns=0):

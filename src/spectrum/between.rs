@@ -1,10 +1,16 @@
-//! Radiance between the wavelengths of the model. Format specification, section 7.3.
+//! Radiance between wavelengths where nothing is known but the nodes. Format specification, section 7.3.
 
 use crate::error::{Error, Result};
 use crate::kernel::axis::{hermite, linear};
+#[cfg(not(feature = "std"))]
+use crate::kernel::real::Real;
 
-/// A spectrum at `wavelength` (nm), from its values at increasing `nodes`, as the model interpolates: smooth in the
-/// logarithm, linear beside zeros. For what is smooth, so divide radiance by the irradiance of the sun first.
+/// Most wavelengths that a file can have.
+pub(crate) const MOST_WAVELENGTHS: usize = 256;
+
+/// A spectrum at `wavelength` (nm), from its values at increasing `nodes`: smooth in the logarithm, linear beside zeros.
+/// For what is smooth, so divide radiance by the irradiance of the sun first. Models without a spectrum chunk interpolate
+/// like that; [`SpectralInterpolation`](crate::SpectralInterpolation) does as its model does.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for wavelengths beyond the nodes; [`Error::Length`] unless `values` has one element per node;
