@@ -123,7 +123,8 @@ impl Row {
             for (light, &node) in light.iter_mut().zip(nodes) {
                 *light /= model.head().solar_irradiance_at(node) as f32;
             }
-            welkin::between_wavelengths(nodes, light, wavelength).unwrap()
+            let interpolation = model.spectral_interpolation().unwrap();
+            interpolation.between(light, wavelength).unwrap()
         };
         let own = |value: f32| (value, value.abs());
         match self.quantity {
@@ -137,11 +138,19 @@ impl Row {
             }
             "sun_radiance" => {
                 let disc = model.solar_disc(&conditions).unwrap();
-                let mut light = vec![0.0; nodes.len()];
-                disc.radiance(direction, &mut light).unwrap();
-                own(irradiance * over_sun(&mut light))
+                own(disc.radiance_at(direction, wavelength).unwrap())
             }
-            "transmittance" | "in_scattering" => {
+            "transmittance" => {
+                let air = model.transmittance(conditions.visibility).unwrap();
+                let from = [0.0, 0.0, altitude];
+                let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
+                let through = match distance.is_finite() {
+                    true => air.transmittance_at(from, to, wavelength),
+                    false => air.transmittance_to_end_at(from, unit, wavelength),
+                };
+                own(through.unwrap())
+            }
+            "in_scattering" => {
                 let aerial = model.aerial_perspective(&conditions).unwrap();
                 let (mut light, mut through) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
                 let from = [0.0, 0.0, altitude];
@@ -151,10 +160,7 @@ impl Row {
                     false => aerial.to_end(from, unit, &mut light, &mut through),
                 }
                 .unwrap();
-                match self.quantity {
-                    "in_scattering" => own(irradiance * over_sun(&mut light)),
-                    _ => own(welkin::between_wavelengths(nodes, &through, wavelength).unwrap()),
-                }
+                own(irradiance * over_sun(&mut light))
             }
             _ => {
                 let frame = match self.quantity {

@@ -185,9 +185,7 @@ fn the_sun_one_degree_high() {
     };
     let at = |model: &Model| {
         let sun = model.solar_disc(&conditions).unwrap();
-        let mut light = [0.0; N];
-        sun.radiance(sun.direction(), &mut light).unwrap();
-        light[sun.wavelengths().iter().position(|&l| l == 560.0).unwrap()]
+        sun.radiance_at(sun.direction(), 560.0).unwrap()
     };
     // 32.11 for a disc with a radius of 959.63″ instead of 0.2667°.
     assert!((at(&MODEL) / 32.08 - 1.0).abs() < 2e-3, "{}", at(&MODEL));
