@@ -10,14 +10,11 @@ pub mod random;
 pub mod server;
 pub mod spectrum;
 
-use std::sync::LazyLock;
-
-use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
-    PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode, unpack,
+    PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
 use welkin::{Model, Sky};
@@ -62,30 +59,24 @@ pub fn nearest(wavelengths: &[f64], nm: f64) -> usize {
 
 /// Four wavelengths in the range of the embedded model, nm.
 #[cfg(feature = "default-model")]
-pub fn wavelengths() -> impl Strategy<Value = [f32; 4]> {
+pub fn wavelengths() -> impl proptest::strategy::Strategy<Value = [f32; 4]> {
     let model = Model::default_model().unwrap();
     let [shortest, longest] = model.wavelength_range().unwrap().map(|nm| nm as f32);
     proptest::array::uniform4(shortest..=longest)
 }
 
-/// The most that the nodes of the embedded model weigh together in what lies between them, all signs taken as plus: by
-/// so much errors at the nodes can grow.
-#[cfg(feature = "default-model")]
-pub fn most_weight() -> f64 {
-    static MOST: LazyLock<f64> = LazyLock::new(|| {
-        let (_, chunks) = unpack(welkin::DEFAULT_MODEL).unwrap();
-        let spectrum = chunks.iter().find_map(|chunk| match &chunk.payload {
-            Payload::Spectrum(spectrum) => Some(spectrum),
-            _ => None,
-        });
-        // Without a spectrum cubics, evenly spaced.
-        spectrum.map_or(1.25, |spectrum| {
-            let sums = spectrum.tap_weight.chunks_exact(spectrum.taps);
-            let sums = sums.map(|row| row.iter().map(|w| f64::from(w.abs())).sum());
-            sums.fold(0.0, f64::max)
-        })
-    });
-    *MOST
+/// By how much relative errors at the wavelengths of a model can grow in the light between them: the sum of
+/// |∂ ln L(λ)/∂ ln L| over the wavelengths, for the relative radiance `values`.
+pub fn growth(model: &Model, values: &[f32], wavelength: f64) -> f64 {
+    const STEP: f32 = 1.0 / 1024.0;
+    let interpolation = model.spectral_interpolation().unwrap();
+    let log = |values: &[f32]| f64::from(interpolation.between(values, wavelength).unwrap()).ln();
+    let slope = |n: usize| {
+        let mut brighter = values.to_vec();
+        brighter[n] *= 1.0 + STEP;
+        (log(&brighter) - log(values)).abs() / f64::from(STEP).ln_1p()
+    };
+    (0..values.len()).map(slope).sum()
 }
 
 /// Unit vector at an elevation and an azimuth, rad.
