@@ -62,13 +62,17 @@ fn at_the_nodes_all_interpolations_agree() {
             .unwrap()
             .with_interpolation(i)
     };
-    for (altitude, visibility) in [(0.0, 20e3), (1150.0, 59.4e3), (15e3, 131.8e3)] {
+    let model = Model::default_model().unwrap();
+    let [altitudes, visibilities] = [&model.head().altitudes, &model.head().visibilities];
+    for share in [0.0, 0.5, 1.0] {
+        let node = |nodes: &[f64]| nodes[(share * (nodes.len() - 1) as f64) as usize];
+        let (altitude, visibility) = (node(altitudes), node(visibilities));
         let conditions = Conditions {
             altitude,
             visibility,
             ..Conditions::default()
         };
-        let n = prepared(Interpolation::Full).wavelengths().len();
+        let n = model.wavelengths().len();
         let [mut linear, mut lean, mut full] = [(); 3].map(|()| vec![0.0; n]);
         let direction = [0.3, 0.4, 0.2];
         for (interpolation, out) in [
@@ -122,7 +126,7 @@ fn nothing_jumps_between_intervals() {
             }
             for (below, above) in below.into_iter().zip(above) {
                 assert!(
-                    (below / above - 1.0).abs() < 2e-6,
+                    (below / above - 1.0).abs() < 2e-6 * common::darkness(above),
                     "{altitude} {visibility} {below} {above}"
                 );
             }

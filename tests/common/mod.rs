@@ -65,6 +65,12 @@ pub fn wavelengths() -> impl proptest::strategy::Strategy<Value = [f32; 4]> {
     proptest::array::uniform4(shortest..=longest)
 }
 
+/// By how much rounding counts more where there is hardly any light, as in the far ultraviolet: radiance is the
+/// exponential of numbers that are as large then.
+pub fn darkness(radiance: f32) -> f32 {
+    (radiance.max(f32::MIN_POSITIVE).ln().abs() / 4.0).max(1.0)
+}
+
 /// By how much relative errors at the wavelengths of a model can grow in the light between them: the sum of
 /// |∂ ln L(λ)/∂ ln L| over the wavelengths, for the relative radiance `values`.
 pub fn growth(model: &Model, values: &[f32], wavelength: f64) -> f64 {
