@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use welkin::{Conditions, Model, Sky};
+use welkin::{Conditions, Model, Response, Sky};
 
 /// Directions all over the sphere, in an order that no cache can guess.
 fn directions() -> Vec<[f32; 3]> {
@@ -54,6 +54,33 @@ fn prepare(c: &mut Criterion) {
     c.bench_function("prepare between nodes", |b| b.iter(|| model.sky(&between)));
 }
 
+/// Three of the wavelengths as bands, against all of them.
+fn bands(c: &mut Criterion) {
+    let model = Model::default_model().expect("the embedded model is valid");
+    let conditions = between_nodes();
+    let nodes = [440.0, 560.0, 640.0].map(Response::wavelength);
+    let three = model.bands(&nodes).expect("wavelengths of the model");
+    c.bench_function("prepare three bands between nodes", |b| {
+        b.iter(|| model.band_sky(&conditions, &three))
+    });
+    let sky = model
+        .band_sky(&conditions, &three)
+        .expect("inside the model");
+    let directions = directions();
+    let mut out = [0.0; 3];
+    let mut next = 0;
+    c.bench_function("one direction, three bands", |b| {
+        b.iter(|| {
+            next = (next + 1) % 1024;
+            sky.radiance(black_box(directions[next]), &mut out)
+        })
+    });
+    let between = [445.0, 550.0, 655.5].map(Response::wavelength);
+    c.bench_function("project three wavelengths between nodes", |b| {
+        b.iter(|| model.bands(&between))
+    });
+}
+
 /// A segment of finite length, by the stored source and as the paper's Eq. 2 has it: the difference of two skies.
 fn segment(c: &mut Criterion) {
     let model = Model::default_model().expect("the embedded model is valid");
@@ -95,5 +122,5 @@ fn segment(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, query, segment, prepare);
+criterion_group!(benches, query, segment, prepare, bands);
 criterion_main!(benches);

@@ -125,6 +125,7 @@ cfg_if::cfg_if! {
     if #[cfg(feature = "std")] {
         mod aerial_perspective;
         mod baked;
+        mod bands;
         mod budget;
         mod model;
         pub mod output;
@@ -134,11 +135,16 @@ cfg_if::cfg_if! {
         mod transmittance;
 
         pub use aerial_perspective::{
-            AerialPerspective, AerialPerspectiveQuery, JoinedAerialPerspective,
-            JoinedPolarisedAerialPerspective, SkyDifference,
+            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, JoinedAerialPerspective,
+            JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
-            BakeError, BakedColourSky, BakedPolarisedSky, BakedSky, Directions, Part, Sample, SkySampler,
+            BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
+            Directions, Part, Sample, SkySampler,
+        };
+        pub use bands::{
+            BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,
+            PolarisedBandSky, Residual, Response,
         };
         pub use budget::{Budget, Channels, Plan};
         #[cfg(feature = "default-model")]

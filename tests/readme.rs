@@ -1,6 +1,7 @@
 //! The examples of README.md and the book, run; and a check that they are those.
 #![cfg(feature = "default-model")]
 
+use welkin::Response;
 use welkin::{BakedSky, Budget, Channels, Directions, PointQuery};
 use welkin::{Conditions, Model, PolarisationFrame};
 
@@ -115,6 +116,36 @@ fn which_type() -> welkin::Result<()> {
     assert!(baked.bytes() > colour.bytes() && stokes.bytes() > baked.bytes());
     assert!(sampler.bytes() > 0);
     assert!(plan.file_bytes < welkin::DEFAULT_MODEL.len());
+    Ok(())
+}
+
+#[test]
+fn bands() -> welkin::Result<()> {
+    let model = Model::default_model()?;
+    let conditions = Conditions::default();
+
+    let red = Response::table(&[580.0, 620.0, 680.0], &[0.0, 1.0, 0.0])?;
+    let line = Response::wavelength(550.0);
+    let bands = model.bands(&[red.normalised(), line])?;
+
+    let sky = model.band_sky(&conditions, &bands)?;
+    let mut values = [0.0; 2];
+    sky.radiance([0.0, 0.0, 1.0], &mut values)?;
+    let baked = sky.bake(BakedSky::TOLERANCE)?;
+    let polarised = model.polarised_band_sky(&conditions, &bands)?;
+    let aerial = model.band_aerial_perspective(&conditions, &bands)?;
+    let air = model.band_transmittance(40e3, &bands)?;
+    let disc = model.band_solar_disc(&conditions, &bands)?;
+    let mut fast = [0.0; 2];
+    baked.radiance([0.0, 0.0, 1.0], &mut fast)?;
+    assert!((fast[0] / values[0] - 1.0).abs() < 0.01);
+    assert_eq!(
+        [polarised.bands(), aerial.bands(), air.bands(), disc.bands()],
+        [2; 4]
+    );
+
+    let colour = model.colour_sky(&conditions)?.bake(BakedSky::TOLERANCE)?;
+    assert!(colour.bytes() > 0);
     Ok(())
 }
 

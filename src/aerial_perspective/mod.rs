@@ -3,6 +3,7 @@
 
 mod aerial_perspective_query;
 mod angular_basis;
+mod band_segments;
 mod direct_sunlight;
 mod joined;
 mod joined_stokes;
@@ -28,6 +29,7 @@ mod visible_disc;
 mod xyz_sum;
 
 pub use aerial_perspective_query::AerialPerspectiveQuery;
+pub use band_segments::{BandAerialPerspective, JoinedBandAerialPerspective};
 pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;
 pub use prepared::AerialPerspective;

@@ -8,7 +8,7 @@ use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::{Head, Kind, visibility_node};
 use crate::kernel::math::LANES;
-use crate::model::Model;
+use crate::model::{Model, Nodes};
 use crate::transmittance::Transmittance;
 
 /// Transmittance and in-scattered light of finite segments: aerial perspective.
@@ -69,25 +69,35 @@ impl Model {
     /// [`Error::Checksum`](crate::Error::Checksum), [`Error::Encoding`](crate::Error::Encoding),
     /// [`Error::Length`](crate::Error::Length) or [`Error::Invalid`](crate::Error::Invalid) if one is damaged.
     pub fn aerial_perspective(&self, conditions: &Conditions) -> Result<AerialPerspective> {
-        let conditions = conditions.checked(self)?;
-        let head = self.head();
-        let nodes = head.visibility_nodes();
+        AerialPerspective::prepare(self, self.nodes(), conditions)
+    }
+}
+
+impl AerialPerspective {
+    /// At some of the wavelength nodes of the file, or at all.
+    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
+        let conditions = conditions.checked(model)?;
+        let head = nodes.head;
+        let visibilities = head.visibility_nodes();
         let x = visibility_node(conditions.visibility);
-        let cubic = crate::kernel::axis::hermite(&nodes, x);
+        let cubic = crate::kernel::axis::hermite(&visibilities, x);
         let sources = cubic.taps().map(|(v, _)| (Kind::Source, None, Some(v)));
         let shared = [Kind::Transmittance, Kind::SourceBasis].map(|kind| (kind, None, None));
-        self.prefetch(sources.chain(shared))?;
-        let air = self.transmittance(conditions.visibility)?;
-        let linear = crate::kernel::axis::linear(&nodes, x);
+        model.prefetch(sources.chain(shared))?;
+        let air = Transmittance::prepare(model, head, conditions.visibility)?;
+        let linear = crate::kernel::axis::linear(&visibilities, x);
         let around: Vec<_> = linear
             .taps()
-            .map(|(v, weight)| Ok((self.source_chunk(v)?, weight)))
+            .map(|(v, weight)| Ok((nodes.source(model.source_chunk(v)?), weight)))
             .collect::<Result<_>>()?;
+        let around = around
+            .iter()
+            .map(|(source, weight)| (source.view(), *weight));
         let ground = ground_factor(head, conditions.visibility, conditions.albedo);
         let elevation = conditions.solar_elevation;
-        Ok(AerialPerspective {
-            source: SourceTable::new(self, conditions.visibility, elevation, &ground)?,
-            species: Scatterers::new(head, around.into_iter()),
+        Ok(Self {
+            source: SourceTable::new(model, nodes, conditions.visibility, elevation, &ground)?,
+            species: Scatterers::new(head, around),
             sun: conditions.sun_direction(),
             beam: Beam::new(&air.layers, elevation),
             reach: Reach::new(&head.planet),
@@ -99,9 +109,7 @@ impl Model {
             conditions,
         })
     }
-}
 
-impl AerialPerspective {
     /// The conditions that the aerial perspective was prepared for.
     pub fn conditions(&self) -> &Conditions {
         &self.conditions

@@ -11,7 +11,7 @@ use crate::kernel::axis::{hermite, linear};
 use crate::kernel::half::widen;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
-use crate::model::Model;
+use crate::model::{Model, Nodes};
 
 /// Sun nodes of the table around that of the scene.
 const SUNS: usize = 29;
@@ -51,9 +51,17 @@ pub(crate) struct Spot {
 }
 
 impl SourceTable {
-    pub fn new(model: &Model, visibility: f64, sun: f64, ground: &[f64]) -> Result<Self> {
-        let head = model.head();
-        let basis = model.source_basis_chunk()?;
+    pub fn new(
+        model: &Model,
+        nodes: Nodes,
+        visibility: f64,
+        sun: f64,
+        ground: &[f64],
+    ) -> Result<Self> {
+        let head = nodes.head;
+        let mut basis = model.source_basis_chunk()?;
+        let channels = nodes.source_channels(&basis);
+        basis.factors[3] = &channels;
         let altitude = refine(&basis);
         let sun = sun_nodes(sun, reach(&head.planet));
         let weights = Weights::new(&basis, &altitude, &sun);
@@ -65,6 +73,8 @@ impl SourceTable {
         for (v, share) in stencil.taps() {
             let source = model.source_chunk(v)?;
             source.check_with(&basis, first.get_or_insert(source))?;
+            let source = nodes.source(source);
+            let source = source.view();
             let levels = weights.levels(&source, nw);
             for (sum, value) in level.iter_mut().zip(&levels[0]) {
                 *sum += share * value;

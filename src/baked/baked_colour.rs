@@ -7,11 +7,11 @@ use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::LocalFrame;
 use super::fill::Channels;
 use super::grid_choice::BakeError;
+use crate::bands::ColourSky;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
-use crate::sky::Sky;
-use crate::sky::XYZ_TO_SRGB;
+use crate::sky::{Sky, XYZ_TO_SRGB};
 
 /// X, Y, Z and nothing: the width of a vector.
 const LANES: usize = 4;
@@ -59,6 +59,16 @@ impl Sky {
     pub fn bake_colour(&self, tolerance: f64) -> Result<BakedColourSky> {
         let baked = Baked::new(self, &Xyz(self), tolerance)?;
         Ok(BakedColourSky { baked })
+    }
+}
+
+impl ColourSky {
+    /// As [`Sky::bake_colour`].
+    ///
+    /// # Errors
+    /// As [`Sky::bake`].
+    pub fn bake(&self, tolerance: f64) -> Result<BakedColourSky> {
+        self.sky().bake_colour(tolerance)
     }
 }
 

@@ -7,6 +7,7 @@ use super::batch::{Directions, Group, Sink};
 use super::frame_rotation::Axes;
 use super::grid_choice::BakeError;
 use super::polarisation_table::{self, PolarisationTable, turned};
+use crate::bands::Projection;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
 use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
@@ -43,19 +44,28 @@ impl PolarisedSky {
     /// # Errors
     /// As [`Sky::bake`](crate::Sky::bake).
     pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
-        let mut sky = self.sky().bake(tolerance)?;
-        let grid = sky.baked.table.grid;
-        let (degrees, error) = PolarisationTable::new(self, grid, sky.frame(), tolerance)?;
-        sky.baked.table.refine(degrees.grid());
-        Ok(BakedPolarisedSky {
-            sky,
-            degrees,
-            error,
-        })
+        BakedPolarisedSky::over(self.sky().bake(tolerance)?, self, None, tolerance)
     }
 }
 
 impl BakedPolarisedSky {
+    /// From its radiance, which may be in bands.
+    pub(super) fn over(
+        mut radiance: BakedSky,
+        sky: &PolarisedSky,
+        bands: Option<&Projection>,
+        tolerance: f64,
+    ) -> Result<Self> {
+        let (grid, frame) = (radiance.baked.table.grid, radiance.frame());
+        let (degrees, error) = PolarisationTable::new(sky, bands, grid, frame, tolerance)?;
+        radiance.baked.table.refine(degrees.grid());
+        Ok(Self {
+            sky: radiance,
+            degrees,
+            error,
+        })
+    }
+
     /// The sky without its polarisation.
     pub fn sky(&self) -> &BakedSky {
         &self.sky

@@ -95,6 +95,21 @@ impl Sky {
 }
 
 impl BakedSky {
+    /// What `channels` make of a sky: its values are theirs, without sunlight and without wavelengths.
+    pub(super) fn relative(
+        sky: &Sky,
+        channels: &impl Channels<LANES>,
+        count: usize,
+        tolerance: f64,
+    ) -> Result<Self> {
+        Ok(Self {
+            baked: Baked::new(sky, channels, tolerance)?,
+            wavelengths: vec![0.0; count],
+            irradiance: vec![Lanes::splat(1.0); count.div_ceil(LANES)],
+            axis: WavelengthAxis::new(sky),
+        })
+    }
+
     /// A tolerance that is small against the error of the model itself.
     pub const TOLERANCE: f64 = 2.5e-3;
 

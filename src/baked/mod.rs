@@ -7,6 +7,7 @@
 //! `hero` are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
 
+mod baked_bands;
 mod baked_colour;
 mod baked_polarised;
 mod baked_spectral;
@@ -29,6 +30,7 @@ mod spline;
 mod spline_size;
 mod spline_table;
 
+pub use baked_bands::{BakedBandSky, BakedPolarisedBandSky};
 pub use baked_colour::BakedColourSky;
 pub use baked_polarised::BakedPolarisedSky;
 pub use baked_spectral::BakedSky;

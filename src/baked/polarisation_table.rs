@@ -12,15 +12,21 @@ use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{self, joined};
 use super::refinement::Half;
 use super::spline_table::{Grid, Spots};
+use crate::bands::Projection;
 use crate::error::Result;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;
-use crate::polarisation::PolarisedSky;
+use crate::phase_function::SunAngle;
+use crate::polarisation::{PolarisedSky, Stokes};
+use crate::sky::MOST_WAVELENGTHS;
 
 /// Wavelengths that are computed together: those of the usual model.
 pub(super) const LANES: usize = 12;
 /// Q of them, then U.
 pub(super) const PAIR: usize = 2 * LANES;
+
+/// Bound of U/(I sin φ) of bands, as that of single wavelengths.
+const MOST_U: f32 = 2.0;
 
 /// The tables.
 #[derive(Clone, Debug)]
@@ -40,6 +46,8 @@ pub(super) fn largest_table(n: usize) -> usize {
 /// Q/I and U/(I sin φ) on one side of the horizon.
 struct Ratios<'a> {
     sky: &'a PolarisedSky,
+    /// Bands that are made of the wavelengths, if they are.
+    bands: Option<&'a Projection>,
     lattice: GridNodes<'a>,
     sites: Vec<Site>,
     /// `[site][direction][block]`.
@@ -48,17 +56,23 @@ struct Ratios<'a> {
 }
 
 impl<'a> Ratios<'a> {
-    fn new(sky: &'a PolarisedSky, side: Side, frame: &LocalFrame) -> Self {
+    fn new(
+        sky: &'a PolarisedSky,
+        bands: Option<&'a Projection>,
+        side: Side,
+        frame: &LocalFrame,
+    ) -> Self {
         let lattice = GridNodes {
             sky: sky.sky(),
             side,
         };
         let mut half = Self {
             sky,
+            bands,
             lattice,
             sites: sites(lattice, frame),
             truth: Vec::new(),
-            known: Known::new(blocks(sky)),
+            known: Known::new(count(sky, bands).div_ceil(LANES)),
         };
         let rows = half.sites.iter();
         half.truth = rows
@@ -69,20 +83,54 @@ impl<'a> Ratios<'a> {
 
     /// `[azimuth][block]`.
     fn along(&self, ray: &Ray, azimuths: &[f64]) -> Vec<Lanes<PAIR>> {
-        let blocks = blocks(self.sky);
+        let blocks = self.channels().div_ceil(LANES);
         let mut out = vec![Lanes::splat(0.0); blocks * azimuths.len()];
         let angles = self.lattice.angles(ray, azimuths);
         let places = azimuths.iter().zip(angles).zip(out.chunks_mut(blocks));
         for ((&phi, angle), out) in places {
-            self.sky.ratios(ray, phi, angle, |narrow, parts| {
-                let first = narrow * parts[0].len();
-                let pair = &mut out[first / LANES].0;
-                for (part, values) in parts.iter().enumerate() {
-                    pair[part * LANES + first % LANES..][..values.len()].copy_from_slice(values);
-                }
-            });
+            match self.bands {
+                None => self.sky.ratios(ray, phi, angle, |narrow, _, parts| {
+                    let first = narrow * parts[0].len();
+                    let pair = &mut out[first / LANES].0;
+                    for (part, values) in parts.iter().enumerate() {
+                        pair[part * LANES + first % LANES..][..values.len()]
+                            .copy_from_slice(values);
+                    }
+                }),
+                Some(bands) => self.in_bands(bands, ray, phi, angle, out),
+            }
         }
         out
+    }
+
+    /// The same of bands: their Q and U over their radiance.
+    fn in_bands(
+        &self,
+        bands: &Projection,
+        ray: &Ray,
+        phi: f64,
+        angle: SunAngle,
+        out: &mut [Lanes<PAIR>],
+    ) {
+        let mut nodes = [Stokes::default(); MOST_WAVELENGTHS];
+        self.sky.ratios(ray, phi, angle, |block, radiance, [q, u]| {
+            for (lane, &i) in radiance.iter().enumerate() {
+                nodes[block * radiance.len() + lane] = Stokes {
+                    i,
+                    q: i * q[lane],
+                    u: i * u[lane],
+                };
+            }
+        });
+        let mut light = [Stokes::default(); MOST_WAVELENGTHS];
+        let light = &mut light[..bands.bands()];
+        bands.apply_stokes(&nodes[..self.lattice.sky.wavelengths().len()], light);
+        for (band, light) in light.iter().enumerate() {
+            let share = 1.0 / light.i.max(f32::MIN_POSITIVE);
+            let pair = &mut out[band / LANES].0;
+            pair[band % LANES] = (light.q * share).clamp(-1.0, 1.0);
+            pair[LANES + band % LANES] = (light.u * share).clamp(-MOST_U, MOST_U);
+        }
     }
 }
 
@@ -90,7 +138,7 @@ impl Half<PAIR> for Ratios<'_> {
     const CHANNELS: usize = LANES;
 
     fn channels(&self) -> usize {
-        self.lattice.sky.wavelengths().len()
+        count(self.sky, self.bands)
     }
 
     fn sites(&self) -> &[Site] {
@@ -131,24 +179,26 @@ impl Half<PAIR> for Ratios<'_> {
     }
 }
 
-fn blocks(sky: &PolarisedSky) -> usize {
-    sky.sky().wavelengths().len().div_ceil(LANES)
+/// Channels: wavelengths, or bands that are made of them.
+fn count(sky: &PolarisedSky, bands: Option<&Projection>) -> usize {
+    bands.map_or(sky.sky().wavelengths().len(), Projection::bands)
 }
 
 impl PolarisationTable {
     /// On the grid of a sky, or on a larger one if they need that, to which the sky must be refined then.
     pub fn new(
         sky: &PolarisedSky,
+        bands: Option<&Projection>,
         grid: Grid,
         frame: &LocalFrame,
         tolerance: f64,
     ) -> Result<(Self, BakeError)> {
-        let half = |side| bake(&mut Ratios::new(sky, side, frame), side, tolerance);
+        let half = |side| bake(&mut Ratios::new(sky, bands, side, frame), side, tolerance);
         let ((up, up_errors), (down, down_errors)) = (half(Side::Up)?, half(Side::Down)?);
         let grid = hemisphere_spline::grid(up.size, down.size).or_larger(grid);
         let degrees = Self {
             grid,
-            blocks: blocks(sky),
+            blocks: count(sky, bands).div_ceil(LANES),
             cells: joined(up, down, grid),
         };
         Ok((degrees, up_errors.and(down_errors).summary()))

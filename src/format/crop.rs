@@ -173,21 +173,13 @@ fn crop_head(head: &mut Head, selection: &Selection) {
         visibilities,
         wavelengths,
     } = selection;
+    *head = head.at_wavelengths(wavelengths);
     let nw = head.wavelengths.len();
     let rows = |table: &[f64], width| rows(table, width, visibilities);
-    head.extinction = columns(
-        &rows(&head.extinction, head.constituents * nw),
-        nw,
-        wavelengths,
-    );
-    head.spherical_albedo = columns(&rows(&head.spherical_albedo, nw), nw, wavelengths);
-    for field in &mut head.fields {
-        field.parameter = pick(&field.parameter, wavelengths);
-    }
-    head.xyz = pick(&head.xyz, wavelengths);
+    head.extinction = rows(&head.extinction, head.constituents * nw);
+    head.spherical_albedo = rows(&head.spherical_albedo, nw);
     head.altitudes = pick(&head.altitudes, altitudes);
     head.visibilities = pick(&head.visibilities, visibilities);
-    head.wavelengths = pick(&head.wavelengths, wavelengths);
 }
 
 fn check(what: &'static str, indices: &[usize], count: usize) -> Result<()> {

@@ -4,6 +4,7 @@ use super::layout::{
     KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
     KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, Shape,
 };
+use super::matrix::{columns, pick};
 use crate::geometry::Planet;
 use crate::kernel::axis::sample;
 use crate::kernel::axis::{ElevationAxis, Ends, coefficients};
@@ -138,6 +139,31 @@ impl Head {
             wavelengths: self.wavelengths.len(),
             channels: self.fields.len() * self.wavelengths.len(),
             constituents: self.constituents,
+        }
+    }
+
+    /// The head of a file with these of the wavelengths. The colour weights stay as they are.
+    pub(crate) fn at_wavelengths(&self, kept: &[usize]) -> Self {
+        let nw = self.wavelengths.len();
+        let field = |field: &Field| Field {
+            parameter: pick(&field.parameter, kept),
+            ..*field
+        };
+        Self {
+            extinction: columns(&self.extinction, nw, kept),
+            spherical_albedo: columns(&self.spherical_albedo, nw, kept),
+            fields: self.fields.iter().map(field).collect(),
+            xyz: pick(&self.xyz, kept),
+            wavelengths: pick(&self.wavelengths, kept),
+            ..self.clone()
+        }
+    }
+
+    /// The same where the sun gives 1 W m⁻² nm⁻¹ at all wavelengths: what is made with it is relative.
+    pub(crate) fn in_unit_sunlight(self) -> Self {
+        Self {
+            solar_irradiance: vec![1.0; 2],
+            ..self
         }
     }
 

@@ -13,7 +13,7 @@ pub(super) fn rows<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Ve
 }
 
 /// Columns of a matrix of the given width.
-pub(super) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
+pub(crate) fn columns<T: Copy>(matrix: &[T], width: usize, indices: &[usize]) -> Vec<T> {
     let rows = matrix.chunks_exact(width);
     rows.flat_map(|row| pick(row, indices)).collect()
 }

@@ -34,6 +34,7 @@ cfg_if::cfg_if! {
         mod write;
 
         pub(crate) use encoding::{check_chunk, decode};
+        pub(crate) use matrix::columns;
         pub(crate) use head::{altitude_node, visibility_node};
         pub(crate) use parse::{Key, head_length, parse_head};
         pub(crate) use source_function::phase_function;

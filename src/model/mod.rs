@@ -6,12 +6,14 @@
     reason = "what is mapped is memory that others can change"
 )]
 mod memory_map;
+mod node_subset;
 mod opened;
 mod ranges;
 mod read_at;
 mod store;
 
 pub(crate) use crate::format::Key;
+pub(crate) use node_subset::{NodeSubset, Nodes};
 #[cfg(feature = "default-model")]
 pub use opened::DEFAULT_MODEL;
 pub use opened::Model;

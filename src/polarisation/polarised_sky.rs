@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
 use crate::kernel::math::{LANES, finite};
-use crate::model::{Model, SPECTRUM};
+use crate::model::{Model, Nodes, SPECTRUM};
 use crate::phase_function::SunAngle;
 use crate::sky::prepare::NodeWeights;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
@@ -49,18 +49,24 @@ impl Model {
     /// # Errors
     /// As [`Model::sky`]; [`Error::MissingChunk`](crate::Error::MissingChunk) for a file without polarisation.
     pub fn polarised_sky(&self, conditions: &Conditions) -> Result<PolarisedSky> {
-        let conditions = conditions.checked(self)?;
-        let place = NodeWeights::new(self.head(), &conditions);
-        let basis = (Kind::PolarisationBasis, None, None);
-        let chunks = place.keys_of(Kind::Polarisation);
-        self.prefetch(place.keys().chain(chunks).chain([basis, SPECTRUM]))?;
-        let sky = Sky::prepare(self, &conditions)?;
-        let polarisation = prepare(self, &place, conditions.albedo, &sky.tables().layout)?;
-        Ok(PolarisedSky { sky, polarisation })
+        PolarisedSky::prepare(self, self.nodes(), conditions)
     }
 }
 
 impl PolarisedSky {
+    /// As [`Sky::prepare`].
+    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
+        let conditions = conditions.checked(model)?;
+        let place = NodeWeights::new(nodes.head, &conditions);
+        let basis = (Kind::PolarisationBasis, None, None);
+        let chunks = place.keys_of(Kind::Polarisation);
+        model.prefetch(place.keys().chain(chunks).chain([basis, SPECTRUM]))?;
+        let sky = Sky::prepare(model, nodes, &conditions)?;
+        let layout = &sky.tables().layout;
+        let polarisation = prepare(model, nodes, &place, conditions.albedo, layout)?;
+        Ok(Self { sky, polarisation })
+    }
+
     /// The sky without its polarisation.
     pub fn sky(&self) -> &Sky {
         &self.sky
@@ -164,14 +170,14 @@ impl PolarisedSky {
         }))
     }
 
-    /// Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π), handed to `emit`
-    /// block by block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
+    /// Relative radiance, Q/I and U/(I sin φ) in the vertical frame towards a ray, φ its azimuth from the sun (0..=π),
+    /// handed to `emit` block by block of wavelengths. Even in φ, at most the whole light, and smooth where that is no limit.
     pub(crate) fn ratios(
         &self,
         ray: &Ray,
         phi: f64,
         angle: SunAngle,
-        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
+        mut emit: impl FnMut(usize, [f32; LANES], [[f32; LANES]; 2]),
     ) {
         let tables = self.sky.tables();
         let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
@@ -187,8 +193,8 @@ impl PolarisedSky {
         };
         let sine = phi.sin() as f32;
         self.polarisation
-            .ratios(tables, &lookup, &mix, |block, [q, u]| {
-                emit(block, limit_even(q, u, sine));
+            .ratios(tables, &lookup, &mix, |block, radiance, [q, u]| {
+                emit(block, radiance, limit_even(q, u, sine));
             });
     }
 

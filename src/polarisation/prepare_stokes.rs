@@ -7,18 +7,19 @@ use crate::format::BasisView;
 use crate::kernel::axis::{Ends, spline};
 use crate::kernel::half::widen;
 use crate::kernel::math::LANES;
-use crate::model::Model;
+use crate::model::{Model, Nodes};
 use crate::sky::prepare::{NodeWeights, OwnFactors, widen_rows};
 use crate::sky::tables::Layout;
 
 /// Prepares the polarisation at `place` over a ground of the given albedo. `layout` is that of the radiance.
 pub(super) fn prepare(
     model: &Model,
+    nodes: Nodes,
     place: &NodeWeights,
     albedo: f64,
     layout: &Layout,
 ) -> Result<Polarisation> {
-    let head = model.head();
+    let head = nodes.head;
     let basis = model.polarisation_basis()?;
     let shape = head.shape();
     let mut alpha = [shape.up, shape.down].map(|n| vec![0.0; n * basis.rank]);
@@ -41,7 +42,8 @@ pub(super) fn prepare(
             own.add_to(&mut alpha, basis.rank, &elevation, weight);
         }
     }
-    let applied = Basis::new(&basis, &place.ground(head, albedo), place.fade, layout);
+    let ground = place.ground(head, albedo);
+    let applied = Basis::new(&basis, nodes, &ground, place.fade, layout);
     let [up, down] = alpha.map(|alpha| applied.apply(&alpha));
     let polarisation = Polarisation { up, down };
     let mut pairs = polarisation.up.iter().chain(&polarisation.down);
@@ -65,16 +67,15 @@ struct Basis<'a> {
 impl<'a> Basis<'a> {
     /// `ground` is what the light from the ground is multiplied with at each wavelength, `fade` what the azimuth
     /// counts.
-    fn new(view: &BasisView, ground: &[f32], fade: f64, layout: &'a Layout) -> Self {
-        let (rank, nw) = (view.rank, ground.len());
+    fn new(view: &BasisView, nodes: Nodes, ground: &[f32], fade: f64, layout: &'a Layout) -> Self {
+        let rank = view.rank;
         let mut channel = vec![Pair::ZERO; layout.blocks() * rank];
         for r in 0..rank {
             let row = &view.channel[r * view.channel_stride..][..view.channel_stride];
             for (w, ground) in ground.iter().enumerate() {
                 let pair = &mut channel[w / LANES * rank + r].0;
-                let sum = |part: usize| {
-                    widen(row[part * nw + w]) + ground * widen(row[(part + 2) * nw + w])
-                };
+                let value = |part: usize| widen(row[nodes.channel(part, w)]);
+                let sum = |part: usize| value(part) + ground * value(part + 2);
                 pair[w % LANES] = sum(0);
                 // U is odd in the azimuth: nothing of it stays under a vertical sun.
                 pair[LANES + w % LANES] = fade as f32 * sum(1);

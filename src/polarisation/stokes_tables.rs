@@ -98,17 +98,18 @@ impl Polarisation {
         });
     }
 
-    /// Hands the two sums that `mix` makes to `emit`, over that of the radiance, block by block of wavelengths. They
-    /// are finite.
+    /// Hands the radiance and the two sums that `mix` makes to `emit`, over that of the radiance, block by block of
+    /// wavelengths. They are finite.
     pub fn ratios(
         &self,
         tables: &Tables,
         lookup: &Lookup,
         mix: &Mix,
-        mut emit: impl FnMut(usize, [[f32; LANES]; 2]),
+        mut emit: impl FnMut(usize, [f32; LANES], [[f32; LANES]; 2]),
     ) {
         self.sums(tables, lookup, mix, |block, light, sums| {
-            emit(block, sums.map(|sum| ratio(light.sum, sum)));
+            let ratios = sums.map(|sum| ratio(light.sum, sum));
+            emit(block, light.radiance, ratios);
         });
     }
 

@@ -12,7 +12,7 @@ use crate::kernel::half::widen;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
-use crate::model::{Key, Model, SPECTRUM};
+use crate::model::{Key, Model, Nodes, SPECTRUM};
 use crate::phase_function::PhaseTable;
 use crate::sky::Sky;
 use crate::sky::tables::{Cell, Layout, SideTable, Tables};
@@ -29,20 +29,22 @@ impl Model {
     /// the file lacks a needed chunk, [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] if one is damaged,
     /// [`Error::Read`] if the source of a streamed model fails.
     pub fn sky(&self, conditions: &Conditions) -> Result<Sky> {
-        Sky::prepare(self, conditions)
+        Sky::prepare(self, self.nodes(), conditions)
     }
 }
 
 impl Sky {
-    pub(crate) fn prepare(model: &Model, conditions: &Conditions) -> Result<Self> {
+    /// At some of the wavelength nodes of the file, or at all: what costs time from here on goes with those.
+    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
         let conditions = conditions.checked(model)?;
-        let head = model.head();
+        let head = nodes.head;
         let place = NodeWeights::new(head, &conditions);
         model.prefetch(place.keys().chain([SPECTRUM]))?;
         let interpolation = model.shared_interpolation()?;
         let groups = Groups::new(head);
         let baker = Baker {
             model,
+            nodes,
             place: &place,
             groups: &groups,
             fold: place.fold(head, conditions.albedo),
@@ -189,6 +191,7 @@ fn same_phase(a: &Field, b: &Field) -> bool {
 /// All that turns the chunks of a model into tables.
 struct Baker<'a> {
     model: &'a Model,
+    nodes: Nodes<'a>,
     place: &'a NodeWeights,
     groups: &'a Groups,
     /// Factor of each channel `[field][wavelength]`.
@@ -199,7 +202,7 @@ struct Baker<'a> {
 impl Baker<'_> {
     /// S per wavelength and the tables above and below the horizon.
     fn sides(&self) -> Result<(Vec<f32>, [SideTable; 2])> {
-        let head = self.model.head();
+        let head = self.nodes.head;
         let shape = head.shape();
         let basis = self.model.radiance_basis()?;
         let mut level = vec![0.0; shape.wavelengths];
@@ -240,9 +243,9 @@ impl Baker<'_> {
     fn add_level(&self, chunk: &FactorsView, weight: f32, level: &mut [f32]) {
         let rows = self.elevation.index.iter().zip(self.elevation.weight);
         for (&i, tap) in rows {
-            let row = &chunk.level[i * level.len()..][..level.len()];
-            for (sum, &value) in level.iter_mut().zip(row) {
-                *sum += weight * tap * widen(value);
+            let row = self.nodes.row(chunk.level, i);
+            for (sum, value) in level.iter_mut().zip(row) {
+                *sum += weight * tap * value;
             }
         }
     }
@@ -251,12 +254,13 @@ impl Baker<'_> {
     fn patterns(&self, basis: &BasisView) -> Patterns {
         let rank = basis.rank;
         let cells = self.groups.layout.cells();
+        let channels: Vec<usize> = self.nodes.channels(self.nodes.head.fields.len()).collect();
         let mut channel = vec![Cell::ZERO; cells * rank];
         for r in 0..rank {
-            let values = &basis.channel[r * basis.channel_stride..][..self.fold.len()];
+            let values = &basis.channel[r * basis.channel_stride..][..basis.channels];
             let positions = self.groups.position.iter().zip(&self.fold);
-            for (&value, (&(cell, place), fold)) in values.iter().zip(positions) {
-                channel[r * cells + cell].0[place] += fold * widen(value);
+            for (&stored, (&(cell, place), fold)) in channels.iter().zip(positions) {
+                channel[r * cells + cell].0[place] += fold * widen(values[stored]);
             }
         }
         let mut phi = widen_rows(basis.phi, basis.stride, rank);

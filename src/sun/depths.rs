@@ -2,7 +2,7 @@
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
-use crate::format::{AlphaAxis, Kind};
+use crate::format::{AlphaAxis, Head, Kind};
 use crate::geometry::{Planet, Side};
 use crate::kernel::axis::Stencil;
 use crate::kernel::axis::{Ends, alpha_coordinate, spline};
@@ -31,9 +31,13 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    /// Of an observer, between two elevations (rad) that are not below the geometric horizon.
-    pub fn new(model: &Model, conditions: &Conditions, [low, high]: [f64; 2]) -> Result<Self> {
-        let head = model.head();
+    /// Of an observer at the wavelengths of `head`, between two elevations (rad) that are not below the geometric horizon.
+    pub fn new(
+        model: &Model,
+        head: &Head,
+        conditions: &Conditions,
+        [low, high]: [f64; 2],
+    ) -> Result<Self> {
         let wavelengths = head.wavelengths.len();
         let extinction = Extinction::new(head, conditions.visibility);
         let columns = Columns::new(model, conditions)?;

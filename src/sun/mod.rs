@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::format::Head;
 use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
@@ -64,16 +65,17 @@ impl Model {
     /// transmittance nor the columns of these altitudes; [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or
     /// [`Error::Invalid`] if what is needed is damaged; [`Error::Read`].
     pub fn solar_disc(&self, conditions: &Conditions) -> Result<SolarDisc> {
-        SolarDisc::new(self, &conditions.checked(self)?)
+        SolarDisc::prepare(self, self.head(), conditions)
     }
 }
 
 impl SolarDisc {
-    fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
-        let head = model.head();
+    /// At the wavelengths of `head`, which is that of the model or of some nodes.
+    pub(crate) fn prepare(model: &Model, head: &Head, conditions: &Conditions) -> Result<Self> {
+        let conditions = &conditions.checked(model)?;
         let cap = Cap::new(conditions, head.planet.dip(conditions.altitude));
         let depths = match cap.is_visible() {
-            true => Some(Depths::new(model, conditions, cap.band())?),
+            true => Some(Depths::new(model, head, conditions, cap.band())?),
             false => None,
         };
         let wavelengths = head.wavelengths.iter();

@@ -109,19 +109,23 @@ impl Model {
     /// [`Error::OutOfRange`] for the visibility; [`Error::MissingChunk`] if the file has no transmittance;
     /// [`Error::Checksum`], [`Error::Encoding`], [`Error::Length`] or [`Error::Invalid`] if that is damaged.
     pub fn transmittance(&self, visibility: f64) -> Result<Transmittance> {
-        let visibility = checked_visibility(visibility, self.visibility_range())?;
-        let head = self.head();
-        Ok(Transmittance {
-            layers: Layers::new(&self.density_chunk()?, head.planet, head.constituents),
-            extinction: Extinction::new(head, visibility),
-            wavelengths: head.wavelengths.clone(),
-            visibility: visibility_weights(head, visibility),
-            interpolation: self.shared_interpolation()?.clone(),
-        })
+        Transmittance::prepare(self, self.head(), visibility)
     }
 }
 
 impl Transmittance {
+    /// At the wavelengths of `head`, which is that of the model or of some nodes.
+    pub(crate) fn prepare(model: &Model, head: &Head, visibility: f64) -> Result<Self> {
+        let visibility = checked_visibility(visibility, model.visibility_range())?;
+        Ok(Self {
+            layers: Layers::new(&model.density_chunk()?, head.planet, head.constituents),
+            extinction: Extinction::new(head, visibility),
+            wavelengths: head.wavelengths.clone(),
+            visibility: visibility_weights(head, visibility),
+            interpolation: model.shared_interpolation()?.clone(),
+        })
+    }
+
     /// Wavelengths of the results, nm.
     pub fn wavelengths(&self) -> &[f64] {
         &self.wavelengths

@@ -32,6 +32,7 @@ mod projection;
 mod query;
 mod render;
 mod scene;
+mod sensor;
 mod sheet;
 mod span;
 mod subset;

@@ -6,6 +6,7 @@ use crate::about::{About, LUMINANCE, RADIANCE};
 use crate::failure::Result;
 use crate::image::{Planes, exr, png, png_of_display};
 use crate::polarised::{self, Colouring};
+use crate::sensor::Sensor;
 use crate::tone::Film;
 use crate::view::View;
 
@@ -51,6 +52,27 @@ impl Picture {
             },
             || png(view.size, &pixels, &wanted.film, &wanted.about),
         )
+    }
+
+    /// The sky in the bands of a sensor, beside its colours as PNG.
+    pub fn of_bands(view: &View, sky: &Sky, sensor: Sensor, wanted: &Wanted) -> Result<Self> {
+        let pixels = match wanted.png {
+            true => view.rgb(sky)?,
+            false => Vec::new(),
+        };
+        let planes = || {
+            let values = view.bands(&sensor.sky)?;
+            exr(Planes {
+                size: view.size,
+                planes: sensor.names.into_iter().zip(values).collect(),
+                about: wanted.about.clone(),
+                units: sensor.units,
+                comment: sensor.comment,
+            })
+        };
+        Self::encoded(wanted, planes, || {
+            png(view.size, &pixels, &wanted.film, &wanted.about)
+        })
     }
 
     /// Both encodings at the same time.

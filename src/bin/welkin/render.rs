@@ -18,6 +18,7 @@ use crate::picture::{Picture, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
 use crate::scene::Scene;
+use crate::sensor;
 use crate::tone::Film;
 use crate::view::View;
 
@@ -60,6 +61,8 @@ pub struct Options {
     /// Axes of q, u and aolp.
     #[arg(long, value_enum, default_value = "sun")]
     frame: Axes,
+    #[command(flatten)]
+    sensor: sensor::Options,
     #[command(flatten)]
     pub landscape: landscape::Options,
     #[command(flatten)]
@@ -121,7 +124,13 @@ impl Options {
                 let view = self.view(model, conditions, azimuth)?;
                 let film = self.exposure.of_sky(&sky)?;
                 let mut wanted = outputs.wanted(film, about);
-                let picture = self.picture(&view, &sky, polarised.as_ref(), &mut wanted)?;
+                let picture = match self.sensor.sky(model, conditions)? {
+                    Some(sensor) => {
+                        wanted.about.text("projection", self.projection.name());
+                        Picture::of_bands(&view, &sky, sensor, &wanted)?
+                    }
+                    None => self.picture(&view, &sky, polarised.as_ref(), &mut wanted)?,
+                };
                 (picture, film, view.size[0] * view.size[1])
             }
         };
@@ -144,6 +153,10 @@ impl Options {
             (
                 self.sun,
                 "the sun is not polarised: --sun shows radiance only",
+            ),
+            (
+                self.sensor.is_wanted(),
+                "bands have no quantity but radiance: --bands and --wavelengths show that only",
             ),
         ] {
             if wanted && is_false_colour {

@@ -1,6 +1,6 @@
 //! What a picture of the sky looks at.
 
-use welkin::Sky;
+use welkin::{BandSky, Sky};
 
 use crate::disc::{Disc, Look};
 use crate::ground::Ground;
@@ -50,6 +50,18 @@ impl View {
             }
             Ok(rgb)
         })
+    }
+
+    /// Planes of the bands of a sensor; black outside the fish-eye.
+    pub fn bands(&self, sky: &BandSky) -> welkin::Result<Vec<Vec<f32>>> {
+        let pixel = |pixel, _: &mut (), out: &mut [f32]| match self.direction(pixel) {
+            Some(direction) => sky.radiance(direction, out),
+            None => {
+                out.fill(0.0);
+                Ok(())
+            }
+        };
+        parallel::planes(self.size, sky.bands(), || (), pixel)
     }
 
     /// Planes of spectral radiance, W m⁻² sr⁻¹ nm⁻¹.
