@@ -10,8 +10,6 @@ fn main() -> welkin::Result<()> {
     let model = Model::default_model()?;
     let planet = model.head().planet;
     let (centre, towards_sun) = ([0.0; 3], [1.0, 0.0, 0.0]);
-    let mut light = vec![0.0; model.wavelengths().len()];
-    let mut transmittance = light.clone();
 
     println!(
         "longitude  sun's elevation  luminance: zenith  5° above the west  in-scattering over 10 km, 520 nm"
@@ -35,14 +33,11 @@ fn main() -> welkin::Result<()> {
         let air = model.aerial_perspective(&conditions)?;
         let tower = std::array::from_fn(|i| camera[i] + 10e3 * west[i]);
         let [from, to] = [camera, tower].map(|point| place.point_to_local(point));
-        air.in_scattering(from, to, &mut light, &mut transmittance)?;
+        let light = air.in_scattering_at(from, to, 520.0)?;
 
         let elevation = conditions.solar_elevation.to_degrees();
         let ([_, zenith, _], [_, low, _]) = (zenith?, low?);
-        println!(
-            "{longitude:8}°  {elevation:14.1}°  {zenith:17.0}  {low:17.0}  {:32.2e}",
-            light[5]
-        );
+        println!("{longitude:8}°  {elevation:14.1}°  {zenith:17.0}  {low:17.0}  {light:32.2e}");
     }
     Ok(())
 }

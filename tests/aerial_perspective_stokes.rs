@@ -13,6 +13,9 @@ use welkin::{
 
 static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap());
 
+/// Below it (nm) the ozone high above costs the quadrature of whole rays several per cent.
+const BLUEST: f64 = 325.0;
+
 fn conditions(elevation: f64) -> Conditions {
     Conditions {
         solar_elevation: elevation.to_radians(),
@@ -110,8 +113,10 @@ fn the_whole_way_is_the_polarised_sky() {
                     .unwrap();
                 let segment = along([0.0; 3], direction, 300e3);
                 let (light, _) = stokes(&aerial, segment, frame).unwrap();
-                // At 320 nm the ozone high above costs the quadrature of whole rays several per cent.
-                for (got, want) in light.iter().zip(&truth).skip(1) {
+                for ((got, want), &nm) in light.iter().zip(&truth).zip(aerial.wavelengths()) {
+                    if nm < BLUEST {
+                        continue;
+                    }
                     let (q, u) = (want.q / want.i, want.u / want.i);
                     errors.push((got.q / got.i - q).hypot(got.u / got.i - u));
                     polarised += usize::from(want.degree() > 0.1);
@@ -177,24 +182,27 @@ fn before_its_sky_light_ends_in_it_polarised_as_it() {
 fn parts_add_up() {
     let aerial = aerial(12.0);
     let frame = PolarisationFrame::Axis([0.1, 0.9, 0.4]);
-    let mut worst = 0f32;
+    let mut worst = (0f32, f64::NAN);
     for [from, to] in segments() {
         let middle = std::array::from_fn(|k| 0.5 * (from[k] + to[k]));
         let (whole, _) = stokes(&aerial, [from, to], frame).unwrap();
         let (near, through) = stokes(&aerial, [from, middle], frame).unwrap();
         let (far, _) = stokes(&aerial, [middle, to], frame).unwrap();
-        for w in 1..whole.len() {
+        for w in (0..whole.len()).filter(|&w| aerial.wavelengths()[w] >= BLUEST) {
             let sum = |part: fn(&Stokes) -> f32| part(&near[w]) + through[w] * part(&far[w]);
             for part in [|s: &Stokes| s.q, |s: &Stokes| s.u] {
                 let off = (sum(part) - part(&whole[w])).abs() / whole[w].i;
                 // The quadrature errs in all components alike.
                 let light = (sum(|s| s.i) / whole[w].i - 1.0).abs();
-                worst = worst.max(off - light);
+                if off - light > worst.0 {
+                    worst = (off - light, aerial.wavelengths()[w]);
+                }
             }
         }
     }
     // Halves have more panels than the whole; wrong signs or axes would make tenths.
-    assert!(worst < 0.01, "{worst}");
+    let (worst, nm) = worst;
+    assert!(worst < 0.01, "{worst} at {nm} nm");
 }
 
 #[test]
@@ -220,13 +228,15 @@ fn frames_turn_and_bad_input_is_refused() {
     assert!(matches!(error, Err(Error::Point { .. })));
     let (none, through) = stokes(&aerial, [[1.0; 3]; 2], PolarisationFrame::SunAligned).unwrap();
     assert!(none.iter().all(|s| *s == Stokes::default()) && through.iter().all(|&t| t == 1.0));
+    let n = aerial.wavelengths().len();
+    let [mut i, mut q, mut u, mut through] = [n, n, n - 1, n].map(|n| vec![0.0; n]);
     let short = StokesSpectra {
-        i: &mut [0.0; 12],
-        q: &mut [0.0; 12],
-        u: &mut [0.0; 11],
+        i: &mut i,
+        q: &mut q,
+        u: &mut u,
     };
-    let error = aerial.in_scattering_stokes(segment[0], segment[1], axis, short, &mut [0.0; 12]);
-    assert!(matches!(error, Err(Error::Length { got: 11, .. })));
+    let error = aerial.in_scattering_stokes(segment[0], segment[1], axis, short, &mut through);
+    assert!(matches!(error, Err(Error::Length { got, .. }) if got == n as u64 - 1));
 }
 
 /// 90° from the sun a polariser across the plane of the sun takes most of the aerial perspective away, and turned by

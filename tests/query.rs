@@ -5,12 +5,17 @@ mod common;
 
 use std::path::Path;
 use std::process::Output;
+use std::sync::LazyLock;
 
 use common::command::{QUANTITIES, run};
 use common::random::Random;
 use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
 const HEADER: &str = "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,view_zenith_deg,view_azimuth_deg,distance_m,wavelength_nm";
+
+/// Of wavelengths of the embedded model, nm.
+static RANGE: LazyLock<[f64; 2]> =
+    LazyLock::new(|| Model::default_model().unwrap().wavelength_range().unwrap());
 
 fn query(arguments: &[&str], table: String) -> Output {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -57,6 +62,7 @@ impl Row {
             false => 10f64.powf(random.between(0.0, 5.5)),
         };
         let visibility = 1.0 / random.between(1.0 / 131.8, 1.0 / 20.0);
+        let [shortest, longest] = *RANGE;
         let altitude = 15e3 * random.share().powi(3);
         let numbers = [
             visibility,
@@ -66,7 +72,7 @@ impl Row {
             zenith,
             azimuth,
             distance,
-            random.between(320.0, 760.0),
+            random.between(shortest, longest),
         ];
         Self { quantity, numbers }
     }
@@ -81,7 +87,7 @@ impl Row {
             (4, 180.5, "view_zenith_deg must be in 0..=180"),
             (5, f64::INFINITY, "view_azimuth_deg must be finite"),
             (6, -1.0, "distance_m must"),
-            (7, 900.0, "wavelength must be in"),
+            (7, 2000.0, "wavelength must be in"),
         ][(random.share() * 8.0) as usize];
         self.numbers[column] = value;
         error
@@ -117,7 +123,8 @@ impl Row {
             for (light, &node) in light.iter_mut().zip(nodes) {
                 *light /= model.head().solar_irradiance_at(node) as f32;
             }
-            welkin::between_wavelengths(nodes, light, wavelength).unwrap()
+            let interpolation = model.spectral_interpolation().unwrap();
+            interpolation.between(light, wavelength).unwrap()
         };
         let own = |value: f32| (value, value.abs());
         match self.quantity {
@@ -131,11 +138,19 @@ impl Row {
             }
             "sun_radiance" => {
                 let disc = model.solar_disc(&conditions).unwrap();
-                let mut light = vec![0.0; nodes.len()];
-                disc.radiance(direction, &mut light).unwrap();
-                own(irradiance * over_sun(&mut light))
+                own(disc.radiance_at(direction, wavelength).unwrap())
             }
-            "transmittance" | "in_scattering" => {
+            "transmittance" => {
+                let air = model.transmittance(conditions.visibility).unwrap();
+                let from = [0.0, 0.0, altitude];
+                let to = std::array::from_fn(|k| from[k] + distance * unit[k]);
+                let through = match distance.is_finite() {
+                    true => air.transmittance_at(from, to, wavelength),
+                    false => air.transmittance_to_end_at(from, unit, wavelength),
+                };
+                own(through.unwrap())
+            }
+            "in_scattering" => {
                 let aerial = model.aerial_perspective(&conditions).unwrap();
                 let (mut light, mut through) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
                 let from = [0.0, 0.0, altitude];
@@ -145,10 +160,7 @@ impl Row {
                     false => aerial.to_end(from, unit, &mut light, &mut through),
                 }
                 .unwrap();
-                match self.quantity {
-                    "in_scattering" => own(irradiance * over_sun(&mut light)),
-                    _ => own(welkin::between_wavelengths(nodes, &through, wavelength).unwrap()),
-                }
+                own(irradiance * over_sun(&mut light))
             }
             _ => {
                 let frame = match self.quantity {

@@ -64,7 +64,7 @@ fn getting_started() -> welkin::Result<()> {
         altitude: 120.0,
         ..Conditions::default()
     })?;
-    let mut radiance = [0.0; 12];
+    let mut radiance = vec![0.0; sky.wavelengths().len()];
     sky.radiance([0.3, 0.1, 0.9], &mut radiance)?;
     let rgb = sky.linear_srgb([0.3, 0.1, 0.9])?;
     assert!(rgb[2] > rgb[0] && radiance.iter().all(|&r| r > 0.0));
@@ -87,7 +87,7 @@ fn which_type() -> welkin::Result<()> {
         y: &[0.1, 0.0],
         z: &[0.9, 1.0],
     };
-    let mut radiance = [0.0; 24];
+    let mut radiance = vec![0.0; directions.x.len() * sky.wavelengths().len()];
     let budget = Budget {
         altitude: [0.0, 100.0],
         visibility: [40e3, 60e3],
@@ -103,7 +103,7 @@ fn which_type() -> welkin::Result<()> {
     let disc = model.solar_disc(&conditions)?;
     let sampler = colour.sampler().with_sun(&disc);
     let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
-    let mut other = [0.0; 12];
+    let mut other = vec![0.0; query.wavelengths().len()];
     query.radiance(&conditions, [0.0, 0.0, 1.0], &mut other)?;
     assert!(other.iter().all(|&r| r > 0.0));
     let plan = model.plan(&budget)?;
@@ -156,7 +156,8 @@ fn finite_distances() -> welkin::Result<()> {
     let sky = model.sky(&conditions)?;
     let (camera, point, camera_up) = ([0.0; 3], [9e3, 1e3, 500.0], [0.0, 0.0, 1.0]);
     let points = [point, [0.0, 0.0, 2e3]];
-    let (mut in_scattering, mut transmittance) = ([0.0; 24], [0.0; 24]);
+    let n = model.wavelengths().len();
+    let [mut in_scattering, mut transmittance] = [(); 2].map(|()| vec![0.0; points.len() * n]);
 
     let aerial = model.aerial_perspective(&conditions)?;
     aerial.in_scattering_batch(camera, &points, &mut in_scattering, &mut transmittance)?;
@@ -169,7 +170,7 @@ fn finite_distances() -> welkin::Result<()> {
     assert!(light[2].through_polariser(0.0) > 0.0 && factors[0] > factors[2]);
     assert!(in_scattering.iter().chain(&transmittance).all(|&x| x > 0.0));
 
-    let (mut light, mut transmittance) = ([0.0; 12], [0.0; 12]);
+    let [mut light, mut transmittance] = [(); 2].map(|()| vec![0.0; n]);
     let mut aerial = model.aerial_perspective_query()?;
     aerial.in_scattering(&conditions, camera, point, &mut light, &mut transmittance)?;
     assert!(light.iter().chain(&transmittance).all(|&x| x > 0.0));

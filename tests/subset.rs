@@ -96,6 +96,36 @@ fn wavelengths_can_be_cut_and_colour_folded() {
 }
 
 #[test]
+fn a_range_keeps_its_part_of_a_spectrum() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = common::head_with(&[0.0, 120.0], &[20e3, 60e3], 14);
+    let chunks = common::spectrum::with_spectrum(&head, common::chunks(&head));
+    let bytes = welkin::format::encode(&head, &chunks).unwrap();
+    let source = Model::from_bytes(bytes.clone()).unwrap();
+    let [first, last] = source.wavelength_range().unwrap();
+    let (low, high) = (0.6 * first + 0.4 * last, 0.5 * (first + last));
+    let range = format!("{low}..{high}");
+    let wish = ["--wavelengths", &range];
+    report(&subset_in_time(folder.path(), &bytes, &wish));
+    let small = Model::open(folder.path().join("small.welkin")).unwrap();
+    assert!(small.has_spectrum() && small.wavelengths().len() < source.wavelengths().len());
+    let [start, end] = small.wavelength_range().unwrap();
+    assert!(first < start && start <= low && high <= end && end < last);
+    let at = |model: &Model, nm: f64| {
+        let sky = model.sky(&Conditions::default()).unwrap();
+        sky.radiance_at([0.3, 0.1, 0.4], nm).unwrap()
+    };
+    for step in 0..=50 {
+        let nm = low + (high - low) * f64::from(step) / 50.0;
+        assert_eq!(at(&small, nm), at(&source, nm), "{nm}");
+    }
+    let beyond = format!("{low}..{}", last + 1.0);
+    let output = subset_in_time(folder.path(), &bytes, &["--wavelengths", &beyond]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(error.contains("wavelengths must be a range in"), "{error}");
+}
+
+#[test]
 fn a_wider_tolerance_keeps_less_and_is_kept() {
     let folder = tempfile::tempdir().unwrap();
     let all = welkin::format::parse(&common::model_bytes()).unwrap();

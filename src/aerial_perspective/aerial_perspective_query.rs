@@ -31,7 +31,7 @@ use crate::transmittance::Segment;
 ///
 /// let model = Model::default_model()?;
 /// let mut query = model.aerial_perspective_query()?;
-/// let (mut light, mut transmittance) = ([0.0; 12], [0.0; 12]);
+/// let [mut light, mut transmittance] = [(); 2].map(|()| vec![0.0; model.wavelengths().len()]);
 /// for visibility in [30e3, 60e3, 120e3] {
 ///     let conditions = Conditions { visibility, ..Conditions::default() };
 ///     let (from, to) = ([0.0, 0.0, 2.0], [5e3, 0.0, 300.0]);

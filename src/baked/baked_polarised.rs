@@ -22,11 +22,12 @@ use crate::polarisation::{PolarisationFrame, PolarisedSky, StokesSpectra};
 ///
 /// let sky = Model::default_model()?.polarised_sky(&Conditions::default())?;
 /// let baked = sky.bake(BakedSky::TOLERANCE)?;
-/// let [mut i, mut q, mut u] = [[0.0; 12]; 3];
+/// let n = sky.sky().wavelengths().len();
+/// let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; n]);
 /// let out = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
 /// baked.stokes([-0.4, 0.0, 0.9], PolarisationFrame::SunAligned, out)?;
 /// // Across from the sun light is polarised strongly, perpendicular to the plane of view and sun.
-/// assert!(q[6] > 0.3 * i[6] && u[6].abs() < 0.01 * i[6]);
+/// assert!(q[n / 2] > 0.3 * i[n / 2] && u[n / 2].abs() < 0.01 * i[n / 2]);
 /// # Ok::<(), welkin::Error>(())
 /// ```
 #[derive(Clone, Debug)]

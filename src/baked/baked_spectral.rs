@@ -26,7 +26,7 @@ pub(super) const LANES: usize = 16;
 /// let sky = Model::default_model()?.sky(&Conditions::default())?;
 /// let baked = sky.bake(BakedSky::TOLERANCE)?;
 /// let direction = [0.3, 0.1, 0.9];
-/// let (mut fast, mut exact) = ([0.0; 12], [0.0; 12]);
+/// let [mut fast, mut exact] = [(); 2].map(|()| vec![0.0; sky.wavelengths().len()]);
 /// baked.radiance(direction, &mut fast)?;
 /// sky.radiance(direction, &mut exact)?;
 /// assert!((fast[3] / exact[3] - 1.0).abs() < 0.01);

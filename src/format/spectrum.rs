@@ -13,9 +13,10 @@ use crate::error::{Error, Result};
 ///
 /// ```
 /// use welkin::Model;
-/// use welkin::format::{Chunk, Payload, Spectrum, extend, unpack};
+/// use welkin::format::{Chunk, Payload, Spectrum, encode, unpack};
 ///
-/// let (head, _) = unpack(welkin::DEFAULT_MODEL)?;
+/// let (head, mut chunks) = unpack(welkin::DEFAULT_MODEL)?;
+/// chunks.retain(|chunk| !matches!(chunk.payload, Payload::Spectrum(_)));
 /// let (cells, last) = (2, head.wavelengths.len() - 1);
 /// let spectrum = Spectrum {
 ///     taps: 1,
@@ -28,8 +29,8 @@ use crate::error::{Error, Result};
 ///     extinction: vec![1e-5; head.visibilities.len() * head.constituents * cells], // m⁻¹
 ///     example: vec![],
 /// };
-/// let chunk = Chunk::new(None, None, Payload::Spectrum(spectrum));
-/// let model = Model::from_bytes(extend(welkin::DEFAULT_MODEL, &[chunk])?)?;
+/// chunks.push(Chunk::new(None, None, Payload::Spectrum(spectrum)));
+/// let model = Model::from_bytes(encode(&head, &chunks)?)?;
 /// assert_eq!(model.wavelength_range()?, [head.wavelengths[0], head.wavelengths[last]]);
 /// # Ok::<(), welkin::Error>(())
 /// ```

@@ -14,12 +14,13 @@ const MOST_NODES: usize = 64;
 ///
 /// let conditions = Conditions { altitude: 700.0, ..Conditions::default() };
 /// let direction = [0.3, 0.1, 0.9];
-/// let (mut lean, mut full, mut sky) = ([0.0; 12], [0.0; 12], [0.0; 12]);
+/// let model = Model::default_model()?;
+/// let [mut lean, mut full, mut sky] = [(); 3].map(|()| vec![0.0; model.wavelengths().len()]);
 /// PointQuery::new(welkin::DEFAULT_MODEL)?.radiance(&conditions, direction, &mut lean)?;
 /// PointQuery::new(welkin::DEFAULT_MODEL)?
 ///     .with_interpolation(Interpolation::Full)
 ///     .radiance(&conditions, direction, &mut full)?;
-/// Model::default_model()?.sky(&conditions)?.radiance(direction, &mut sky)?;
+/// model.sky(&conditions)?.radiance(direction, &mut sky)?;
 /// assert!((full[4] / sky[4] - 1.0).abs() < 1e-4);
 /// assert!((lean[4] / sky[4] - 1.0).abs() < 0.02);
 /// # Ok::<(), welkin::Error>(())

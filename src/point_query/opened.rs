@@ -26,7 +26,7 @@ use crate::kernel::real::Real;
 /// use welkin::{Conditions, PointQuery};
 ///
 /// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
-/// let mut radiance = [0.0; 12];
+/// let mut radiance = vec![0.0; query.wavelengths().len()];
 /// for altitude in [0.0, 500.0, 3000.0] {
 ///     let conditions = Conditions { altitude, ..Conditions::default() };
 ///     query.radiance(&conditions, [0.0, 0.0, 1.0], &mut radiance)?;

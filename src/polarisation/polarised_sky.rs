@@ -26,7 +26,7 @@ use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 /// use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 ///
 /// let sky = Model::default_model()?.polarised_sky(&Conditions::default())?;
-/// let mut out = [Stokes::default(); 12]; // W m⁻² sr⁻¹ nm⁻¹ at sky.sky().wavelengths()
+/// let mut out = vec![Stokes::default(); sky.sky().wavelengths().len()]; // W m⁻² sr⁻¹ nm⁻¹
 /// sky.stokes([0.0, 0.5, 0.9], PolarisationFrame::Vertical, &mut out)?;
 /// assert!(out.iter().all(|light| light.i > 0.0 && light.degree() < 1.0));
 /// # Ok::<(), welkin::Error>(())

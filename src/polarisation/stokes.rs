@@ -41,7 +41,7 @@ pub struct Stokes {
 /// use welkin::{Conditions, Model, PolarisationFrame, StokesSpectra};
 ///
 /// let aerial = Model::default_model()?.aerial_perspective(&Conditions::default())?;
-/// let [mut i, mut q, mut u, mut transmittance] = [[0.0; 12]; 4];
+/// let [mut i, mut q, mut u, mut transmittance] = [(); 4].map(|()| vec![0.0; aerial.wavelengths().len()]);
 /// let light = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
 /// let (from, to) = ([0.0, 0.0, 2.0], [0.0, 10e3, 2.0]);
 /// aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, light, &mut transmittance)?;

@@ -11,13 +11,13 @@ pub mod server;
 pub mod spectrum;
 
 use proptest::test_runner::{Config, RngSeed};
-use welkin::Sky;
 use welkin::axis::ElevationAxis;
 use welkin::format::{
     AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
     PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
+use welkin::{Model, Sky};
 
 pub const RANK: usize = 5;
 
@@ -47,6 +47,42 @@ pub fn radiance(sky: &Sky, direction: [f32; 3]) -> Vec<f32> {
     let mut out = vec![f32::NAN; sky.wavelengths().len()];
     sky.radiance(direction, &mut out).unwrap();
     out
+}
+
+/// The wavelength (nm) that is nearest to `nm`, by number.
+pub fn nearest(wavelengths: &[f64], nm: f64) -> usize {
+    let off = |w: usize| (wavelengths[w] - nm).abs();
+    (0..wavelengths.len())
+        .min_by(|&a, &b| off(a).total_cmp(&off(b)))
+        .expect("some wavelengths")
+}
+
+/// Four wavelengths in the range of the embedded model, nm.
+#[cfg(feature = "default-model")]
+pub fn wavelengths() -> impl proptest::strategy::Strategy<Value = [f32; 4]> {
+    let model = Model::default_model().unwrap();
+    let [shortest, longest] = model.wavelength_range().unwrap().map(|nm| nm as f32);
+    proptest::array::uniform4(shortest..=longest)
+}
+
+/// By how much rounding counts more where there is hardly any light, as in the far ultraviolet: radiance is the
+/// exponential of numbers that are as large then.
+pub fn darkness(radiance: f32) -> f32 {
+    (radiance.max(f32::MIN_POSITIVE).ln().abs() / 4.0).max(1.0)
+}
+
+/// By how much relative errors at the wavelengths of a model can grow in the light between them: the sum of
+/// |∂ ln L(λ)/∂ ln L| over the wavelengths, for the relative radiance `values`.
+pub fn growth(model: &Model, values: &[f32], wavelength: f64) -> f64 {
+    const STEP: f32 = 1.0 / 1024.0;
+    let interpolation = model.spectral_interpolation().unwrap();
+    let log = |values: &[f32]| f64::from(interpolation.between(values, wavelength).unwrap()).ln();
+    let slope = |n: usize| {
+        let mut brighter = values.to_vec();
+        brighter[n] *= 1.0 + STEP;
+        (log(&brighter) - log(values)).abs() / f64::from(STEP).ln_1p()
+    };
+    (0..values.len()).map(slope).sum()
 }
 
 /// Unit vector at an elevation and an azimuth, rad.

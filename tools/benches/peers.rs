@@ -4,6 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use std::hint::black_box;
 use welkin::{BakedSky, Conditions, Interpolation, Model, PointQuery, Sky};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::paper::{Cell, Paper};
 use welkin_tools::random::{self, Sequence, sphere};
 use welkin_tools::texture::Texture;
@@ -38,8 +39,8 @@ fn each(c: &mut Criterion, name: &str, mut ask: impl FnMut(usize)) {
     });
 }
 
-fn spectrum(sky: &Sky, direction: [f32; 3]) -> [f32; 12] {
-    let mut spectrum = [0.0; 12];
+fn spectrum(sky: &Sky, direction: [f32; 3]) -> [f32; WAVELENGTHS] {
+    let mut spectrum = [0.0; WAVELENGTHS];
     sky.radiance(direction, &mut spectrum).expect("a direction");
     spectrum
 }
@@ -51,7 +52,7 @@ fn prepared(c: &mut Criterion) {
     let baked = sky.bake(BakedSky::TOLERANCE).expect("bakes");
     let colour = sky.bake_colour(BakedSky::TOLERANCE).expect("bakes");
     let paper = Paper::fit(&model, cell()).expect("inside the model");
-    let texture = Texture::<12>::new(&sky, spectrum);
+    let texture = Texture::<WAVELENGTHS>::new(&sky, spectrum);
     let hosek = SkyState::new(&SkyParams {
         elevation: conditions.solar_elevation as f32,
         turbidity: 3.0,
@@ -60,18 +61,30 @@ fn prepared(c: &mut Criterion) {
     .expect("within the range of Hosek-Wilkie");
     let queries = queries();
     let sun = sky.sun_direction();
-    let mut out = [0.0; 12];
-    each(c, "prepared: baked, 12 wavelengths", |i| {
-        baked.radiance(queries[i].0, &mut out).expect("a direction");
-        black_box(&out);
-    });
-    each(c, "prepared: paper's scheme, 12 wavelengths", |i| {
-        paper.radiance(0, &conditions, queries[i].0, &mut out);
-        black_box(&out);
-    });
-    each(c, "prepared: texture, 12 wavelengths", |i| {
-        black_box(texture.at(queries[i].0));
-    });
+    let mut out = [0.0; WAVELENGTHS];
+    each(
+        c,
+        &format!("prepared: baked, {WAVELENGTHS} wavelengths"),
+        |i| {
+            baked.radiance(queries[i].0, &mut out).expect("a direction");
+            black_box(&out);
+        },
+    );
+    each(
+        c,
+        &format!("prepared: paper's scheme, {WAVELENGTHS} wavelengths"),
+        |i| {
+            paper.radiance(0, &conditions, queries[i].0, &mut out);
+            black_box(&out);
+        },
+    );
+    each(
+        c,
+        &format!("prepared: texture, {WAVELENGTHS} wavelengths"),
+        |i| {
+            black_box(texture.at(queries[i].0));
+        },
+    );
     each(c, "prepared: baked, RGB", |i| {
         black_box(colour.linear_srgb(queries[i].0)).expect("a direction");
     });
@@ -96,7 +109,7 @@ fn general(c: &mut Criterion) {
         .iter()
         .map(|&(_, place)| cell().inside(place))
         .collect();
-    let mut out = [0.0; 12];
+    let mut out = [0.0; WAVELENGTHS];
     for (name, interpolation) in [
         ("general: 4 chunks", Interpolation::Linear),
         ("general: 6 chunks", Interpolation::Lean),

@@ -7,3 +7,7 @@ pub mod http_file;
 pub mod paper;
 pub mod random;
 pub mod texture;
+
+/// Wavelengths of the embedded model: bytes 40 and 41 of a file.
+pub const WAVELENGTHS: usize =
+    u16::from_le_bytes([welkin::DEFAULT_MODEL[40], welkin::DEFAULT_MODEL[41]]) as usize;

@@ -58,6 +58,7 @@ fn describe(model: &Model) -> Value {
         "head_bytes": model.head_bytes(),
         "chunk_count": chunks.len(),
         "wavelengths_nm": head.wavelengths,
+        "wavelength_range_nm": model.wavelength_range().ok(),
         "altitudes_m": head.altitudes,
         "visibilities_km": head.visibilities.iter().map(|v| v / 1e3).collect::<Vec<_>>(),
         "solar_elevation_deg": model.solar_elevation_range().map(|e| rounded(e.to_degrees())),

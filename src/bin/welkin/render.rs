@@ -41,7 +41,8 @@ pub struct Options {
     /// Write the EXR with one channel per wavelength (W m⁻² sr⁻¹ nm⁻¹) instead of linear sRGB (cd m⁻²).
     #[arg(long)]
     spectral: bool,
-    /// Write the EXR with Stokes layers: S0.R … S3.B, or S0.320nm … S3.760nm with --spectral.
+    /// Write the EXR with Stokes layers: S0.R … S3.B, or with --spectral S0.550nm and the like for
+    /// each wavelength.
     #[arg(long)]
     stokes: bool,
     /// Fill what is below the horizon with the ground of the given albedo in the light of sun and sky; black if absent.

@@ -9,6 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use welkin::{BakedSky, Conditions, Directions, Interpolation, Model, PointQuery, Result, Sky};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::random::{self, Sequence, p95, sphere};
 
 const TOLERANCES: [f64; 6] = [0.02, 0.005, 0.0025, 0.0018, 0.0012, 0.0008];
@@ -16,8 +17,8 @@ const QUERIES: usize = 1024;
 /// What the marks of the chart are, and their colours.
 const KINDS: [(&str, &str); 3] = [
     ("baked, RGB (outlined: default)", "#d95f02"),
-    ("baked, 12 wavelengths", "#1b6ca8"),
-    ("12 wavelengths", "#4d9221"),
+    ("baked, all wavelengths", "#1b6ca8"),
+    ("all wavelengths", "#4d9221"),
 ];
 
 /// One point of the chart.
@@ -139,12 +140,12 @@ fn general(model: &Model, name: &'static str, interpolation: Interpolation) -> R
         .collect();
     let mut pairs = Vec::new();
     for (conditions, direction) in queries.iter().step_by(4) {
-        let [mut got, mut truth] = [[0.0; 12]; 2];
+        let [mut got, mut truth] = [[0.0; WAVELENGTHS]; 2];
         general.radiance(conditions, *direction, &mut got)?;
         model.sky(conditions)?.radiance(*direction, &mut truth)?;
         pairs.extend(got.into_iter().zip(truth));
     }
-    let mut out = [0.0; 12];
+    let mut out = [0.0; WAVELENGTHS];
     let ask = |_: &Directions| {
         queries.iter().try_for_each(|(conditions, direction)| {
             general.radiance(black_box(conditions), *direction, &mut out)

@@ -1,5 +1,6 @@
 //! `welkin subset`: a smaller file for a part of the conditions.
 
+mod cells;
 mod colour;
 mod nodes;
 mod reduce;
@@ -95,7 +96,7 @@ pub fn run(options: &Options) -> Result<()> {
         false => Quantity::Spectrum,
     };
     let samples = Samples::new(&model, &scope, SKIES, HELD_OUT);
-    let mut reducer = Reducer::new(&model, (head, chunks), wish(options, scope));
+    let mut reducer = Reducer::new(&model, (head, chunks), wish(options, scope))?;
     let (mut head, chunks, differences) = loop {
         let (head, chunks, kept) = reducer.reduce()?;
         let smaller = Model::from_bytes(encode(&head, &chunks)?)?;

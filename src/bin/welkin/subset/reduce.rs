@@ -1,8 +1,9 @@
 //! Leaves out of a model what a wish does not need.
 
 use welkin::Model;
-use welkin::format::{Chunk, Head, Payload, Selection, crop, encode};
+use welkin::format::{Chunk, Head, Payload, Selection, Spectrum, crop, encode};
 
+use super::cells;
 use super::colour::{Quadrature, check_weights};
 use super::nodes::{covers, needed};
 use super::samples::{Differences, Quantity, Samples, Scope};
@@ -37,16 +38,28 @@ pub struct Reducer<'a> {
 }
 
 impl<'a> Reducer<'a> {
-    pub fn new(model: &'a Model, (head, chunks): (Head, Vec<Chunk>), wish: Wish) -> Self {
+    pub fn new(
+        model: &'a Model,
+        (head, mut chunks): (Head, Vec<Chunk>),
+        wish: Wish,
+    ) -> Result<Self> {
+        if let Some(range) = wish.wavelengths {
+            check_wavelengths(range, model.wavelength_range()?)?;
+            for chunk in &mut chunks {
+                if let Payload::Spectrum(spectrum) = &mut chunk.payload {
+                    cells::cut(spectrum, head.constituents, range);
+                }
+            }
+        }
         let samples = Samples::new(model, &wish.scope, SKIES, 0);
-        Self {
+        Ok(Self {
             model,
             head,
             chunks,
             wish,
             samples,
             share: 1.0,
-        }
+        })
     }
 
     /// What the 99th percentile of the differences must not exceed.
@@ -88,16 +101,12 @@ impl<'a> Reducer<'a> {
         selection.altitudes = needed(&self.head.altitude_nodes(), low, high);
         selection.visibilities = needed(&self.head.visibility_nodes(), near, far);
         if let Some([low, high]) = self.wish.wavelengths {
-            // Of the nodes: what lies between cells goes with the first node that does.
-            let nodes = self.model.wavelengths();
-            let [first, last] = [nodes[0], nodes[nodes.len() - 1]];
-            if low < first || high > last || low == high {
-                let [first, last, low, high] = [first, last, low, high].map(plain);
-                let text =
-                    format!("wavelengths must be a range in {first}..{last} nm, got {low}..{high}");
-                return Err(Failure::message(text));
-            }
-            selection.wavelengths = needed(&self.head.wavelengths, low, high);
+            let nodes = &self.head.wavelengths;
+            let spectrum = self.chunks.iter().find_map(spectrum_of);
+            selection.wavelengths = match spectrum {
+                Some(spectrum) => cells::nodes(spectrum, nodes, [low, high]),
+                None => needed(nodes, low, high),
+            };
         }
         Ok(selection)
     }
@@ -201,6 +210,23 @@ impl<'a> Reducer<'a> {
             check_weights(head.xyz.as_flattened())?;
         }
         Ok((head, chunks))
+    }
+}
+
+fn check_wavelengths([low, high]: [f64; 2], [first, last]: [f64; 2]) -> Result<()> {
+    if first <= low && low < high && high <= last {
+        return Ok(());
+    }
+    let [first, last, low, high] = [first, last, low, high].map(plain);
+    Err(Failure::message(format!(
+        "wavelengths must be a range in {first}..{last} nm, got {low}..{high}"
+    )))
+}
+
+fn spectrum_of(chunk: &Chunk) -> Option<&Spectrum> {
+    match &chunk.payload {
+        Payload::Spectrum(spectrum) => Some(spectrum),
+        _ => None,
     }
 }
 

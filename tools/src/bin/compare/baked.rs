@@ -4,6 +4,7 @@ use std::hint::black_box;
 
 use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use welkin::{Directions, Result};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::paper::Paper;
 use welkin_tools::random::p95;
 use welkin_tools::texture::Texture;
@@ -139,8 +140,8 @@ fn colours(scene: &Scene, directions: &Directions) -> Result<Vec<Row>> {
 
 /// Against the least that a renderer could do.
 fn floor(scene: &Scene, error: f64) -> Result<Row> {
-    let texture = Texture::<12>::new(&scene.sky, |sky, d| {
-        let mut spectrum = [0.0; 12];
+    let texture = Texture::<WAVELENGTHS>::new(&scene.sky, |sky, d| {
+        let mut spectrum = [0.0; WAVELENGTHS];
         sky.radiance(d, &mut spectrum)
             .expect("a direction and the model's wavelengths");
         spectrum

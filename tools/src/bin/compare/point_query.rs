@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use welkin::{Interpolation, PointQuery, Result};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::paper::Paper;
 use welkin_tools::random::{self, Sequence};
 
@@ -34,7 +35,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
         let error = scene.error_in(&anywhere, |i, d, out| {
             general.radiance(&anywhere[i], d, out)
         })?;
-        let [mut out, mut peer_out] = [[0.0; 12]; 2];
+        let [mut out, mut peer_out] = [[0.0; WAVELENGTHS]; 2];
         let ours = |round| {
             let mut ask =
                 |i: usize| general.radiance(black_box(&anywhere[i]), scene.directions[i], &mut out);

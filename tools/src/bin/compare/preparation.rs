@@ -3,6 +3,7 @@
 use std::hint::black_box;
 
 use welkin::{BakedSky, Model, Result, Sky};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::texture::Texture;
 
 use crate::clock;
@@ -23,7 +24,7 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     let fresh = |_| -> Result<()> {
         let model = Model::default_model()?;
         let sky = model.sky(&scene.conditions)?.bake(BakedSky::TOLERANCE)?;
-        black_box(sky.radiance([0.0, 0.0, 1.0], &mut [0.0; 12]))
+        black_box(sky.radiance([0.0, 0.0, 1.0], &mut [0.0; WAVELENGTHS]))
     };
     let colour = |_| -> Result<()> {
         let model = Model::default_model()?;

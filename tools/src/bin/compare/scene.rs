@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::ops::Range;
 
 use welkin::{BakedColourSky, BakedSky, Conditions, Directions, Model, Result, Sky};
+use welkin_tools::WAVELENGTHS;
 use welkin_tools::paper::Cell;
 use welkin_tools::random::{Sequence, p95, sphere};
 
@@ -99,7 +100,7 @@ impl Scene {
         mut ask: impl FnMut(usize, [f32; 3], &mut [f32]) -> Result<()>,
     ) -> Result<f64> {
         let mut pairs = Vec::new();
-        let [mut got, mut truth] = [[0.0; 12]; 2];
+        let [mut got, mut truth] = [[0.0; WAVELENGTHS]; 2];
         for i in (0..QUERIES).step_by(41) {
             let direction = self.directions[i];
             ask(i, direction, &mut got)?;

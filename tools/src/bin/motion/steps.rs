@@ -5,7 +5,9 @@ use welkin::{
     PolarisedSky, Result, Sky, StokesSpectra,
 };
 
-const WAVELENGTHS: usize = 12;
+/// Of the embedded model: bytes 40 and 41 of a file.
+const WAVELENGTHS: usize =
+    u16::from_le_bytes([welkin::DEFAULT_MODEL[40], welkin::DEFAULT_MODEL[41]]) as usize;
 /// Wavelengths of a path, between those of the model.
 const HERO: [f32; 4] = [333.0, 450.0, 555.5, 741.0];
 
