@@ -5,11 +5,12 @@ use anyhow::{Context, Result};
 use clap::Subcommand;
 use std::path::PathBuf;
 use welkin::Model;
+use welkin::output::replace_file;
 use welkin_fitter::dataset::Store;
-use welkin_fitter::spectrum::g173;
 use welkin_fitter::spectrum::judge::{bands, csv, judge, summary};
 use welkin_fitter::spectrum::walk::Walk;
 use welkin_fitter::spectrum::{Lesson, held_out_table, lesson, quantiles};
+use welkin_fitter::spectrum::{draw, g173};
 use welkin_fitter::successive_orders::NW;
 
 /// Learns what lies between the nodes, or judges a model there.
@@ -33,12 +34,18 @@ enum Action {
         /// Where to stop.
         #[arg(long, default_value_t = 10)]
         fewest: usize,
+        /// Where a chart goes.
+        #[arg(long)]
+        svg: Option<PathBuf>,
     },
     /// Compare direct and global irradiance with ASTM G173 in bands of 40 nm, 300..2500 nm; prints CSV.
     G173 {
         /// Folder for finished work units.
         #[arg(long, default_value = "work")]
         work: PathBuf,
+        /// Where a chart goes.
+        #[arg(long)]
+        svg: Option<PathBuf>,
     },
     /// Walk over wavelengths with the solver and compare a model: radiance, polarisation, colour, light and
     /// transmittance of segments; quantiles as CSV.
@@ -103,41 +110,68 @@ pub fn run(args: &Args) -> Result<()> {
                 held_out_table(&lesson(&plan.plan()?, &plan.work)?.errors(&all))
             );
         }
-        Action::Nodes { plan, fewest } => {
-            let lesson = lesson(&plan.plan()?, &plan.work)?;
-            print!("{}", fewer_nodes(&lesson, *fewest));
+        Action::Nodes { plan, fewest, svg } => {
+            let rows = fewer_nodes(&lesson(&plan.plan()?, &plan.work)?, *fewest);
+            print!("{}", table(&rows));
+            if let Some(path) = svg {
+                replace_file(path, draw::nodes(&lines(&rows))?.as_bytes())?;
+            }
         }
-        Action::G173 { work } => {
-            let store = Store::open(work, "g173 1")?;
-            print!("{}", g173::csv(&g173::compare(&store)?));
+        Action::G173 { work, svg } => {
+            let bands = g173::compare(&Store::open(work, "g173 1")?)?;
+            print!("{}", g173::csv(&bands));
+            if let Some(path) = svg {
+                replace_file(path, draw::g173(&bands)?.as_bytes())?;
+            }
         }
         Action::Judge(args) => return args.run(),
     }
     Ok(())
 }
 
-/// Quantiles of held-out errors for fewer and fewer nodes.
-fn fewer_nodes(lesson: &Lesson, fewest: usize) -> String {
-    let mut out = String::from(
-        "nodes,from_nm,to_nm,day_median,day_p95,day_p99,twilight_median,twilight_p95,twilight_p99\n",
-    );
+/// Ranges of wavelengths (nm) that are told apart.
+const RANGES: [[f64; 2]; 4] = [
+    [300.0, 345.0],
+    [345.0, 680.0],
+    [680.0, 760.1],
+    [760.1, 1101.0],
+];
+
+/// Number of nodes, and quantiles of held-out errors in each of the ranges.
+type Row = (usize, [[f64; 6]; RANGES.len()]);
+
+/// Fewer and fewer nodes.
+fn fewer_nodes(lesson: &Lesson, fewest: usize) -> Vec<Row> {
+    let mut rows = vec![];
     let mut nodes: Vec<usize> = (0..NW).collect();
     loop {
         let errors = lesson.errors(&nodes);
-        for [from, to] in [
-            [300.0, 345.0],
-            [345.0, 680.0],
-            [680.0, 760.1],
-            [760.1, 1101.0],
-        ] {
-            let cells = quantiles(&errors, [from, to]).map(|v| format!("{v:.5}"));
-            out += &format!("{},{from},{to},{}\n", nodes.len(), cells.join(","));
-        }
+        rows.push((nodes.len(), RANGES.map(|range| quantiles(&errors, range))));
         if nodes.len() <= fewest.max(2) {
-            return out;
+            return rows;
         }
         nodes = lesson.without_least(&nodes);
     }
+}
+
+fn table(rows: &[Row]) -> String {
+    let names = RANGES.map(|[from, to]| format!("{from:.0}..{to:.0} nm: day p95,… twilight p95"));
+    let mut out = format!("nodes,{}\n", names.join(","));
+    for (count, ranges) in rows {
+        let cells = ranges.map(|[_, day, _, _, twilight, _]| {
+            format!("{:.2} %,{:.2} %", 100.0 * day, 100.0 * twilight)
+        });
+        out += &format!("{count},{}\n", cells.join(","));
+    }
+    out
+}
+
+fn lines(rows: &[Row]) -> Vec<draw::Line> {
+    let line = |(r, [from, to]): (usize, [f64; 2])| {
+        let points = rows.iter().map(|row| (row.0 as f64, 100.0 * row.1[r][1]));
+        (format!("{from:.0}..{to:.0} nm"), points.collect())
+    };
+    RANGES.into_iter().enumerate().map(line).collect()
 }
 
 impl JudgeArgs {

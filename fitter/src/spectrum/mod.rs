@@ -4,6 +4,7 @@
 
 pub mod cells;
 pub mod colour;
+pub mod draw;
 pub mod g173;
 pub mod judge;
 pub mod learned;
