@@ -12,6 +12,7 @@ use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
 use welkin_fitter::fitting::Fitting;
 use welkin_fitter::polarimetry;
+use welkin_fitter::spectrum::training::Training;
 use welkin_fitter::successive_orders::scattered_source::Sun;
 use welkin_fitter::successive_orders::{NW, Settings};
 use welkin_fitter::units::{HeldOut, Plan};
@@ -52,6 +53,7 @@ fn plan() -> Plan {
             views: 60,
             suns: 12,
         },
+        training: Training::draft(),
         ..Plan::default()
     }
 }
@@ -75,6 +77,7 @@ fn built() -> &'static Built {
             options: options(48, 150),
             refinements: 0,
             polarisation: options(24, 150),
+            ..Fitting::default()
         };
         println!(
             "{}",
@@ -113,7 +116,8 @@ struct Plane {
     sun: f64,
 }
 
-const WAVELENGTH: usize = 3;
+/// The node at 430 nm.
+const WAVELENGTH: usize = 9;
 
 impl Plane {
     fn new(visibility: f64, sun: f64) -> Self {

@@ -224,8 +224,8 @@ fn diffuse(gatherer: &Gatherer) -> (Sum, Sum, Sum) {
                 }
                 let light = radiance(v);
                 let near = angle < CIRCUMSOLAR.to_radians();
-                for w in 0..NW {
-                    let l = f64::from(light[w]) * solid;
+                for (w, l) in light.into_iter().enumerate() {
+                    let l = f64::from(l) * solid;
                     out.0[w] += l * dot(v, tilt).max(0.0);
                     out.1[w] += if near { l * angle.cos() } else { 0.0 };
                     out.2[w] += l * v[2];

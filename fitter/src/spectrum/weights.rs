@@ -216,7 +216,7 @@ mod tests {
     fn a_term_of_a_gas_takes_nodes_of_that_gas() {
         let nodes = [
             Monochromatic::beside_lines(700.0),
-            Monochromatic::oxygen(762.0, 0.1),
+            Monochromatic::mixed(762.0, 0.1),
             Monochromatic::vapour(820.0, 0.1),
             Monochromatic::vapour(940.0, 1.0),
             Monochromatic::vapour(941.0, 5.0),
