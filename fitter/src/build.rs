@@ -41,11 +41,13 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let fit = fit_all(plan, fitting, &store, &chunks)?;
     let polarisation = fit_polarisation(plan, fitting, &store, &solved, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
-    let spectrum = spectrum::pack(plan, work, &solved)?;
     let (mut head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
-    head.xyz = spectrum.xyz;
-    let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
-    file.insert(1, spectrum);
+    if !plan.training.visibilities.is_empty() {
+        let spectrum = spectrum::pack(plan, work, &solved)?;
+        head.xyz = spectrum.xyz;
+        let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
+        file.insert(1, spectrum);
+    }
     check_rounding(plan, &chunks, &places, &fit, &file)?;
     file.extend(finite::chunks(&solved)?);
     file.extend(polarisation);

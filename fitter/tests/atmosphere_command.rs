@@ -91,8 +91,8 @@ fn a_trapezium_rule_over_the_file_gives_the_vertical_optical_depth() {
     let species = file["species"].as_array().unwrap();
     assert_eq!(
         species.len(),
-        9,
-        "air, cold and warm ozone, three particles in two layers"
+        11,
+        "air, ozone at three temperatures, water, three particles in two layers"
     );
     for w in 0..WAVELENGTHS.len() {
         let column = |species: &Value| -> f64 {

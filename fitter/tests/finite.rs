@@ -43,6 +43,9 @@ fn head(air: &Atmosphere) -> Head {
         .flat_map(|c| c.extinction.clone())
         .collect();
     head.spherical_albedo = vec![0.0; nw];
+    head.solar_start = air.wavelengths[0];
+    head.solar_step = air.wavelengths[nw - 1] - air.wavelengths[0];
+    head.solar_irradiance = vec![1.0; 2];
     head.xyz = vec![[0.0; 3]; nw];
     head.fields
         .iter_mut()

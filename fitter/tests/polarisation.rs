@@ -53,7 +53,7 @@ fn plan() -> Plan {
             views: 60,
             suns: 12,
         },
-        training: Training::draft(),
+        training: Training::none(),
         ..Plan::default()
     }
 }
@@ -74,9 +74,9 @@ fn built() -> &'static Built {
             seed: 1,
         };
         let fitting = Fitting {
-            options: options(48, 150),
+            options: options(64, 150),
             refinements: 0,
-            polarisation: options(24, 150),
+            polarisation: options(32, 150),
             ..Fitting::default()
         };
         println!(

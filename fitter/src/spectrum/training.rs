@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 /// How spectra are traced.
 #[derive(Clone, Debug)]
 pub struct Training {
-    /// Visibilities, m.
+    /// Visibilities, m. Without any, a model has neither a spectrum nor colours.
     pub visibilities: Vec<f64>,
     /// Altitudes of the observers, m.
     pub altitudes: Vec<f64>,
@@ -41,6 +41,14 @@ impl Default for Training {
 }
 
 impl Training {
+    /// Nothing is learned.
+    pub fn none() -> Self {
+        Self {
+            visibilities: vec![],
+            ..Self::draft()
+        }
+    }
+
     /// Coarse, to try things with.
     pub fn draft() -> Self {
         Self {

@@ -89,7 +89,7 @@ impl Constituent {
         Ok(species)
     }
 
-    /// Extinction by no scatterer, per wavelength; none where it is nothing or rounding.
+    /// Extinction by no scatterer, per wavelength; none where it is rounding.
     fn rest(&self) -> Option<Vec<f64>> {
         let scatterers =
             |w: usize| -> f64 { self.scatterers.iter().map(|s| s.extinction[w]).sum() };
@@ -101,7 +101,7 @@ impl Constituent {
             })
             .collect();
         let absorbs = rest.iter().any(|&e| e != 0.0);
-        absorbs.then_some(rest)
+        (absorbs || self.scatterers.is_empty()).then_some(rest)
     }
 
     fn profiles(&self, coefficients: &[f64]) -> Profiles {
