@@ -2,13 +2,14 @@
 
 use crate::assess::{self, Error, Quantiles};
 use crate::dataset::{Sample, Store};
-use crate::decompose::{self, Chunk, Fit, chunk_geometry};
+use crate::decompose::{self, Chunk, Fit, Options, chunk_geometry};
 use crate::finite;
 use crate::fitting::Fitting;
 use crate::pack::{self, AirTables, PackedBasis};
 use crate::progress::bar;
 use crate::report;
 use crate::round_trip;
+use crate::spectrum;
 use crate::successive_orders::{FIELDS, NW};
 use crate::units::{Plan, Solved};
 use crate::{polarimetry, polarise};
@@ -40,7 +41,13 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let fit = fit_all(plan, fitting, &store, &chunks)?;
     let polarisation = fit_polarisation(plan, fitting, &store, &solved, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
-    let (head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
+    let (mut head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
+    if !plan.training.visibilities.is_empty() {
+        let spectrum = spectrum::pack(plan, work, &solved)?;
+        head.xyz = spectrum.xyz;
+        let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
+        file.insert(1, spectrum);
+    }
     check_rounding(plan, &chunks, &places, &fit, &file)?;
     file.extend(finite::chunks(&solved)?);
     file.extend(polarisation);
@@ -120,51 +127,59 @@ pub(crate) fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result
     Ok(out)
 }
 
+/// Fits each group of nodes by components of its own and joins them.
 pub(crate) fn fit_all(
     plan: &Plan,
     fitting: Fitting,
     store: &Store,
     chunks: &[Chunk],
 ) -> Result<Fit> {
-    let rank = fitting.options.rank;
-    let nodes = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
+    let [plain, strong] = plan.coverage.groups();
+    let fit = fit_group(plan, (&plain, fitting.options), fitting, store, chunks)?;
+    if strong.is_empty() {
+        return Ok(fit);
+    }
+    let other = fit_group(plan, (&strong, fitting.strong()), fitting, store, chunks)?;
+    Ok(fit.join(&other))
+}
+
+fn fit_group(
+    plan: &Plan,
+    (nodes, options): (&[usize], Options),
+    fitting: Fitting,
+    store: &Store,
+    chunks: &[Chunk],
+) -> Result<Fit> {
+    let grid = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
     let name = |what: &str, settings: String| {
-        let key = crc32fast::hash(format!("{settings} {nodes}").as_bytes());
-        format!("{what}-{rank}-{key:08x}")
+        let key = crc32fast::hash(format!("{settings} {grid} {nodes:?}").as_bytes());
+        format!("{what}-{}-{key:08x}", options.rank)
     };
     let read = |values: Vec<f32>| {
-        let fit = Fit::from_values(&values, &plan.grid, rank, chunks.len(), FIELDS * NW);
+        let fit = Fit::from_values(&values, &plan.grid, options.rank, chunks.len(), FIELDS * NW);
         fit.context("a fit of another size")
     };
     let first = || -> Result<Vec<f32>> {
-        let progress = bar(fitting.options.sweeps, "decomposing");
+        let progress = bar(options.sweeps, "decomposing");
         let tell = |sweep: usize, rms: f64| {
             progress.set_position(sweep as u64 + 1);
             progress.set_message(format!("decomposing, rms {:.3} %", 100.0 * rms));
         };
-        let fit = decompose::decompose_all(chunks, fitting.options, &tell);
+        let fit = decompose::decompose_all(chunks, nodes, options, &tell);
         progress.finish();
         Ok(fit.to_values())
     };
-    let values = store.unit(
-        &name("decomposition", format!("{:?}", fitting.options)),
-        first,
-    )?;
+    let values = store.unit(&name("decomposition", format!("{options:?}")), first)?;
     let refine = || -> Result<Vec<f32>> {
         let mut fit = read(values)?;
         let progress = bar(fitting.refinements, "refining");
-        decompose::refine_all(chunks, &mut fit, fitting.refinements, &|sweep| {
+        decompose::refine_all(chunks, nodes, &mut fit, fitting.refinements, &|sweep| {
             progress.set_position(sweep as u64);
         });
         progress.finish();
         Ok(fit.to_values())
     };
-    let Fitting {
-        options,
-        refinements,
-        ..
-    } = fitting;
-    let settings = format!("Fitting {{ options: {options:?}, refinements: {refinements} }}");
+    let settings = format!("{options:?} {}", fitting.refinements);
     read(store.unit(&name("refinement", settings), refine)?)
 }
 
@@ -180,7 +195,14 @@ fn fit_polarisation(
         return Ok(vec![]);
     }
     let places: Vec<polarise::Place> = places.iter().map(|p| (p.altitude, p.visibility)).collect();
-    let fit = polarise::fit(plan, fitting.polarisation, store, solved, chunks, &places)?;
+    let [plain, strong] = plan.coverage.groups();
+    let group = |nodes: &[usize], options: Options| {
+        polarise::fit(plan, (nodes, options), store, solved, chunks, &places)
+    };
+    let mut fit = group(&plain, fitting.polarisation)?;
+    if !strong.is_empty() {
+        fit = fit.join(&group(&strong, fitting.strong_polarisation())?);
+    }
     Ok(polarise::file_chunks(plan, &fit, &places))
 }
 
@@ -274,7 +296,12 @@ pub(crate) fn radiance_file(
 ) -> Result<(Head, Vec<format::Chunk>)> {
     let air = |s: &Solved| AirTables::new(&s.medium, s.light.spherical_albedo);
     let airs: Vec<AirTables> = solved.iter().map(air).collect();
-    let head = pack::head(&plan.grid, &airs, &solved[0].gatherer(), "{}".into())?;
+    let head = pack::head(
+        (&plan.grid, &plan.coverage),
+        &airs,
+        &solved[0].gatherer(),
+        "{}".into(),
+    )?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let medium = &solved[0].medium;
     let planet = crate::column::planet(&medium.atmosphere);

@@ -240,7 +240,7 @@ mod tests {
             let exact = integrator.along(h, (angle - dip).sin(), length);
             let tabled = table.at(h, angle, dip);
             let tau = |c: &dyn Fn(usize) -> f64| {
-                (0..4)
+                (0..air.constituents.len())
                     .map(|k| c(k) * air.constituents[k].extinction[0])
                     .sum::<f64>()
             };

@@ -11,6 +11,25 @@ pub struct Fitting {
     pub refinements: usize,
     /// The same for the polarisation; without components there is none.
     pub polarisation: Options,
+    /// Components more for nodes that gases absorb strongly, per component of the others.
+    pub strong: f64,
+}
+
+impl Fitting {
+    /// For nodes that gases absorb strongly.
+    pub fn strong(&self) -> Options {
+        self.share(self.options)
+    }
+
+    /// The same for the polarisation.
+    pub fn strong_polarisation(&self) -> Options {
+        self.share(self.polarisation)
+    }
+
+    fn share(&self, options: Options) -> Options {
+        let rank = (self.strong * options.rank as f64).ceil() as usize;
+        Options { rank, ..options }
+    }
 }
 
 impl Default for Fitting {
@@ -18,15 +37,16 @@ impl Default for Fitting {
         Self {
             options: Options {
                 rank: 160,
-                sweeps: 150,
+                sweeps: 250,
                 seed: 1,
             },
-            refinements: 12,
+            refinements: 24,
             polarisation: Options {
                 rank: 48,
                 sweeps: 400,
                 seed: 1,
             },
+            strong: 0.25,
         }
     }
 }

@@ -26,6 +26,8 @@ enum Command {
     Finite(command::finite::Args),
     /// Compare traced data with the unbiased tracer.
     CrossCheck(command::cross_check::Args),
+    /// Learn what lies between the wavelength nodes, and judge a model there.
+    Spectrum(command::spectrum::Args),
     /// List, do and describe the work units of a model, on one machine or many.
     Units(command::units::Args),
     /// Compute the radiance of lines of sight through an atmosphere.
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         Command::Chart(args) => command::chart::run(&args),
         Command::Finite(args) => command::finite::run(&args),
         Command::CrossCheck(args) => command::cross_check::run(&args),
+        Command::Spectrum(args) => command::spectrum::run(&args),
         Command::Units(args) => command::units::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Atmosphere(args) => command::atmosphere::run(&args),

@@ -1,19 +1,15 @@
 //! What goes into a model file: the head with axes, optics and colour, and the factor matrices as splines.
 
 use crate::atmosphere::table::Table;
-use crate::dataset::{Grid, WAVELENGTHS};
+use crate::dataset::{Coverage, Grid};
 use crate::decompose::{Basis, Chunk, Own, row_major, splines};
 use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
 use faer::Mat;
-use welkin::axis::hermite;
 use welkin::format::{
     AlphaAxis, Field, Head, PhaseFunction, PolarisationBasis, PolarisationFactors, RadianceBasis,
     RadianceFactors,
 };
-
-/// Luminous efficacy in the definition of XYZ, lm/W.
-const EFFICACY: f64 = 683.0;
 
 /// What a visibility contributes to the head.
 pub struct AirTables {
@@ -34,9 +30,10 @@ impl AirTables {
     }
 }
 
-/// Assembles the head. `airs` has one entry per visibility of the grid; `gatherer` gives the phase functions.
+/// Assembles the head, without colour. `airs` has one entry per visibility of the grid; `gatherer` gives the phase
+/// functions.
 pub fn head(
-    grid: &Grid,
+    (grid, coverage): (&Grid, &Coverage),
     airs: &[AirTables],
     gatherer: &Gatherer,
     metadata: String,
@@ -46,8 +43,8 @@ pub fn head(
         include_str!("../data/solar_irradiance_1nm.csv"),
     )?;
     let sun = solar.curve("wavelength_nm", "g173")?;
-    let first = WAVELENGTHS[0];
-    let samples = (WAVELENGTHS[NW - 1] - first) as usize + 1;
+    let [first, last] = coverage.range();
+    let samples = (last - first) as usize + 1;
     let wide = |s: &Spectrum| s.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
     Ok(Head {
         planet: gatherer.planet(),
@@ -61,7 +58,7 @@ pub fn head(
         },
         phi_intervals: grid.phi.intervals,
         elevation: grid.elevation,
-        wavelengths: WAVELENGTHS.to_vec(),
+        wavelengths: coverage.wavelengths().to_vec(),
         altitudes: grid.altitudes.clone(),
         visibilities: grid.visibilities.clone(),
         constituents: airs[0].extinction.len(),
@@ -73,7 +70,8 @@ pub fn head(
             .iter()
             .flat_map(|air| wide(&air.spherical_albedo))
             .collect(),
-        xyz: xyz(&|nm| sun.at(nm))?,
+        // For whoever knows better.
+        xyz: vec![[0.0; 3]; NW],
         solar_start: first,
         solar_step: 1.0,
         solar_irradiance: (0..samples)
@@ -107,30 +105,6 @@ fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Fiel
         field(PhaseFunction::None, false, vec![0.0; NW]),
         field(PhaseFunction::None, true, vec![0.0; NW]),
     ]
-}
-
-/// XYZ per unit of relative radiance at each wavelength node: sunlight times colour matching functions times the
-/// interpolation weight of the node, over the range of the model.
-fn xyz(irradiance: &dyn Fn(f64) -> f64) -> Result<Vec<[f64; 3]>> {
-    let observer = Table::parse(
-        "cie1931_2deg_1nm.csv",
-        include_str!("../data/cie1931_2deg_1nm.csv"),
-    )?;
-    let matching = [
-        observer.curve("wavelength_nm", "xbar")?,
-        observer.curve("wavelength_nm", "ybar")?,
-        observer.curve("wavelength_nm", "zbar")?,
-    ];
-    let mut out = vec![[0.0; 3]; NW];
-    for nm in 360..=WAVELENGTHS[NW - 1] as usize {
-        let nm = nm as f64;
-        for (k, weight) in hermite(&WAVELENGTHS, nm).taps() {
-            for (sum, curve) in out[k].iter_mut().zip(&matching) {
-                *sum += EFFICACY * irradiance(nm) * curve.at(nm) * weight;
-            }
-        }
-    }
-    Ok(out)
 }
 
 /// The shared factor matrices as splines, every column scaled to a largest magnitude of 1; the scales go into the

@@ -14,26 +14,26 @@ use welkin::format::{self, Payload};
 /// Altitude and visibility of a chunk.
 pub type Place = (usize, usize);
 
-/// Fits the polarisation of all chunks, which stand at `places`, together.
+/// Fits the polarisation of all chunks, which stand at `places`, together, at some nodes.
 pub fn fit(
     plan: &Plan,
-    options: Options,
+    (nodes, options): (&[usize], Options),
     store: &Store,
     solved: &[Solved],
     chunks: &[Chunk],
     places: &[Place],
 ) -> Result<Fit> {
-    let nodes = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
-    let key = crc32fast::hash(format!("{options:?} {nodes}").as_bytes());
+    let grid = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
+    let key = crc32fast::hash(format!("{options:?} {grid} {nodes:?}").as_bytes());
     let name = format!("polarisation-{}-{key:08x}", options.rank);
     let values = store.unit(&name, || {
-        let compressed = compress_all(plan, store, solved, chunks, places)?;
+        let compressed = compress_all(plan, store, solved, (chunks, nodes), places)?;
         let progress = bar(options.sweeps, "decomposing polarisation");
         let tell = |sweep: usize, rms: f64| {
             progress.set_position(sweep as u64 + 1);
             progress.set_message(format!("polarisation, rms {:.3} %", 100.0 * rms));
         };
-        let fit = decompose_all(compressed, options, &tell);
+        let fit = decompose_all(compressed, nodes, options, &tell);
         progress.finish();
         Ok(fit.to_values())
     })?;
@@ -46,7 +46,7 @@ fn compress_all(
     plan: &Plan,
     store: &Store,
     solved: &[Solved],
-    chunks: &[Chunk],
+    (chunks, nodes): (&[Chunk], &[usize]),
     places: &[Place],
 ) -> Result<Vec<PolarisedChunk>> {
     let progress = bar(chunks.len(), "compressing polarisation");
@@ -55,7 +55,11 @@ fn compress_all(
         let gatherer = solved[v].gatherer();
         progress.inc(1);
         Ok(PolarisedChunk::new(
-            &tensor, chunk, &gatherer, &plan.grid, a,
+            &tensor,
+            (chunk, nodes),
+            &gatherer,
+            &plan.grid,
+            a,
         ))
     };
     let out = chunks.par_iter().zip(places).map(compress).collect();

@@ -64,8 +64,9 @@ pub fn metadata(
         "title": "Clear sky of the US standard atmosphere with OPAC continental aerosol",
         "generator": concat!("welkin-fit ", env!("CARGO_PKG_VERSION")),
         "atmosphere": {
-            "air": "AFGL US standard 1986; Rayleigh scattering: Bodhaine et al. 1999; ozone: Gorshelev et al. 2014, 223 K",
+            "air": "AFGL US standard 1986; Rayleigh scattering: Bodhaine et al. 1999; ozone: Gorshelev et al. 2014, 223 to 293 K; absorption bands: Bird & Riordan 1984",
             "aerosol": "OPAC water-soluble (50 % humidity), insoluble, soot (Hess et al. 1998), Henyey-Greenstein",
+            "precipitable_water_cm": 1.42,
             "sun": "ASTM G173-03 extraterrestrial",
             "planet_radius_m": head.planet.radius,
         },

@@ -12,6 +12,7 @@ use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
 use welkin_fitter::fitting::Fitting;
 use welkin_fitter::polarimetry;
+use welkin_fitter::spectrum::training::Training;
 use welkin_fitter::successive_orders::scattered_source::Sun;
 use welkin_fitter::successive_orders::{NW, Settings};
 use welkin_fitter::units::{HeldOut, Plan};
@@ -52,6 +53,7 @@ fn plan() -> Plan {
             views: 60,
             suns: 12,
         },
+        training: Training::none(),
         ..Plan::default()
     }
 }
@@ -72,9 +74,10 @@ fn built() -> &'static Built {
             seed: 1,
         };
         let fitting = Fitting {
-            options: options(48, 150),
+            options: options(64, 150),
             refinements: 0,
-            polarisation: options(24, 150),
+            polarisation: options(32, 150),
+            ..Fitting::default()
         };
         println!(
             "{}",
@@ -113,7 +116,8 @@ struct Plane {
     sun: f64,
 }
 
-const WAVELENGTH: usize = 3;
+/// The node at 430 nm.
+const WAVELENGTH: usize = 9;
 
 impl Plane {
     fn new(visibility: f64, sun: f64) -> Self {
@@ -205,7 +209,9 @@ fn neutral_points_stand_where_the_air_has_them() {
         if sun < 10.0 {
             let from_antisun = 180.0 - arago.expect("Arago's point");
             assert!((15.0..30.0).contains(&from_antisun), "{from_antisun}");
-            assert_eq!(brewster, None, "below the horizon");
+            // Haze lifts one over the horizon, in the model and as traced.
+            let lifted = visibility == HAZY && brewster.is_some_and(|b| sun + b < 2.0);
+            assert!(brewster.is_none() || lifted, "below the horizon");
         } else {
             assert_eq!(arago, None, "below the horizon");
             assert!(brewster.is_some());

@@ -4,6 +4,9 @@
 #[path = "../../fitter/src/atmosphere/mod.rs"]
 #[allow(dead_code)]
 mod atmosphere;
+#[path = "../../fitter/src/non_negative.rs"]
+#[allow(dead_code)]
+mod non_negative;
 
 use libfuzzer_sys::fuzz_target;
 

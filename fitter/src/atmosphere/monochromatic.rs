@@ -21,8 +21,8 @@ impl Monochromatic {
         }
     }
 
-    /// Light that oxygen absorbs: `depth` of all air above the ground.
-    pub const fn oxygen(wavelength: f64, depth: f64) -> Self {
+    /// Light that the uniformly mixed gases absorb: `depth` of all air above the ground.
+    pub const fn mixed(wavelength: f64, depth: f64) -> Self {
         Self {
             wavelength,
             water: 0.0,

@@ -106,13 +106,10 @@ fn altitude_nodes() -> Vec<f64> {
 
 fn gases(altitudes: &[f64], lights: &[Monochromatic]) -> Result<Vec<Constituent>> {
     let profile = table!("atm_afgl_us_standard.csv")?;
-    let [cold, warm] = ozone(&profile, altitudes, lights)?;
-    Ok(vec![
-        air(&profile, altitudes, lights)?,
-        cold,
-        warm,
-        water(&profile, altitudes, lights)?,
-    ])
+    let mut out = vec![air(&profile, altitudes, lights)?];
+    out.extend(ozone(&profile, altitudes, lights)?);
+    out.push(water(&profile, altitudes, lights)?);
+    Ok(out)
 }
 
 /// Rayleigh scattering, and absorption by the uniformly mixed gases.
@@ -149,36 +146,38 @@ fn air(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<C
     })
 }
 
-/// Temperatures between which the absorption of ozone is linear, K.
-const OZONE_COLD: f64 = 223.0;
-const OZONE_WARM: f64 = 293.0;
+/// Temperatures between which the absorption of ozone is linear, K: those of the table.
+const OZONE: [f64; 3] = [223.0, 243.0, 293.0];
 
-/// Ozone as a mixture of a cold and a warm one, so that each has one cross section.
-fn ozone(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<[Constituent; 2]> {
+/// Ozone as a mixture of three, each with the cross section at one temperature.
+fn ozone(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<[Constituent; 3]> {
     let cross_sections = table!("o3_xsec_1nm.csv")?;
     let temperature = profile.curve("z_km", "T_K")?;
     let (ozone, scale) = density(&profile.curve("z_km", "n_o3")?, altitudes);
-    let warmth = |z: &f64| {
-        let t = temperature.at(z / 1000.0);
-        ((t - OZONE_COLD) / (OZONE_WARM - OZONE_COLD)).clamp(0.0, 1.0)
-    };
-    let part = |name: &str, kelvin: &str, share: &dyn Fn(f64) -> f64| -> Result<Constituent> {
-        let absorption = cross_sections.curve("wavelength_nm", &format!("sigma_{kelvin}"))?;
+    let part = |i: usize| -> Result<Constituent> {
+        let kelvin = OZONE[i];
+        let absorption = cross_sections.curve("wavelength_nm", &format!("sigma_{kelvin}K"))?;
         let densities = altitudes.iter().zip(&ozone);
+        let share = |z: &f64| shares(temperature.at(z / 1000.0))[i];
+        let depth = |l: &Monochromatic| absorption.at(l.wavelength) * scale;
         Ok(Constituent {
-            name: name.into(),
-            profile: densities.map(|(z, n)| n * share(warmth(z))).collect(),
-            extinction: lights
-                .iter()
-                .map(|l| absorption.at(l.wavelength) * scale)
-                .collect(),
+            name: format!("ozone at {kelvin} K"),
+            profile: densities.map(|(z, n)| n * share(z)).collect(),
+            extinction: lights.iter().map(depth).collect(),
             scatterers: vec![],
         })
     };
-    Ok([
-        part("cold ozone", "223K", &|warmth| 1.0 - warmth)?,
-        part("warm ozone", "293K", &|warmth| warmth)?,
-    ])
+    Ok([part(0)?, part(1)?, part(2)?])
+}
+
+/// How much of each temperature makes another, K.
+fn shares(temperature: f64) -> [f64; 3] {
+    let t = temperature.clamp(OZONE[0], OZONE[2]);
+    let upper = if t < OZONE[1] { 1 } else { 2 };
+    let share = (t - OZONE[upper - 1]) / (OZONE[upper] - OZONE[upper - 1]);
+    let mut out = [0.0; 3];
+    (out[upper - 1], out[upper]) = (1.0 - share, share);
+    out
 }
 
 /// Absorption by water vapour.
@@ -363,29 +362,20 @@ mod tests {
             let table = table!("o3_xsec_1nm.csv").unwrap();
             table.curve("wavelength_nm", kelvin).unwrap().at(600.0)
         };
-        let dobson = (air.vertical_optical_depth(1, 0) / sigma("sigma_223K")
-            + air.vertical_optical_depth(2, 0) / sigma("sigma_293K"))
-            / 2.6867e16;
+        let molecules = |k: usize, kelvin: &str| air.vertical_optical_depth(k, 0) / sigma(kelvin);
+        let all =
+            molecules(1, "sigma_223K") + molecules(2, "sigma_243K") + molecules(3, "sigma_293K");
+        let dobson = all / 2.6867e16;
         assert!((dobson - 345.0).abs() < 10.0, "{dobson} DU");
     }
 
-    /// The third temperature of the table, which the mixture does not know.
     #[test]
-    fn ozone_absorbs_almost_linearly_with_temperature() {
-        let table = table!("o3_xsec_1nm.csv").unwrap();
-        let at = |kelvin: &str, nm| table.curve("wavelength_nm", kelvin).unwrap().at(nm);
-        for nm in (300..=340).map(f64::from) {
-            let (cold, middle, warm) = (
-                at("sigma_223K", nm),
-                at("sigma_243K", nm),
-                at("sigma_293K", nm),
-            );
-            let mixed = cold + 20.0 / 70.0 * (warm - cold);
-            assert!(
-                (mixed / middle - 1.0).abs() < 0.03,
-                "{nm} nm: {mixed} {middle}"
-            );
-        }
+    fn ozone_is_a_mixture_of_neighbouring_temperatures() {
+        assert_eq!(shares(200.0), [1.0, 0.0, 0.0]);
+        assert_eq!(shares(233.0), [0.5, 0.5, 0.0]);
+        assert_eq!(shares(243.0), [0.0, 1.0, 0.0]);
+        assert_eq!(shares(268.0), [0.0, 0.5, 0.5]);
+        assert_eq!(shares(300.0), [0.0, 0.0, 1.0]);
     }
 
     #[test]
@@ -396,12 +386,12 @@ mod tests {
             mixed: 0.7,
         };
         let air = real_at(59_400.0, &[light], Particles::HenyeyGreenstein).unwrap();
-        let precipitable = air.vertical_optical_depth(3, 0) / 2.0;
+        let precipitable = air.vertical_optical_depth(4, 0) / 2.0;
         assert!((precipitable - 1.42).abs() < 0.02, "{precipitable} cm");
         let beside = real(59_400.0, &[940.0]).unwrap();
         let mixed = air.vertical_optical_depth(0, 0) - beside.vertical_optical_depth(0, 0);
         assert!((mixed - 0.7).abs() < 1e-9);
-        assert_eq!(beside.vertical_optical_depth(3, 0), 0.0);
+        assert_eq!(beside.vertical_optical_depth(4, 0), 0.0);
     }
 
     #[test]
@@ -414,7 +404,7 @@ mod tests {
     }
 
     fn ozone_extinction(air: &Atmosphere) -> f64 {
-        (1..3)
+        (1..4)
             .map(|k| air.profile(k, 0.0) * air.constituents[k].extinction[0])
             .sum()
     }

@@ -31,6 +31,17 @@ use unrounded_fit::Single;
 use welkin::Model;
 use welkin::format::encode;
 
+/// All nodes.
+const ALL: [usize; NW] = {
+    let mut all = [0; NW];
+    let mut n = 0;
+    while n < NW {
+        all[n] = n;
+        n += 1;
+    }
+    all
+};
+
 /// What is compared.
 #[derive(Clone, Debug)]
 pub struct Ranks {
@@ -254,7 +265,7 @@ impl Bench {
             grid.altitudes, grid.visibilities
         );
         let name = format!("nested-{total}-{:08x}", crc32fast::hash(what.as_bytes()));
-        let fit = || Ok(decompose_nested(&self.chunks, tiers, options).to_values());
+        let fit = || Ok(decompose_nested(&self.chunks, &ALL, tiers, options).to_values());
         let values = self.store.unit(&name, fit)?;
         let fit = Fit::from_values(&values, grid, total, self.chunks.len(), FIELDS * NW);
         let fit = fit.context("a fit of another size")?;

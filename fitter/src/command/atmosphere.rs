@@ -13,7 +13,7 @@ pub struct Args {
     /// Visibility, km (20..131.8).
     #[arg(long)]
     visibility: f64,
-    /// Wavelengths, nm (300..1000), separated by commas.
+    /// Wavelengths, nm (300..2500), separated by commas.
     #[arg(long, value_delimiter = ',', default_value = "550")]
     wavelengths: Vec<f64>,
     /// Albedo of the ground that goes into the file.

@@ -9,6 +9,7 @@ use welkin::Model;
 use welkin::output::{Target, replace_file, write};
 use welkin_fitter::finite::{self, study};
 use welkin_fitter::picture::image;
+use welkin_fitter::successive_orders::NW;
 use welkin_fitter::units::{Plan, Solved};
 
 /// Compares methods for the light of finite segments, or puts what they need into a model file.
@@ -122,7 +123,7 @@ fn speed(methods: &study::Methods, cases: &[study::Case]) -> Result<String> {
     for case in some.iter().copied() {
         let aerial = methods.aerial(case)?;
         let [from, to] = case.ends();
-        let (mut light, mut through) = ([0.0; 12], [0.0; 12]);
+        let (mut light, mut through) = ([0.0; NW], [0.0; NW]);
         let started = Instant::now();
         for _ in 0..20 {
             aerial.in_scattering(from, to, &mut light, &mut through)?;

@@ -9,6 +9,7 @@ pub mod cross_check;
 pub mod finite;
 pub mod picture;
 mod plan;
+pub mod spectrum;
 pub mod trace;
 pub mod units;
 pub mod validate;

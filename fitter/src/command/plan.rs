@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use std::path::PathBuf;
+use welkin_fitter::dataset::SHORT_WAVE_INFRARED;
 use welkin_fitter::units::Plan;
 
 /// The plan and the folder of its work units.
@@ -19,6 +20,9 @@ pub struct PlanArgs {
     /// Coarse axes and a coarse solver: a poor model within a minute, to try things with.
     #[arg(long)]
     draft: bool,
+    /// 1100..2500 nm instead of 300..1100 nm.
+    #[arg(long)]
+    infrared: bool,
 }
 
 impl PlanArgs {
@@ -34,6 +38,9 @@ impl PlanArgs {
         }
         if let Some(visibilities) = &self.visibilities {
             plan.grid.visibilities = visibilities.iter().map(|v| 1e3 * v).collect();
+        }
+        if self.infrared {
+            plan.coverage = SHORT_WAVE_INFRARED;
         }
         plan.grid.check()?;
         Ok(plan)

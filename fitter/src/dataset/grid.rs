@@ -1,51 +1,9 @@
 //! Where the sky is sampled: the axes of the model and the points on them.
 
-use crate::atmosphere::Monochromatic;
-use crate::successive_orders::NW;
 use anyhow::{Result, ensure};
 use std::f64::consts::{FRAC_PI_2, PI};
 use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
 use welkin::geometry::{Planet, Side};
-
-/// The nodes: as dense in wavelength as ozone bends, and absorption terms of oxygen (about 762.5 nm) and of water vapour
-/// (825 and 940 nm), weak enough to leave light at the ground.
-pub const NODES: [Monochromatic; NW] = [
-    Monochromatic::beside_lines(300.0),
-    Monochromatic::beside_lines(303.0),
-    Monochromatic::beside_lines(307.0),
-    Monochromatic::beside_lines(312.0),
-    Monochromatic::beside_lines(318.0),
-    Monochromatic::beside_lines(324.0),
-    Monochromatic::beside_lines(332.0),
-    Monochromatic::beside_lines(343.0),
-    Monochromatic::beside_lines(380.0),
-    Monochromatic::beside_lines(430.0),
-    Monochromatic::beside_lines(470.0),
-    Monochromatic::beside_lines(510.0),
-    Monochromatic::beside_lines(550.0),
-    Monochromatic::beside_lines(580.0),
-    Monochromatic::beside_lines(605.0),
-    Monochromatic::beside_lines(650.0),
-    Monochromatic::beside_lines(740.0),
-    Monochromatic::oxygen(762.0, 0.05),
-    Monochromatic::oxygen(763.0, 0.6),
-    Monochromatic::vapour(825.0, 0.035),
-    Monochromatic::beside_lines(870.0),
-    Monochromatic::vapour(939.0, 0.42),
-    Monochromatic::vapour(941.0, 1.5),
-    Monochromatic::beside_lines(1030.0),
-];
-
-/// Their wavelengths, nm.
-pub const WAVELENGTHS: [f64; NW] = {
-    let mut out = [0.0; NW];
-    let mut i = 0;
-    while i < NW {
-        out[i] = NODES[i].wavelength;
-        i += 1;
-    }
-    out
-};
 
 /// Observer altitudes, m: densest about the inversion at 2 km and where the aerosol ends, at 12 km.
 pub const ALTITUDES: [f64; 24] = [

@@ -21,6 +21,7 @@ pub struct Chunk {
     polarising: Spectrum,
     asymmetry: [Spectrum; 2],
     spherical_albedo: Spectrum,
+    importance: Spectrum,
     /// Spline coefficients of ln S.
     pub level: Vec<f32>,
     seed: u64,
@@ -30,6 +31,16 @@ pub struct Chunk {
 const EVEN: f64 = 0.4;
 /// How much more sites within 15° of the sun count.
 const AUREOLE: f32 = 5.0;
+
+/// Root of the weight of nodes by their wavelengths, nm: ozone makes the shortest hardest to fit, and of the infrared
+/// less is asked.
+fn importance(wavelengths: &[f64]) -> Spectrum {
+    std::array::from_fn(|w| match wavelengths[w] {
+        ..320.0 => 1.4,
+        ..745.0 => 1.0,
+        _ => 0.75,
+    })
+}
 
 impl Chunk {
     /// From the traced tensor of altitude `a`; `seed` tells chunks apart.
@@ -47,6 +58,7 @@ impl Chunk {
             polarising: *gatherer.polarising(),
             asymmetry: [gatherer.asymmetry(0), gatherer.asymmetry(1)],
             spherical_albedo: gatherer.light().spherical_albedo,
+            importance: importance(&medium.atmosphere.wavelengths),
             seed,
         }
     }
@@ -63,6 +75,7 @@ impl Chunk {
             polarising: [0.0; NW],
             asymmetry: [[0.0; NW]; 2],
             spherical_albedo: [0.0; NW],
+            importance: [1.0; NW],
             level: vec![0.0; sites[2] * NW],
             seed: 0,
         }
@@ -142,6 +155,11 @@ impl Chunk {
     pub fn inverse_radiance(&self, site: usize, w: usize, albedo: f32) -> f32 {
         // The share of multiply scattered light, whose phase function is 1.
         self.radiance_equation(site, w, albedo).1[3]
+    }
+
+    /// Root of the weight of a node.
+    pub fn importance(&self, wavelength: usize) -> f32 {
+        self.importance[wavelength]
     }
 
     /// Root of the weight of a site.

@@ -25,16 +25,26 @@ pub struct Fit {
     pub own: Vec<Own>,
 }
 
-/// Decomposes all chunks together. `progress` is told the sweep and the root mean square of the relative errors.
-pub fn decompose_all(chunks: &[Chunk], options: Options, progress: &dyn Fn(usize, f64)) -> Fit {
-    let weights = channel_weights(chunks);
+/// Decomposes all chunks together; nodes that are not among `nodes` count as dark. `progress` is told the sweep and the root mean square of the relative errors.
+pub fn decompose_all(
+    chunks: &[Chunk],
+    nodes: &[usize],
+    options: Options,
+    progress: &dyn Fn(usize, f64),
+) -> Fit {
+    let weights = channel_weights(chunks, nodes);
     decompose_weighted(chunks, &weights, COMPRESSION, options, progress)
 }
 
 /// Decomposes in tiers: each tier fits what the tiers before it, which stay as they are, leave. Its first components
 /// are a model of their own.
-pub fn decompose_nested(chunks: &[Chunk], tiers: &[usize], options: Options) -> Fit {
-    let weights = channel_weights(chunks);
+pub fn decompose_nested(
+    chunks: &[Chunk],
+    nodes: &[usize],
+    tiers: &[usize],
+    options: Options,
+) -> Fit {
+    let weights = channel_weights(chunks, nodes);
     let first = Options {
         rank: tiers[0],
         ..options
@@ -73,13 +83,20 @@ fn decompose_weighted(
     assemble(&bases, &cpd.factors, weights)
 }
 
-/// Refines the fit in relative radiance by `sweeps` passes.
-pub fn refine_all(chunks: &[Chunk], fit: &mut Fit, sweeps: usize, progress: &dyn Fn(usize)) {
+/// Refines the fit of some nodes in relative radiance by `sweeps` passes.
+pub fn refine_all(
+    chunks: &[Chunk],
+    nodes: &[usize],
+    fit: &mut Fit,
+    sweeps: usize,
+    progress: &dyn Fn(usize),
+) {
     for sweep in 0..sweeps {
         // The shared matrices settle first; afterwards the chunks adapt to them.
         let shared = sweep + 2 < sweeps;
         refine::sweep(
             chunks,
+            nodes,
             &mut fit.own,
             &mut fit.basis,
             1 + sweep as u64,
@@ -116,7 +133,11 @@ pub(super) fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f6
     let mut channel = product(0, 3);
     for (c, weight) in weights.iter().enumerate() {
         for r in 0..channel.ncols() {
-            channel[(c, r)] /= weight;
+            channel[(c, r)] = if *weight > 0.0 {
+                channel[(c, r)] / weight
+            } else {
+                0.0
+            };
         }
     }
     Fit {
@@ -176,7 +197,7 @@ impl Fit {
     }
 
     /// The components of both.
-    fn join(&self, other: &Self) -> Self {
+    pub fn join(&self, other: &Self) -> Self {
         let ranks = [self.basis.rank, other.basis.rank];
         let beside = |a: &[f32], b: &[f32]| {
             let rows = a.chunks_exact(ranks[0]).zip(b.chunks_exact(ranks[1]));

@@ -27,8 +27,14 @@ pub struct PolarisedChunk {
 }
 
 impl PolarisedChunk {
-    /// From the traced tensor of altitude `a`, whose intensities are in `chunk`.
-    pub fn new(tensor: &Tensor, chunk: &Chunk, gatherer: &Gatherer, grid: &Grid, a: usize) -> Self {
+    /// From the traced tensor of altitude `a`, whose intensities are in `chunk`; only `nodes` count.
+    pub fn new(
+        tensor: &Tensor,
+        (chunk, nodes): (&Chunk, &[usize]),
+        gatherer: &Gatherer,
+        grid: &Grid,
+        a: usize,
+    ) -> Self {
         let medium = gatherer.medium();
         let geometry = chunk_geometry(medium, gatherer.planet(), grid, a);
         let level = Level::new(tensor, &geometry, medium, grid.elevation_axis());
@@ -38,8 +44,8 @@ impl PolarisedChunk {
         let shape = [views, phis, elevations, POLARISED_CHANNELS];
         let mut values: Vec<f64> = values.into_iter().map(f64::from).collect();
         divide_by_sine(&mut values, shape);
-        let weights = inverse_radiance(chunk);
-        weigh(&mut values, shape, &weights);
+        let weights = inverse_radiance(chunk, nodes);
+        weigh(&mut values, shape, nodes, &weights);
         let mut tucker = Tucker::new(Dense { shape, values });
         tucker.compress(0, COMPRESSION);
         tucker.compress(2, COMPRESSION);
@@ -51,6 +57,7 @@ impl PolarisedChunk {
 /// relative errors.
 pub fn polarise(
     chunks: Vec<PolarisedChunk>,
+    nodes: &[usize],
     options: Options,
     progress: &dyn Fn(usize, f64),
 ) -> Fit {
@@ -60,7 +67,7 @@ pub fn polarise(
     compress_together(&mut tuckers, 3, COMPRESSION);
     let (bases, cores): (Vec<_>, Vec<_>) = tuckers.into_iter().map(|t| (t.bases, t.core)).unzip();
     let cpd = decompose(&cores, SHARED, options, progress);
-    let mut fit = assemble(&bases, &cpd.factors, &channel_weights());
+    let mut fit = assemble(&bases, &cpd.factors, &channel_weights(nodes));
     for (own, [view, elevation]) in fit.own.iter_mut().zip(&weights) {
         divide_rows(&mut own.view, view, options.rank);
         divide_rows(&mut own.elevation, elevation, options.rank);
@@ -68,8 +75,12 @@ pub fn polarise(
     fit
 }
 
-fn channel_weights() -> [f64; POLARISED_CHANNELS] {
-    std::array::from_fn(|c| if c < 2 * NW { 1.0 } else { GROUND })
+fn channel_weights(nodes: &[usize]) -> [f64; POLARISED_CHANNELS] {
+    std::array::from_fn(|c| match nodes.contains(&(c % NW)) {
+        true if c < 2 * NW => 1.0,
+        true => GROUND,
+        false => 0.0,
+    })
 }
 
 fn divide_rows(matrix: &mut [f32], weights: &[f64], rank: usize) {
@@ -131,15 +142,17 @@ impl SineDivision {
 
 /// Factors per view and per solar elevation that make an error count relative to the radiance: geometric means of its
 /// inverse.
-fn inverse_radiance(chunk: &Chunk) -> [Vec<f64>; 2] {
+fn inverse_radiance(chunk: &Chunk, nodes: &[usize]) -> [Vec<f64>; 2] {
     let [views, phis, elevations] = chunk.sites;
     let mut weights = [vec![0.0; views], vec![0.0; elevations]];
     for site in 0..views * phis * elevations {
-        let logarithm: f64 = (0..NW)
-            .map(|w| f64::from(chunk.inverse_radiance(site, w, ALBEDO)).ln())
+        let logarithm: f64 = nodes
+            .iter()
+            .map(|&w| f64::from(chunk.inverse_radiance(site, w, ALBEDO)).ln())
             .sum();
-        weights[0][site / (phis * elevations)] += logarithm / (phis * elevations * NW) as f64;
-        weights[1][site % elevations] += logarithm / (views * phis * NW) as f64;
+        weights[0][site / (phis * elevations)] +=
+            logarithm / (phis * elevations * nodes.len()) as f64;
+        weights[1][site % elevations] += logarithm / (views * phis * nodes.len()) as f64;
     }
     weights.map(|w| w.into_iter().map(f64::exp).collect())
 }
@@ -147,9 +160,10 @@ fn inverse_radiance(chunk: &Chunk) -> [Vec<f64>; 2] {
 fn weigh(
     values: &mut [f64],
     [_, phis, elevations, channels]: [usize; 4],
+    nodes: &[usize],
     [view, elevation]: &[Vec<f64>; 2],
 ) {
-    let channel = channel_weights();
+    let channel = channel_weights(nodes);
     for (site, cell) in values.chunks_exact_mut(channels).enumerate() {
         let weight = view[site / (phis * elevations)] * elevation[site % elevations];
         for (value, channel) in cell.iter_mut().zip(channel) {

@@ -7,8 +7,9 @@ use rayon::prelude::*;
 /// Ground albedo at which the shares are taken.
 const ALBEDO: f32 = 0.4;
 
-/// Root mean square share of each channel in the radiance over all sites of all chunks.
-pub fn channel_weights(chunks: &[Chunk]) -> Vec<f64> {
+/// Root mean square share of each channel in the radiance over all sites of all chunks; 0 for those of nodes that are not
+/// among `nodes`.
+pub fn channel_weights(chunks: &[Chunk], nodes: &[usize]) -> Vec<f64> {
     let one = |chunk: &Chunk| {
         let sites = chunk.sites.iter().product::<usize>();
         let mut sums = vec![0.0; FIELDS * NW];
@@ -26,5 +27,9 @@ pub fn channel_weights(chunks: &[Chunk]) -> Vec<f64> {
     // In one order, whatever the number of threads.
     let parts: Vec<Vec<f64>> = chunks.par_iter().map(one).collect();
     let mean = |c: usize| parts.iter().map(|part| part[c]).sum::<f64>() / chunks.len() as f64;
-    (0..FIELDS * NW).map(|c| mean(c).sqrt().max(1e-3)).collect()
+    let weight = |c: usize| match nodes.contains(&(c % NW)) {
+        true => mean(c).sqrt().max(1e-3),
+        false => 0.0,
+    };
+    (0..FIELDS * NW).map(weight).collect()
 }

@@ -6,7 +6,7 @@ use anyhow::{Result, ensure};
 use welkin::format::DensityTable;
 
 /// Largest relative error of the extinction coefficient near the ground, at any wavelength and visibility.
-pub const TOLERANCE: f64 = 0.005;
+pub const TOLERANCE: f64 = 0.004;
 /// Altitude (m) where twice the error is allowed: higher up there is little air.
 const RELAXED: f64 = 20_000.0;
 /// Points per layer of the atmosphere at which the error is measured.

@@ -11,7 +11,7 @@ use anyhow::Result;
 use welkin::format::{Chunk, Payload, Ranks};
 
 /// Components of the source along the modes altitude, sun, moment, channel.
-pub const RANKS: Ranks = [12, 20, 16, 12];
+pub const RANKS: Ranks = [12, 20, 16, 16];
 
 /// The chunks for finite distances; `solved` has one entry per visibility of the model.
 pub fn chunks(solved: &[Solved]) -> Result<Vec<Chunk>> {

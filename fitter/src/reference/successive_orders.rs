@@ -4,9 +4,8 @@
 use super::traced_lines::query;
 use crate::atmosphere::json::Case;
 use crate::atmosphere::{Atmosphere, Phase};
-use crate::dataset::WAVELENGTHS;
 use crate::successive_orders::scattered_source::Sun;
-use crate::successive_orders::{Gatherer, Medium, Settings, solve};
+use crate::successive_orders::{Gatherer, Medium, NW, Settings, solve};
 use crate::tracer::Radiance;
 use anyhow::{Context, Result, bail};
 use std::f64::consts::FRAC_PI_2;
@@ -44,7 +43,7 @@ fn repeated(air: &Atmosphere) -> Result<Atmosphere> {
     let mut air = air.clone();
     let repeat = |v: &mut Vec<f64>| -> Result<()> {
         let first = *v.first().context("an atmosphere without wavelengths")?;
-        *v = vec![first; WAVELENGTHS.len()];
+        *v = vec![first; NW];
         Ok(())
     };
     repeat(&mut air.wavelengths)?;

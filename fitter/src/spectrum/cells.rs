@@ -1,6 +1,7 @@
 //! The wavelengths that weights are learned for.
 
 use crate::atmosphere::absorption_bands::{AbsorptionBands, Term};
+use crate::dataset::Coverage;
 use anyhow::Result;
 
 /// A wavelength, and what the band about it is made of.
@@ -12,23 +13,14 @@ pub struct Cell {
     pub terms: Vec<Term>,
 }
 
-/// Ranges of wavelengths (nm) and the steps in them: ozone bends on the scale of a nanometre below 345 nm, absorption
-/// bands of the air on that of their data.
-const STEPS: [(f64, f64, f64); 4] = [
-    (300.0, 345.0, 1.0),
-    (345.0, 680.0, 5.0),
-    (680.0, 780.0, 2.5),
-    (780.0, 1100.0, 5.0),
-];
-
-/// The cells of a model, 300..1100 nm.
-pub fn cells() -> Result<Vec<Cell>> {
+/// The cells of a model.
+pub fn cells(coverage: &Coverage) -> Result<Vec<Cell>> {
     let bands = AbsorptionBands::new()?;
-    let steps = STEPS.iter().flat_map(|&(from, to, step)| {
+    let steps = coverage.steps.iter().flat_map(|&(from, to, step)| {
         let n = ((to - from) / step).round() as usize;
         (0..n).map(move |i| from + step * i as f64)
     });
-    let wavelengths = steps.chain([STEPS[STEPS.len() - 1].1]);
+    let wavelengths = steps.chain([coverage.range()[1]]);
     Ok(wavelengths
         .map(|wavelength| Cell {
             wavelength,

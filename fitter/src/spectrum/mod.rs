@@ -1,7 +1,17 @@
 //! What lies between the nodes: the weights of the nodes at every wavelength, learned from traced spectra.
 //!
-//! Data flow: [`cells`] → [`training`] → weights.
+//! Data flow: [`cells`] → [`training`] → [`weights`] → [`learned`] → [`pack()`]; [`walk`] → [`judge`].
 
 pub mod cells;
+pub mod colour;
+pub mod draw;
+pub mod g173;
+pub mod judge;
+pub mod learned;
+mod pack;
 pub mod training;
+pub mod walk;
 pub mod weights;
+
+pub use learned::{Lesson, held_out_table, quantiles};
+pub use pack::{Packed, lesson, pack};

@@ -4,12 +4,12 @@ use super::cells::Cell;
 use crate::atmosphere::{Monochromatic, Particles, real_at};
 use crate::dataset::{Sample, Store, truth};
 use crate::successive_orders::{Gatherer, Medium, NW, SOLAR_ANGULAR_RADIUS, Settings, solve};
-use anyhow::Result;
+use anyhow::{Context, Result};
 
 /// How spectra are traced.
 #[derive(Clone, Debug)]
 pub struct Training {
-    /// Visibilities, m.
+    /// Visibilities, m. Without any, a model has neither a spectrum nor colours.
     pub visibilities: Vec<f64>,
     /// Altitudes of the observers, m.
     pub altitudes: Vec<f64>,
@@ -41,6 +41,37 @@ impl Default for Training {
 }
 
 impl Training {
+    /// Nothing is learned.
+    pub fn none() -> Self {
+        Self {
+            visibilities: vec![],
+            ..Self::draft()
+        }
+    }
+
+    /// Coarse, to try things with.
+    pub fn draft() -> Self {
+        Self {
+            visibilities: vec![40_000.0],
+            altitudes: vec![0.5, 8000.0],
+            counts: [16, 9],
+            settings: Settings {
+                up: 4,
+                down: 3,
+                azimuths: 4,
+                first: 1,
+                orders: 3,
+                fineness: 12.0,
+            },
+            fineness: 4.0,
+        }
+    }
+
+    /// What the units depend on.
+    pub fn key(&self, cells: &[Cell]) -> String {
+        format!("{self:?} {:?}", lights(cells))
+    }
+
     /// Samples of `lights` at a visibility, `[set of NW lights][sample]`.
     fn traced(&self, visibility: f64, lights: &[Monochromatic]) -> Result<Vec<Sample>> {
         let medium = Medium::new(
@@ -53,18 +84,17 @@ impl Training {
         Ok(self.altitudes.iter().flat_map(one).collect())
     }
 
-    /// The samples of a visibility for the set `set` of all lights.
+    /// The samples of a visibility for some lights, of which there are at most [`NW`], under the name `name`.
     pub fn unit(
         &self,
         store: &Store,
         visibility: f64,
         lights: &[Monochromatic],
-        set: usize,
+        name: &str,
     ) -> Result<Vec<Sample>> {
-        let mut chosen = lights[set * NW..lights.len().min((set + 1) * NW)].to_vec();
-        let last = *chosen.last().expect("a set is never empty");
-        chosen.resize(NW, last);
-        let values = store.unit(&format!("spectra-{visibility}-{set}"), || {
+        let mut chosen = lights.to_vec();
+        chosen.resize(NW, *lights.last().context("no lights")?);
+        let values = store.unit(&format!("spectra-{visibility}-{name}"), || {
             let samples = self.traced(visibility, &chosen)?;
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;

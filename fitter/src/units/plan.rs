@@ -2,7 +2,10 @@
 
 use super::unit::Kind;
 use crate::atmosphere::{Atmosphere, Particles, real_at};
-use crate::dataset::{CHANNELS, Grid, NODES, Sample, Store, Tensor, trace_tensor, truth};
+use crate::dataset::{
+    CHANNELS, Coverage, Grid, Sample, Store, Tensor, VISIBLE, trace_tensor, truth,
+};
+use crate::spectrum::training::Training;
 use crate::successive_orders::{
     Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
 };
@@ -10,10 +13,14 @@ use anyhow::{Context, Result};
 use std::path::Path;
 
 /// What is traced, and how finely.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Plan {
     /// The grid.
     pub grid: Grid,
+    /// The wavelengths.
+    pub coverage: Coverage,
+    /// What lies between them is learned from.
+    pub training: Training,
     /// Resolution of the solver.
     pub settings: Settings,
     /// Held-out view directions and suns per chunk.
@@ -64,8 +71,8 @@ const FINENESS: f64 = 1.0;
 const UNIT_VERSION: u32 = 4;
 
 /// The air of a visibility (m) for the nodes.
-fn air(visibility: f64) -> Result<Atmosphere> {
-    real_at(visibility, &NODES, Particles::HenyeyGreenstein)
+fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
+    real_at(visibility, &coverage.nodes, Particles::HenyeyGreenstein)
 }
 
 /// A visibility, solved.
@@ -85,6 +92,19 @@ impl Solved {
     }
 }
 
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            grid: Grid::default(),
+            coverage: VISIBLE,
+            training: Training::default(),
+            settings: Settings::default(),
+            held_out: HeldOut::default(),
+            cross_check: CrossCheck::default(),
+        }
+    }
+}
+
 impl Plan {
     /// Coarse in everything but altitude and visibility.
     pub fn draft() -> Self {
@@ -95,6 +115,8 @@ impl Plan {
         grid.elevation.intervals = 12;
         Self {
             grid,
+            coverage: VISIBLE,
+            training: Training::draft(),
             settings: Settings {
                 up: 4,
                 down: 3,
@@ -110,7 +132,10 @@ impl Plan {
 
     /// What the light fields depend on.
     pub(super) fn light_key(&self) -> String {
-        format!("{UNIT_VERSION} {:?} {NODES:?}", self.settings)
+        format!(
+            "{UNIT_VERSION} {:?} {:?}",
+            self.settings, self.coverage.nodes
+        )
     }
 
     /// What the traced tensors and samples depend on, besides altitude and visibility.
@@ -137,7 +162,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(air(visibility)?, SOLAR_ANGULAR_RADIUS)?;
+        let medium = Medium::new(air(&self.coverage, visibility)?, SOLAR_ANGULAR_RADIUS)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;
@@ -191,6 +216,6 @@ impl Plan {
             .iter()
             .flat_map(|&h| (0..directions as u64).flat_map(move |i| one(h, 1000 * i + h as u64)))
             .collect();
-        Ok((air(visibility)?, samples))
+        Ok((air(&self.coverage, visibility)?, samples))
     }
 }

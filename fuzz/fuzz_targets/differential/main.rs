@@ -57,7 +57,8 @@ fn bases() -> Vec<(String, Parts)> {
     let valid = paths
         .iter()
         .zip(names)
-        .filter(|(_, name)| !name.starts_with("x-"));
+        // Readers look at a damaged spectrum at different times; these files are not asked about yet.
+        .filter(|(_, name)| !name.starts_with("x-") && !name.starts_with("spectrum"));
     let read = |path: &Path| Parts::of(&std::fs::read(path).expect("a file"));
     valid
         .map(|(path, name)| (name.into_owned(), read(path)))

@@ -12,6 +12,10 @@ pub const ALBEDOS: [f32; 3] = [0.0, 0.3, 1.0];
 /// Weight of the relative error of a single field against that of the radiance.
 const FIELD_WEIGHT: f32 = 0.4;
 
+/// Field without phase function.
+const DIFFUSE: usize = 3;
+/// Radiance below this share of its level counts less: nobody sees it, and it would cost what all see.
+const DARK: f32 = 1e-4;
 /// A linear equation: the radiance (or one field) at a site, a wavelength and an albedo, relative to what was traced.
 pub struct Equation {
     /// Index of the wavelength.
@@ -28,11 +32,14 @@ impl Equation {
     /// All fields together are the radiance.
     pub fn radiance(chunk: &Chunk, site: usize, wavelength: usize, albedo: f32) -> Self {
         let (wavelength, share) = chunk.radiance_equation(site, wavelength, albedo);
+        let brightness = share[DIFFUSE].recip();
         Self {
             wavelength,
             share,
             target: 1.0,
-            weight: chunk.weight(site),
+            weight: chunk.weight(site)
+                * chunk.importance(wavelength)
+                * (brightness / DARK).min(1.0),
         }
     }
 
@@ -76,13 +83,14 @@ impl Equation {
     }
 }
 
-/// The equations that are asked at a site: the radiance at three wavelengths and a random albedo each, one field at one
-/// of them.
-pub fn equations(chunk: &Chunk, site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
+/// The equations that are asked at a site: the radiance at three of the `nodes`, one of each third of them, and a random
+/// albedo each, one field at one of them.
+pub fn equations(chunk: &Chunk, nodes: &[usize], site: usize, rng: &mut Pcg64Mcg) -> [Equation; 4] {
     let draw = rng.next_u64() as usize;
     let radiance = |k: usize| {
         let albedo = ALBEDOS[(draw >> (8 + 8 * k)) % 3];
-        Equation::radiance(chunk, site, draw % 4 + 4 * k, albedo)
+        let third = k * nodes.len() / 3..((k + 1) * nodes.len()).div_ceil(3);
+        Equation::radiance(chunk, site, nodes[third.start + draw % third.len()], albedo)
     };
     let field = radiance(draw % 3).field(chunk, site, (draw >> 40) % FIELDS);
     [radiance(0), radiance(1), radiance(2), field]

@@ -19,15 +19,22 @@ use factors::{random, row};
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 
-/// One pass over all factor matrices. `seed` selects the sites.
-pub fn sweep(chunks: &[Chunk], own: &mut [Own], basis: &mut Basis, seed: u64, shared: bool) {
+/// One pass over all factor matrices for some nodes. `seed` selects the sites.
+pub fn sweep(
+    chunks: &[Chunk],
+    nodes: &[usize],
+    own: &mut [Own],
+    basis: &mut Basis,
+    seed: u64,
+    shared: bool,
+) {
     if shared {
-        shared::channels(chunks, own, basis, seed);
-        shared::azimuths(chunks, own, basis, seed);
+        shared::channels(chunks, nodes, own, basis, seed);
+        shared::azimuths(chunks, nodes, own, basis, seed);
     }
     own.par_iter_mut().zip(chunks).for_each(|(own, chunk)| {
-        own::elevations(chunk, own, basis, seed);
-        own::views(chunk, own, basis, seed);
+        own::elevations(chunk, nodes, own, basis, seed);
+        own::views(chunk, nodes, own, basis, seed);
     });
 }
 

@@ -5,7 +5,7 @@ use super::factors::{Basis, Own, add, random, row};
 use super::normal::Normal;
 use crate::decompose::Chunk;
 
-pub fn views(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {
+pub fn views(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, seed: u64) {
     let rank = basis.rank;
     let [views, phis, elevations] = chunk.sites;
     let mut rng = random(seed, chunk, 1);
@@ -17,7 +17,7 @@ pub fn views(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {
             let phi = row(&basis.phi, p, rank);
             for e in 0..elevations {
                 let elevation = row(&own.elevation, e, rank);
-                for equation in equations(chunk, chunk.site(v, p, e), &mut rng) {
+                for equation in equations(chunk, nodes, chunk.site(v, p, e), &mut rng) {
                     equation.mix(basis, &mut mixed);
                     equation.push(&mut normal, view, |r| mixed[r] * phi[r] * elevation[r]);
                 }
@@ -27,7 +27,7 @@ pub fn views(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {
     }
 }
 
-pub fn elevations(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {
+pub fn elevations(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, seed: u64) {
     let rank = basis.rank;
     let [views, phis, elevations] = chunk.sites;
     let mut rng = random(seed, chunk, 2);
@@ -39,7 +39,7 @@ pub fn elevations(chunk: &Chunk, own: &mut Own, basis: &Basis, seed: u64) {
             let view = row(&own.view, v, rank);
             for p in 0..phis {
                 let phi = row(&basis.phi, p, rank);
-                for equation in equations(chunk, chunk.site(v, p, e), &mut rng) {
+                for equation in equations(chunk, nodes, chunk.site(v, p, e), &mut rng) {
                     equation.mix(basis, &mut mixed);
                     equation.push(&mut normal, elevation, |r| mixed[r] * phi[r] * view[r]);
                 }

@@ -32,13 +32,13 @@ fn step(
     whole.map_or_else(|| vec![0.0; unknowns], Normal::step)
 }
 
-pub fn azimuths(chunks: &[Chunk], own: &[Own], basis: &mut Basis, seed: u64) {
+pub fn azimuths(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, seed: u64) {
     let rank = basis.rank;
     let phis = chunks.first().map_or(0, |chunk| chunk.sites[1]);
     let steps: Vec<Vec<f32>> = (0..phis)
         .map(|p| {
             step(rank, (chunks, own), |normal, chunk, own| {
-                azimuth(normal, (chunk, own), basis, p, seed)
+                azimuth(normal, (chunk, nodes, own), basis, p, seed)
             })
         })
         .collect();
@@ -47,7 +47,13 @@ pub fn azimuths(chunks: &[Chunk], own: &[Own], basis: &mut Basis, seed: u64) {
     }
 }
 
-fn azimuth(normal: &mut Normal, (chunk, own): (&Chunk, &Own), basis: &Basis, p: usize, seed: u64) {
+fn azimuth(
+    normal: &mut Normal,
+    (chunk, nodes, own): (&Chunk, &[usize], &Own),
+    basis: &Basis,
+    p: usize,
+    seed: u64,
+) {
     let rank = basis.rank;
     let [views, _, elevations] = chunk.sites;
     let mut rng = random(seed, chunk, 3 + p as u64);
@@ -57,16 +63,16 @@ fn azimuth(normal: &mut Normal, (chunk, own): (&Chunk, &Own), basis: &Basis, p: 
         let draw = rng.next_u64() as usize;
         let (v, e) = (draw % views, (draw >> 24) % elevations);
         let (view, elevation) = (row(&own.view, v, rank), row(&own.elevation, e, rank));
-        for equation in equations(chunk, chunk.site(v, p, e), &mut rng) {
+        for equation in equations(chunk, nodes, chunk.site(v, p, e), &mut rng) {
             equation.mix(basis, &mut mixed);
             equation.push(normal, phi, |r| mixed[r] * elevation[r] * view[r]);
         }
     }
 }
 
-pub fn channels(chunks: &[Chunk], own: &[Own], basis: &mut Basis, seed: u64) {
+pub fn channels(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, seed: u64) {
     let rank = basis.rank;
-    for w in 0..NW {
+    for &w in nodes {
         let step = step(FIELDS * rank, (chunks, own), |normal, chunk, own| {
             channel(normal, (chunk, own), basis, w, seed)
         });

@@ -24,8 +24,8 @@ pub struct Scan {
 const PIXEL: f64 = 0.02 * std::f64::consts::PI / 180.0;
 /// Pixels on each side of the horizontal.
 const HALF: i32 = 75;
-/// Wavelength whose jumps are told: 560 nm.
-const GREEN: usize = 6;
+/// Node whose jumps are told: 550 nm.
+const GREEN: usize = 12;
 
 /// Observers at 2 m, 300 m and as high as 8 km under two suns, things 15 km away.
 pub fn scans(
