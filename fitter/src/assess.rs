@@ -63,13 +63,10 @@ impl Quantiles {
     }
 }
 
-/// Radiance (sr⁻¹) that nobody sees: the solver puts out what is darker than 1e-11 of the sun's disc.
-const NO_LIGHT: f32 = 1e-9;
-
 /// Truth below (sr⁻¹) does not count.
 const DARK: f64 = 1e-12;
 
-/// Errors of `model` at `samples` for all wavelengths. Directions in which the truth is exactly zero must be dark in
+/// Errors of `model` at `samples` for all wavelengths. Directions in which the truth is exactly zero must be zero in
 /// the model and do not count.
 pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<Error>> {
     let mut out = vec![];
@@ -97,7 +94,7 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
                     ..place
                 });
             } else {
-                anyhow::ensure!(*got < NO_LIGHT, "light where there is none");
+                anyhow::ensure!(want > 0.0 || *got == 0.0, "light where there is none");
             }
         }
         previous = Some((conditions, sky));

@@ -118,7 +118,7 @@ pub fn run(args: &Args) -> Result<()> {
             }
         }
         Action::G173 { work, svg } => {
-            let bands = g173::compare(&Store::open(work, "g173 1")?)?;
+            let bands = g173::compare(&Store::open(work, "g173 2")?)?;
             print!("{}", g173::csv(&bands));
             if let Some(path) = svg {
                 replace_file(path, draw::g173(&bands)?.as_bytes())?;
@@ -188,7 +188,7 @@ impl JudgeArgs {
                 .map(|i| self.from + self.step * i as f64)
                 .collect(),
         };
-        let store = Store::open(&self.work, format!("{walk:?}"))?;
+        let store = Store::open(&self.work, format!("2 {walk:?}"))?;
         let judgement = judge(&model, &walk, &walk.trace(&store)?)?;
         let table = match self.table {
             Table::All => csv(&judgement),

@@ -40,6 +40,9 @@ impl Default for Training {
     }
 }
 
+/// Changes whenever the physics or the layout of the units does.
+const VERSION: u32 = 2;
+
 impl Training {
     /// Nothing is learned.
     pub fn none() -> Self {
@@ -69,7 +72,7 @@ impl Training {
 
     /// What the units depend on.
     pub fn key(&self, cells: &[Cell]) -> String {
-        format!("{self:?} {:?}", lights(cells))
+        format!("{VERSION} {self:?} {:?}", lights(cells))
     }
 
     /// Samples of `lights` at a visibility, `[set of NW lights][sample]`.

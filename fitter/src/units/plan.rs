@@ -68,7 +68,7 @@ impl Default for HeldOut {
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
 /// Changes whenever the physics or the layout of the units does.
-const UNIT_VERSION: u32 = 4;
+const UNIT_VERSION: u32 = 5;
 
 /// The air of a visibility (m) for the nodes.
 fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
