@@ -55,6 +55,7 @@ impl Sky {
             scale: pad(&scale),
             irradiance: pad(&solar(head)),
             extinction: place.extinction(head),
+            absorbers: head.absorbers,
             xyz: xyz(head),
             phases: groups.phases,
             layout: groups.layout,
