@@ -358,7 +358,7 @@ impl Kernel for Expand<'_> {
     }
 }
 
-/// Cells that are summed together: as many as stay in registers.
+/// Cells that are summed together: so many sums hide how long one takes, and stay in registers.
 const TOGETHER: usize = 3;
 
 impl Patterns {
@@ -382,26 +382,31 @@ impl Patterns {
     #[inline(always)]
     fn fill(&self, factors: &[f32], node: &mut [Cell]) {
         let cells = node.len();
-        let (groups, rest) = node.as_chunks_mut::<TOGETHER>();
-        for (g, group) in groups.iter_mut().enumerate() {
-            *group = self.sum(factors, cells, g * TOGETHER);
+        let mut first = 0;
+        // Four or five cells are better taken at once than with one or two left over.
+        while cells - first >= 2 * TOGETHER || cells - first == TOGETHER {
+            self.sum::<TOGETHER>(factors, first, node);
+            first += TOGETHER;
         }
-        let first = groups.len() * TOGETHER;
-        for (i, cell) in rest.iter_mut().enumerate() {
-            [*cell] = self.sum(factors, cells, first + i);
+        match cells - first {
+            1 => self.sum::<1>(factors, first, node),
+            2 => self.sum::<2>(factors, first, node),
+            4 => self.sum::<4>(factors, first, node),
+            5 => self.sum::<5>(factors, first, node),
+            _ => {}
         }
     }
 
     /// The sums stay in registers.
     #[inline(always)]
-    fn sum<const N: usize>(&self, factors: &[f32], cells: usize, first: usize) -> [Cell; N] {
+    fn sum<const N: usize>(&self, factors: &[f32], first: usize, node: &mut [Cell]) {
         let mut sums = [Cell::ZERO; N];
-        for (&factor, row) in factors.iter().zip(self.channel.chunks_exact(cells)) {
+        for (&factor, row) in factors.iter().zip(self.channel.chunks_exact(node.len())) {
             for (sum, cell) in sums.iter_mut().zip(&row[first..][..N]) {
                 sum.add(factor, cell);
             }
         }
-        sums
+        node[first..][..N].copy_from_slice(&sums);
     }
 }
 
@@ -436,4 +441,34 @@ fn pad(values: &[f32]) -> Vec<[f32; LANES]> {
     blocks
         .map(|block| core::array::from_fn(|i| lane(block, i)))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// However many cells there are, each is the sum over all components in their order, to the bit.
+    #[test]
+    fn all_cells_are_summed() {
+        const RANK: usize = 7;
+        for cells in 1..=13 {
+            let value = |i: usize| (i as f32 * 0.37).sin();
+            let cell = |c: usize| Cell(core::array::from_fn(|k| value(16 * c + k)));
+            let patterns = Patterns {
+                rank: RANK,
+                phi: Vec::new(),
+                channel: (0..RANK * cells).map(cell).collect(),
+            };
+            let factors: Vec<f32> = (0..RANK).map(|r| value(1000 + r)).collect();
+            let mut node = vec![Cell::ZERO; cells];
+            patterns.fill(&factors, &mut node);
+            for (c, got) in node.iter().enumerate() {
+                let mut sum = Cell::ZERO;
+                for (r, &factor) in factors.iter().enumerate() {
+                    sum.add(factor, &cell(r * cells + c));
+                }
+                assert_eq!(got.0, sum.0, "{c} of {cells}");
+            }
+        }
+    }
 }
