@@ -358,7 +358,7 @@ impl Kernel for Expand<'_> {
     }
 }
 
-/// Cells that are summed together: so many sums hide how long one takes, and stay in registers.
+/// Cells that are summed together: as many as stay in registers.
 const TOGETHER: usize = 3;
 
 impl Patterns {
@@ -382,31 +382,32 @@ impl Patterns {
     #[inline(always)]
     fn fill(&self, factors: &[f32], node: &mut [Cell]) {
         let cells = node.len();
-        let mut first = 0;
-        // Four or five cells are better taken at once than with one or two left over.
-        while cells - first >= 2 * TOGETHER || cells - first == TOGETHER {
-            self.sum::<TOGETHER>(factors, first, node);
-            first += TOGETHER;
+        let (groups, rest) = node.as_chunks_mut::<TOGETHER>();
+        for (g, group) in groups.iter_mut().enumerate() {
+            *group = self.sum(factors, cells, g * TOGETHER);
         }
-        match cells - first {
-            1 => self.sum::<1>(factors, first, node),
-            2 => self.sum::<2>(factors, first, node),
-            4 => self.sum::<4>(factors, first, node),
-            5 => self.sum::<5>(factors, first, node),
-            _ => {}
+        let first = groups.len() * TOGETHER;
+        // Two at once take little longer than one.
+        match rest.as_chunks_mut::<2>() {
+            ([pair], _) => *pair = self.sum(factors, cells, first),
+            (_, rest) => {
+                for cell in rest {
+                    [*cell] = self.sum(factors, cells, first);
+                }
+            }
         }
     }
 
     /// The sums stay in registers.
     #[inline(always)]
-    fn sum<const N: usize>(&self, factors: &[f32], first: usize, node: &mut [Cell]) {
+    fn sum<const N: usize>(&self, factors: &[f32], cells: usize, first: usize) -> [Cell; N] {
         let mut sums = [Cell::ZERO; N];
-        for (&factor, row) in factors.iter().zip(self.channel.chunks_exact(node.len())) {
+        for (&factor, row) in factors.iter().zip(self.channel.chunks_exact(cells)) {
             for (sum, cell) in sums.iter_mut().zip(&row[first..][..N]) {
                 sum.add(factor, cell);
             }
         }
-        node[first..][..N].copy_from_slice(&sums);
+        sums
     }
 }
 
