@@ -7,7 +7,7 @@ use welkin::format::{
     Chunk, ENCODING_ZSTD, FEATURE_SPECTRUM, Head, Kind, Payload, Selection, Spectrum, crop, encode,
     extend, parse, recode, unpack, verify,
 };
-use welkin::{Model, PointQuery};
+use welkin::{Conditions, Model, PointQuery};
 
 fn head() -> Head {
     common::head(&[0.0, 120.0], &[20e3, 59.4e3, 131.8e3])
@@ -106,6 +106,23 @@ fn damage_shows_where_it_is_asked_for() {
     assert_eq!(verify(&file).len(), 1);
     let model = Model::from_bytes(file).unwrap();
     assert_eq!(model.wavelength_range().unwrap_err().class(), "checksum");
+    let conditions = Conditions::default();
+    assert_eq!(model.sky(&conditions).unwrap_err().class(), "checksum");
+    // Colour does not depend on it.
+    let sky = model.colour_sky(&conditions).unwrap();
+    assert!(sky.xyz([0.0, 0.0, 1.0]).unwrap()[1] > 0.0);
+}
+
+#[test]
+fn is_not_read_for_colour() {
+    let model = Model::stream(file()).unwrap();
+    let length = model.directory().iter().find(|e| e.kind == Kind::Spectrum);
+    let length = length.unwrap().length;
+    let conditions = Conditions::default();
+    model.colour_sky(&conditions).unwrap();
+    let touched = model.touched_bytes();
+    model.sky(&conditions).unwrap();
+    assert_eq!(model.touched_bytes(), touched + length);
 }
 
 #[test]

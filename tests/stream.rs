@@ -61,8 +61,8 @@ fn scenes_cost_their_chunks_and_repeated_scenes_nothing() {
     let model = Model::stream(bytes.clone()).unwrap();
     let opening = model.traffic();
     let head = model.head_bytes();
-    assert_eq!(opening.requests, if head > 32 << 10 { 2 } else { 1 });
-    assert_eq!(opening.bytes as usize, head.max(32 << 10));
+    assert_eq!(opening.requests, if head > 48 << 10 { 2 } else { 1 });
+    assert_eq!(opening.bytes as usize, head.max(48 << 10));
     // The basis that all scenes share came with the head.
     answers(&model, &at(0.0, 20e3));
     let mut before = model.traffic();

@@ -83,7 +83,7 @@ impl AerialPerspective {
         let cubic = crate::kernel::axis::hermite(&visibilities, x);
         let sources = cubic.taps().map(|(v, _)| (Kind::Source, None, Some(v)));
         let shared = [Kind::Transmittance, Kind::SourceBasis].map(|kind| (kind, None, None));
-        model.prefetch(sources.chain(shared))?;
+        model.prefetch(sources.chain(shared).chain(nodes.spectrum()))?;
         let air = Transmittance::prepare(model, head, conditions.visibility)?;
         let linear = crate::kernel::axis::linear(&visibilities, x);
         let around: Vec<_> = linear

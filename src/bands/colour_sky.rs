@@ -28,7 +28,7 @@ pub struct ColourSky {
 }
 
 impl Model {
-    /// Prepares a sky for colour alone.
+    /// Prepares a sky for colour alone, which does not need the spectrum chunk of a file that has one.
     ///
     /// # Errors
     /// As [`Model::sky`].

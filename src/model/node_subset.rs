@@ -1,12 +1,15 @@
 //! The wavelength nodes that something is prepared at: all of a file, or some of them.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use zerocopy::little_endian::{F32, U16};
 
-use super::opened::Model;
-use crate::format::{Head, SourceBasisView, SourceView, columns};
+use super::opened::{Model, SPECTRUM};
+use crate::error::Result;
+use crate::format::{Head, Key, SourceBasisView, SourceView, columns};
 use crate::kernel::half::widen;
+use crate::spectrum::SpectralInterpolation;
 
 /// All nodes of a model, or some. `Copy`: it only points.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +91,19 @@ impl<'a> Nodes<'a> {
     pub fn channels(self, parts: usize) -> impl Iterator<Item = usize> + use<'a> {
         let n = self.head.wavelengths.len();
         (0..parts * n).map(move |i| self.channel(i / n, i % n))
+    }
+
+    /// The chunk that [`Nodes::interpolation`] reads.
+    pub fn spectrum(self) -> Option<Key> {
+        self.kept.is_none().then_some(SPECTRUM)
+    }
+
+    /// What lies between the nodes. Some of a model's do not make what its spectrum says, so that this is not read.
+    pub fn interpolation(self, model: &Model) -> Result<Arc<SpectralInterpolation>> {
+        match self.kept {
+            None => model.shared_interpolation().cloned(),
+            Some(_) => Ok(Arc::new(SpectralInterpolation::of_nodes(self.head))),
+        }
     }
 
     /// A source chunk of the file at the nodes.

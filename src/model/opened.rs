@@ -87,7 +87,7 @@ impl Model {
 
     /// Opens a file that is read in pieces, from a slow disk or over a network.
     ///
-    /// Costs one request, or two if the head is longer than 32 KiB. Each sky asks for the chunks that no sky before
+    /// Costs one request, or two if the head is longer than 48 KiB. Each sky asks for the chunks that no sky before
     /// needed, chunks that are neighbours in the file by one request; they stay in memory.
     ///
     /// # Errors

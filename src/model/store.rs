@@ -10,7 +10,7 @@ use crate::format::{
 };
 
 /// Bytes that the first request to a source asks for; the head of a usual model is shorter.
-const FIRST_REQUEST: usize = 32 << 10;
+const FIRST_REQUEST: usize = 48 << 10;
 /// A source that has fewer bytes than its head declares is found out after this many.
 const PIECE: usize = 1 << 20;
 

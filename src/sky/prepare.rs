@@ -12,7 +12,7 @@ use crate::kernel::half::widen;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
-use crate::model::{Key, Model, Nodes, SPECTRUM};
+use crate::model::{Key, Model, Nodes};
 use crate::phase_function::PhaseTable;
 use crate::sky::Sky;
 use crate::sky::tables::{Cell, Layout, SideTable, Tables};
@@ -39,8 +39,8 @@ impl Sky {
         let conditions = conditions.checked(model)?;
         let head = nodes.head;
         let place = NodeWeights::new(head, &conditions);
-        model.prefetch(place.keys().chain([SPECTRUM]))?;
-        let interpolation = model.shared_interpolation()?;
+        model.prefetch(place.keys().chain(nodes.spectrum()))?;
+        let interpolation = nodes.interpolation(model)?;
         let groups = Groups::new(head);
         let baker = Baker {
             model,
@@ -65,7 +65,7 @@ impl Sky {
             let detail = "its values overflow at these conditions: the file is not a sensible sky";
             return Err(Error::invalid("model", detail));
         }
-        Ok(Self::new(head, conditions, tables, interpolation.clone()))
+        Ok(Self::new(head, conditions, tables, interpolation))
     }
 }
 

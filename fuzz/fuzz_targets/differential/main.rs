@@ -12,6 +12,8 @@ mod mutation;
 mod parts;
 mod question;
 mod readers;
+mod spectrum;
+mod sunlight;
 
 use std::path::Path;
 use std::sync::{Mutex, OnceLock};
@@ -57,8 +59,7 @@ fn bases() -> Vec<(String, Parts)> {
     let valid = paths
         .iter()
         .zip(names)
-        // Readers look at a damaged spectrum at different times; these files are not asked about yet.
-        .filter(|(_, name)| !name.starts_with("x-") && !name.starts_with("spectrum"));
+        .filter(|(_, name)| !name.starts_with("x-"));
     let read = |path: &Path| Parts::of(&std::fs::read(path).expect("a file"));
     valid
         .map(|(path, name)| (name.into_owned(), read(path)))
@@ -79,6 +80,7 @@ fuzz_target!(|data: &[u8]| {
         questions: &questions,
         ranges,
         changes: &changes,
+        spectrum: spectrum_damage(&model),
     };
     let check = |reader: &str, report: Report| {
         if let Some(wrong) = disagreement(&case, &library, &report) {
@@ -100,6 +102,12 @@ fuzz_target!(|data: &[u8]| {
     }
     *inputs += 1;
 });
+
+/// The class of what is wrong with the spectrum of a file that can be opened.
+fn spectrum_damage(model: &Result<Model, welkin::Error>) -> Option<&'static str> {
+    let range = model.as_ref().ok()?.wavelength_range();
+    range.err().map(|error| error.class())
+}
 
 /// Ends the run; with DIFFERENTIAL_LIST in the environment it goes on, to list what there is.
 fn complain(complaint: &str) {

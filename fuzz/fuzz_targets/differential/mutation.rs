@@ -2,6 +2,7 @@
 
 use crate::bytes::Bytes;
 use crate::parts::{Chunk, Frame, Parts, seal};
+use crate::spectrum;
 
 /// What the changes were.
 #[derive(Default)]
@@ -105,7 +106,7 @@ pub fn mutated(bytes: &mut Bytes, parts: &Parts) -> (Vec<u8>, Changes) {
 }
 
 fn change_part(bytes: &mut Bytes, parts: &mut Parts, changes: &mut Changes) {
-    let told = match bytes.below(16) {
+    let told = match bytes.below(19) {
         0 => header_number(bytes, &mut parts.header, changes),
         1 => header_count(bytes, &mut parts.header),
         2 | 3 => nudged_double(bytes, &mut parts.header[64..], changes),
@@ -116,6 +117,7 @@ fn change_part(bytes: &mut Bytes, parts: &mut Parts, changes: &mut Changes) {
         9..=12 => payload(bytes, &mut parts.chunks, changes),
         13 => length(bytes, &mut parts.chunks),
         14 => frame(bytes, &mut parts.chunks),
+        15..=17 => spectrum::change(bytes, &parts.header, &mut parts.chunks),
         _ => {
             parts.gap = bytes.byte();
             Some("gaps".to_owned())

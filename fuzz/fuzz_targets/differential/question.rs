@@ -1,10 +1,10 @@
 //! What readers are asked, and what they say.
 
 use crate::bytes::Bytes;
-use welkin::Model;
+use welkin::{Conditions, Model};
 
 /// In the order of the C reader's enumeration.
-pub const QUANTITIES: [&str; 9] = [
+pub const QUANTITIES: [&str; 14] = [
     "relative_radiance",
     "relative_radiance_at",
     "radiance_at",
@@ -14,8 +14,12 @@ pub const QUANTITIES: [&str; 9] = [
     "transmittance",
     "in_scattering",
     "in_scattering_stokes",
+    "transmittance_at",
+    "in_scattering_at",
+    "in_scattering_stokes_at",
+    "wavelength_range",
+    "sunlight_at",
 ];
-pub const FIRST_SEGMENT: u32 = 6;
 
 /// Cells as in the conformance suite: altitude, visibility, albedo, elevation and azimuth of the sun, direction,
 /// wavelength, distance.
@@ -31,12 +35,12 @@ pub struct Question {
 pub type Answer = Result<Vec<f64>, String>;
 
 /// Ranges of conditions, as far as the head can be read.
-#[derive(Clone, Copy)]
 pub struct Ranges {
     altitude: [f64; 2],
     visibility: [f64; 2],
     elevation: [f64; 2],
     wavelength: [f64; 2],
+    nodes: Vec<f64>,
 }
 
 impl Ranges {
@@ -47,6 +51,7 @@ impl Ranges {
                 visibility: [2e4, 8e4],
                 elevation: [0.0, 1.0],
                 wavelength: [400.0, 700.0],
+                nodes: vec![550.0],
             };
         };
         Self {
@@ -54,6 +59,7 @@ impl Ranges {
             visibility: model.visibility_range(),
             elevation: model.solar_elevation_range(),
             wavelength: model.wavelength_range().unwrap_or([400.0, 700.0]),
+            nodes: model.wavelengths().to_vec(),
         }
     }
 }
@@ -63,12 +69,40 @@ impl Question {
         QUANTITIES[self.quantity as usize]
     }
 
+    /// Of the light or the air of a segment.
     pub fn is_segment(&self) -> bool {
-        self.quantity >= FIRST_SEGMENT
+        self.is_transmittance() || self.name().starts_with("in_scattering")
+    }
+
+    pub fn is_transmittance(&self) -> bool {
+        self.name().starts_with("transmittance")
     }
 
     pub fn has_wavelength(&self) -> bool {
         self.name().ends_with("_at")
+    }
+
+    /// Whether what lies between the nodes decides.
+    pub fn needs_spectrum(&self) -> bool {
+        self.has_wavelength() || self.name() == "wavelength_range"
+    }
+
+    pub fn conditions(&self) -> Conditions {
+        let [
+            altitude,
+            visibility,
+            albedo,
+            solar_elevation,
+            solar_azimuth,
+            ..,
+        ] = self.cells;
+        Conditions {
+            altitude,
+            visibility,
+            albedo,
+            solar_elevation,
+            solar_azimuth,
+        }
     }
 
     pub fn line(&self) -> String {
@@ -83,6 +117,9 @@ impl Question {
             let slack = 1e-9 * low.abs().max(high.abs());
             !(low - slack..=high + slack).contains(&value)
         };
+        if self.name() == "wavelength_range" {
+            return false;
+        }
         let [altitude, visibility, albedo, elevation, ..] = self.cells;
         // In a depression.
         let altitude = if (-500.0..0.0).contains(&altitude) {
@@ -92,7 +129,7 @@ impl Question {
         };
         let scene = outside(albedo, [0.0, 1.0]) || outside(elevation, ranges.elevation);
         outside(visibility, ranges.visibility)
-            || self.name() != "transmittance" && scene
+            || !self.is_transmittance() && scene
             || !self.is_segment() && outside(altitude, ranges.altitude)
     }
 }
@@ -111,7 +148,10 @@ fn scene(bytes: &mut Bytes, ranges: &Ranges) -> Vec<Question> {
     let albedo = coordinate(bytes, [0.0, 1.0]);
     let elevation = coordinate(bytes, ranges.elevation);
     let azimuth = 6.0 * bytes.unit() - 3.0;
-    let wavelength = coordinate(bytes, ranges.wavelength);
+    let wavelength = match bytes.below(8) {
+        0 => bytes.one_of(&ranges.nodes),
+        _ => coordinate(bytes, ranges.wavelength),
+    };
     let direction = direction(bytes, [elevation, azimuth]);
     let distance = [1.0, 37.0, 900.0, 2e4, 5e4, 1e6][bytes.below(6)];
     let dense = bytes.below(2) as u32;

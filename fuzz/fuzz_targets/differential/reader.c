@@ -11,7 +11,22 @@ size_t ZSTD_decompress(void *out, size_t capacity, const void *frame, size_t len
 /* More than this is not worth the time. */
 #define MOST_BYTES ((size_t)1 << 26)
 
-enum { RADIANCE, RADIANCE_AT, SPECTRAL_AT, XYZ, STOKES, STOKES_AT, TRANSMITTANCE, IN_SCATTERING, IN_SCATTERING_STOKES };
+enum {
+    RADIANCE,
+    RADIANCE_AT,
+    SPECTRAL_AT,
+    XYZ,
+    STOKES,
+    STOKES_AT,
+    TRANSMITTANCE,
+    IN_SCATTERING,
+    IN_SCATTERING_STOKES,
+    TRANSMITTANCE_AT,
+    IN_SCATTERING_AT,
+    IN_SCATTERING_STOKES_AT,
+    WAVELENGTH_RANGE,
+    SUNLIGHT_AT
+};
 
 /* One question: altitude, visibility, albedo, elevation and azimuth of the sun, direction, wavelength, distance. */
 typedef struct question {
@@ -51,44 +66,88 @@ static void put_three(answer *a, const float *l, const float *q, const float *u,
     put(a, u, count);
 }
 
+/* Far enough to be out of any air. */
+#define SPACE 5e8
+
+static welkin_error ask_transmittance(const welkin_file *file, const question *q, const welkin_conditions *c, answer *a)
+{
+    float through[WELKIN_MAX_WAVELENGTHS];
+    int at = q->quantity == TRANSMITTANCE_AT;
+    welkin_transmittance_profile air;
+    welkin_error error = welkin_transmittance_prepare(&air, file, c->visibility);
+    if (!error && at) error = welkin_transmittance_at(&air, c->altitude, q->cells + 5, q->cells[9], q->cells + 8, 1, through);
+    if (!error && !at) error = welkin_transmittance(&air, c->altitude, q->cells + 5, q->cells[9], through);
+    if (!error) put(a, through, at ? 1 : file->wavelengths);
+    return error;
+}
+
+/* Irradiance times transmittance from the observer towards the centre of the sun. */
+static welkin_error ask_sunlight(const welkin_file *file, const question *q, const welkin_conditions *c, answer *a)
+{
+    double altitude = c->altitude < 0 ? 0 : c->altitude, irradiance, direction[3];
+    float through;
+    welkin_transmittance_profile air;
+    welkin_error error = welkin_transmittance_prepare(&air, file, c->visibility);
+    direction[0] = cos(c->solar_elevation) * cos(c->solar_azimuth);
+    direction[1] = cos(c->solar_elevation) * sin(c->solar_azimuth);
+    direction[2] = sin(c->solar_elevation);
+    if (!error) error = welkin_transmittance_at(&air, altitude, direction, SPACE, q->cells + 8, 1, &through);
+    if (!error) error = welkin_irradiance_at(file, q->cells[8], &irradiance);
+    if (error) return error;
+    irradiance *= (double)through;
+    put_doubles(a, &irradiance, 1);
+    return WELKIN_OK;
+}
+
+static welkin_error put_stokes(const welkin_file *file, const question *q, float light[3][WELKIN_MAX_WAVELENGTHS], answer *a)
+{
+    double stokes[3];
+    welkin_error error;
+    if (q->quantity == STOKES || q->quantity == IN_SCATTERING_STOKES) {
+        put_three(a, light[0], light[1], light[2], file->wavelengths);
+        return WELKIN_OK;
+    }
+    error = welkin_stokes_at(file, light[0], light[1], light[2], q->cells[8], stokes);
+    if (!error) put_doubles(a, stokes, 3);
+    return error;
+}
+
 static welkin_error ask_segment(const welkin_file *file, const question *q, const welkin_conditions *c, float *scratch, size_t floats,
                                 answer *a)
 {
     float light[3][WELKIN_MAX_WAVELENGTHS];
+    double value;
     const double *direction = q->cells + 5;
-    welkin_transmittance_profile air;
     welkin_aerial_perspective aerial;
-    welkin_error error;
-    if (q->quantity == TRANSMITTANCE) {
-        error = welkin_transmittance_prepare(&air, file, c->visibility);
-        if (!error) error = welkin_transmittance(&air, c->altitude, direction, q->cells[9], light[0]);
-        if (!error) put(a, light[0], file->wavelengths);
-        return error;
+    welkin_error error = welkin_aerial_perspective_prepare(&aerial, file, c, scratch, floats);
+    if (error) return error;
+    if (q->quantity == IN_SCATTERING_STOKES || q->quantity == IN_SCATTERING_STOKES_AT) {
+        error = welkin_in_scattering_stokes(&aerial, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
+        return error ? error : put_stokes(file, q, light, a);
     }
-    error = welkin_aerial_perspective_prepare(&aerial, file, c, scratch, floats);
+    error = welkin_in_scattering(&aerial, c->altitude, direction, q->cells[9], light[0]);
     if (error) return error;
     if (q->quantity == IN_SCATTERING) {
-        error = welkin_in_scattering(&aerial, c->altitude, direction, q->cells[9], light[0]);
-        if (!error) put(a, light[0], file->wavelengths);
-        return error;
+        put(a, light[0], file->wavelengths);
+        return WELKIN_OK;
     }
-    error = welkin_in_scattering_stokes(&aerial, c->altitude, direction, q->cells[9], light[0], light[1], light[2]);
-    if (!error) put_three(a, light[0], light[1], light[2], file->wavelengths);
+    error = welkin_radiance_at(file, light[0], q->cells[8], &value);
+    if (!error) put_doubles(a, &value, 1);
     return error;
 }
 
 static welkin_error ask_stokes(const welkin_sky *sky, const question *q, answer *a)
 {
     float light[3][WELKIN_MAX_WAVELENGTHS];
-    double stokes[3];
     welkin_error error = welkin_stokes(sky, q->cells + 5, light[0], light[1], light[2]);
-    if (error) return error;
-    if (q->quantity == STOKES) {
-        put_three(a, light[0], light[1], light[2], sky->file->wavelengths);
-        return WELKIN_OK;
-    }
-    error = welkin_stokes_at(sky->file, light[0], light[1], light[2], q->cells[8], stokes);
-    if (!error) put_doubles(a, stokes, 3);
+    return error ? error : put_stokes(sky->file, q, light, a);
+}
+
+static welkin_error ask_range(const welkin_file *file, answer *a)
+{
+    double range[2];
+    welkin_error error = welkin_wavelength_range(file, range);
+    if (!error) put_doubles(a, range, 2);
     return error;
 }
 
@@ -125,6 +184,9 @@ static welkin_error ask(const welkin_file *file, const question *q, float *scrat
     c.albedo = cells[2];
     c.solar_elevation = cells[3];
     c.solar_azimuth = cells[4];
+    if (q->quantity == WAVELENGTH_RANGE) return ask_range(file, a);
+    if (q->quantity == SUNLIGHT_AT) return ask_sunlight(file, q, &c, a);
+    if (q->quantity == TRANSMITTANCE || q->quantity == TRANSMITTANCE_AT) return ask_transmittance(file, q, &c, a);
     if (q->quantity >= TRANSMITTANCE) return ask_segment(file, q, &c, scratch, floats, a);
     if (q->quantity == STOKES || q->quantity == STOKES_AT) flags |= WELKIN_POLARISED;
     error = welkin_prepare(&sky, file, &c, flags, scratch, floats);

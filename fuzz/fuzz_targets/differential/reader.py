@@ -6,6 +6,7 @@ suite. Output: one line per question. Starts with a line that says which feature
 
 import importlib.machinery
 import importlib.util
+import math
 import pathlib
 import struct
 import sys
@@ -18,6 +19,25 @@ def load():
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("conformance", loader))
     loader.exec_module(module)
     return module
+
+
+def answer(reader, model, line):
+    """The conformance reader's answers, and two that its suite does not ask for."""
+    quantity, *cells = line.split("\t")
+    if quantity == "wavelength_range":
+        return model.wavelength_range
+    if quantity == "sunlight_at":
+        return sunlight(model, *map(float, cells))
+    return reader.answer(model, line).ravel()
+
+
+def sunlight(model, altitude, visibility, albedo, elevation, azimuth, *rest):
+    """Irradiance times transmittance towards the sun."""
+    wavelength = rest[3]
+    level = math.cos(elevation)
+    sun = [level * math.cos(azimuth), level * math.sin(azimuth), math.sin(elevation)]
+    through = model.transmittance_at(sun, math.inf, wavelength, altitude=max(0.0, altitude), visibility=visibility)
+    return through * model.solar_irradiance(wavelength)
 
 
 def read_block(stream):
@@ -39,7 +59,7 @@ def main():
             try:
                 if refusal:
                     raise refusal
-                print(*(repr(float(number)) for number in reader.answer(model, line).ravel()))
+                print(*(repr(float(number)) for number in answer(reader, model, line)))
             except welkin_sky.WelkinError as error:
                 print("error", error.error_class)
         sys.stdout.flush()

@@ -3,10 +3,11 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use welkin::{Conditions, PointQuery, Interpolation, Model};
+use welkin::{Interpolation, Model, PointQuery};
 
 use crate::answer;
 use crate::question::{Answer, Question};
+use crate::sunlight;
 
 /// An error at open, or an answer for each question.
 pub type Report = Result<Vec<Answer>, String>;
@@ -18,12 +19,26 @@ pub fn library(model: &Result<Model, welkin::Error>, questions: &[Question]) -> 
     let model = model.as_ref().map_err(|e| e.class().to_owned())?;
     // What is asked for per unit of sunlight is not known where there is none.
     let dark = model.head().solar_irradiance.contains(&0.0);
-    let answer = |q: &Question| match answer::answer(model, &q.line()) {
+    let has_spectrum = model.has_spectrum();
+    let answer = |q: &Question| match q.name() {
+        "wavelength_range" => {
+            let range = model.wavelength_range().map(Vec::from);
+            range.map_err(|e| e.class().to_owned())
+        }
+        // Others know it at the nodes only.
+        "transmittance_at" | "sunlight_at" if !has_spectrum => Err(ABSTAINS.to_owned()),
+        "sunlight_at" => sunlight::of_disc(model, q),
+        _ => of_line(model, q, dark),
+    };
+    Ok(questions.iter().map(answer).collect())
+}
+
+fn of_line(model: &Model, q: &Question, dark: bool) -> Answer {
+    match answer::answer(model, &q.line()) {
         Ok(values) if dark && values.iter().any(|v| v.is_nan()) => Err(ABSTAINS.to_owned()),
         Ok(values) => Ok(values.into_iter().map(f64::from).collect()),
         Err(class) => Err(class.to_owned()),
-    };
-    Ok(questions.iter().map(answer).collect())
+    }
 }
 
 /// Answers for radiances only. Numbers of chunks are not checked by this reader.
@@ -35,31 +50,22 @@ pub fn general(file: &[u8], questions: &[Question]) -> Report {
     let general = general.with_interpolation(Interpolation::Full);
     let mut row = vec![0.0; general.wavelengths().len()];
     let mut answer = |q: &Question| {
-        if q.name() != "relative_radiance" {
-            return Err(ABSTAINS.to_owned());
-        }
-        let [
-            altitude,
-            visibility,
-            albedo,
-            solar_elevation,
-            solar_azimuth,
-            x,
-            y,
-            z,
-            ..,
-        ] = q.cells;
-        let conditions = Conditions {
-            altitude,
-            visibility,
-            albedo,
-            solar_elevation,
-            solar_azimuth,
-        };
+        let [.., x, y, z, wavelength, _] = q.cells;
         let direction = [x, y, z].map(|v| v as f32);
-        let done = general.relative_radiance(&conditions, direction, &mut row);
-        done.map_err(|error| error.class().to_owned())?;
-        Ok(row.iter().copied().map(f64::from).collect())
+        let class = |error: welkin::Error| error.class().to_owned();
+        match q.name() {
+            "wavelength_range" => Ok(general.wavelength_range().to_vec()),
+            "relative_radiance_at" => {
+                let light = general.relative_radiance_at(&q.conditions(), direction, wavelength);
+                Ok(vec![f64::from(light.map_err(class)?)])
+            }
+            "relative_radiance" => {
+                let done = general.relative_radiance(&q.conditions(), direction, &mut row);
+                done.map_err(class)?;
+                Ok(row.iter().copied().map(f64::from).collect())
+            }
+            _ => Err(ABSTAINS.to_owned()),
+        }
     };
     Ok(questions.iter().map(&mut answer).collect())
 }
