@@ -261,14 +261,14 @@ impl Tables {
     pub fn radiance(&self, lookup: &Lookup, mut emit: impl FnMut(usize, [f32; LANES])) {
         let mut block = 0;
         if self.layout.quads == 1 {
-            // The usual case: three cells at a time share the work on weights and rows.
+            // The usual case: some cells at a time share the work on weights and rows.
             while block + 3 <= self.layout.blocks {
-                let cells = lookup.gather::<3>(block);
-                for (i, cell) in cells.iter().enumerate() {
-                    let fields = self.fields(lookup.angle, 0, block + i, cell);
-                    emit(block + i, self.finish(&lookup.depth, block + i, fields));
-                }
+                self.blocks::<3>(lookup, block, &mut emit);
                 block += 3;
+            }
+            if block + 2 == self.layout.blocks {
+                self.blocks::<2>(lookup, block, &mut emit);
+                block += 2;
             }
         }
         while block < self.layout.blocks {
@@ -280,6 +280,21 @@ impl Tables {
             }
             emit(block, self.finish(&lookup.depth, block, sum));
             block += 1;
+        }
+    }
+
+    /// [`Tables::radiance`] of `N` blocks of wavelengths whose groups are a quad.
+    #[inline(always)]
+    fn blocks<const N: usize>(
+        &self,
+        lookup: &Lookup,
+        first: usize,
+        emit: &mut impl FnMut(usize, [f32; LANES]),
+    ) {
+        let cells = lookup.gather::<N>(first);
+        for (i, cell) in cells.iter().enumerate() {
+            let fields = self.fields(lookup.angle, 0, first + i, cell);
+            emit(first + i, self.finish(&lookup.depth, first + i, fields));
         }
     }
 
