@@ -103,8 +103,9 @@ fn bell_at(wavelength: f64, centre: f64, width: f64) -> f64 {
 }
 
 /// Bells and boxes, wide and narrow.
-/// Wavelengths of the default model.
-const NODES: usize = 24;
+/// Wavelengths of the default model: bytes 40 and 41 of a file.
+const NODES: usize =
+    u16::from_le_bytes([welkin::DEFAULT_MODEL[40], welkin::DEFAULT_MODEL[41]]) as usize;
 const BELLS: [[f64; 2]; 5] = [
     [450.0, 20.0],
     [540.0, 30.0],
