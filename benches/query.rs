@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use welkin::{Conditions, Model, Response, Sky};
+use welkin::{BakedSky, Conditions, Model, Response, Sky};
 
 /// Directions all over the sphere, in an order that no cache can guess.
 fn directions() -> Vec<[f32; 3]> {
@@ -54,31 +54,54 @@ fn prepare(c: &mut Criterion) {
     c.bench_function("prepare between nodes", |b| b.iter(|| model.sky(&between)));
 }
 
-/// Three of the wavelengths as bands, against all of them.
+/// A bell of 61 samples.
+fn bell([centre, width]: [f64; 2]) -> Response {
+    let steps = (-30..=30).map(|i| f64::from(i) / 10.0);
+    let wavelengths: Vec<f64> = steps.clone().map(|t| centre + width * t).collect();
+    let values: Vec<f64> = steps.map(|t| (-0.5 * t * t).exp()).collect();
+    Response::table(&wavelengths, &values).expect("a curve")
+}
+
+/// Bands of three kinds, against all wavelengths of the model in `query` and `prepare`.
 fn bands(c: &mut Criterion) {
     let model = Model::default_model().expect("the embedded model is valid");
+    let [first, last] = model.wavelength_range().expect("a range");
     let conditions = between_nodes();
-    let nodes = [440.0, 560.0, 640.0].map(Response::wavelength);
-    let three = model.bands(&nodes).expect("wavelengths of the model");
-    c.bench_function("prepare three bands between nodes", |b| {
-        b.iter(|| model.band_sky(&conditions, &three))
-    });
-    let sky = model
-        .band_sky(&conditions, &three)
-        .expect("inside the model");
     let directions = directions();
-    let mut out = [0.0; 3];
-    let mut next = 0;
-    c.bench_function("one direction, three bands", |b| {
-        b.iter(|| {
+    let camera = [[600.0, 30.0], [540.0, 35.0], [460.0, 25.0]].map(bell);
+    let lines = (0..12).map(|i| Response::wavelength(403.7 + 26.3 * f64::from(i)));
+    let narrow = (0..40).map(|i| {
+        let share = (f64::from(i) + 0.5) / 40.0;
+        bell([first + 10.0 + share * (last - first - 20.0), 3.0])
+    });
+    for (name, responses) in [
+        ("three curves of a camera", camera.to_vec()),
+        ("twelve wavelengths between nodes", lines.collect()),
+        ("forty narrow bands", narrow.collect::<Vec<_>>()),
+    ] {
+        let bands = model.bands(&responses).expect("within the model");
+        let sky = (model.band_sky(&conditions, &bands)).expect("inside the model");
+        let baked = sky.bake(BakedSky::TOLERANCE).expect("a sky of the ground");
+        let mut out = vec![0.0; bands.count()];
+        let mut next = 0;
+        let mut direction = || {
             next = (next + 1) % 1024;
-            sky.radiance(black_box(directions[next]), &mut out)
-        })
-    });
-    let between = [445.0, 550.0, 655.5].map(Response::wavelength);
-    c.bench_function("project three wavelengths between nodes", |b| {
-        b.iter(|| model.bands(&between))
-    });
+            directions[next]
+        };
+        c.bench_function(&format!("one direction, {name}"), |b| {
+            b.iter(|| sky.radiance(black_box(direction()), &mut out))
+        });
+        c.bench_function(&format!("one direction, baked, {name}"), |b| {
+            b.iter(|| baked.radiance(black_box(direction()), &mut out))
+        });
+        c.bench_function(&format!("prepare, {name}"), |b| {
+            b.iter(|| model.band_sky(&conditions, &bands))
+        });
+        let mut group = c.benchmark_group("project");
+        group.sample_size(10);
+        group.bench_function(name, |b| b.iter(|| model.bands(&responses)));
+        group.finish();
+    }
 }
 
 /// A segment of finite length, by the stored source and as the paper's Eq. 2 has it: the difference of two skies.

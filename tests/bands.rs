@@ -103,6 +103,9 @@ fn bell_at(wavelength: f64, centre: f64, width: f64) -> f64 {
 }
 
 /// Bells and boxes, wide and narrow.
+/// Wavelengths of the default model: bytes 40 and 41 of a file.
+const NODES: usize =
+    u16::from_le_bytes([welkin::DEFAULT_MODEL[40], welkin::DEFAULT_MODEL[41]]) as usize;
 const BELLS: [[f64; 2]; 5] = [
     [450.0, 20.0],
     [540.0, 30.0],
@@ -346,7 +349,7 @@ fn transmittance_is_the_mean_of_what_passes() {
         let band_air = model.band_transmittance(visibility, &bands).unwrap();
         let from = [0.0, 0.0, 1e4 * random.share().powi(2)];
         let to = point(&mut random, from);
-        let (mut nodes, mut got) = ([0.0; 12], [0.0; BELLS.len()]);
+        let (mut nodes, mut got) = ([0.0; NODES], [0.0; BELLS.len()]);
         air.transmittance(from, to, &mut nodes).unwrap();
         band_air.transmittance(from, to, &mut got).unwrap();
         for (got, [mean, _]) in got.iter().zip(over_bells(&model, &nodes, false)) {
@@ -374,9 +377,9 @@ fn the_sun_in_bands_is_that_at_its_wavelengths() {
         };
         let disc = model.solar_disc(&conditions).unwrap();
         let band_disc = model.band_solar_disc(&conditions, &bands).unwrap();
-        let mut at_nodes = [0.0; 12];
+        let mut at_nodes = [0.0; NODES];
         let mut got = [0.0; BELLS.len()];
-        let relative = |values: &mut [f32; 12]| {
+        let relative = |values: &mut [f32; NODES]| {
             for (value, &l) in values.iter_mut().zip(model.wavelengths()) {
                 *value /= model.head().solar_irradiance_at(l) as f32;
             }
@@ -411,7 +414,7 @@ fn light_of_segments_in_bands_is_a_sum_over_wavelengths() {
         let band_aerial = model.band_aerial_perspective(&conditions, &bands).unwrap();
         let from = [0.0, 0.0, 3e3 * random.share()];
         let to = point(&mut random, from);
-        let [mut light, mut through] = [[0.0; 12]; 2];
+        let [mut light, mut through] = [[0.0; NODES]; 2];
         let [mut got, mut band_through, mut air] = [[0.0; BELLS.len()]; 3];
         aerial
             .in_scattering(from, to, &mut light, &mut through)
@@ -519,7 +522,8 @@ fn point_queries_are_projected_like_skies() {
     let mut random = Random(41);
     for _ in 0..20 {
         let (conditions, view) = (conditions(&mut random), view(&mut random));
-        let (mut relative, mut got, mut sky) = ([0.0; 12], [0.0; BELLS.len()], [0.0; BELLS.len()]);
+        let (mut relative, mut got, mut sky) =
+            ([0.0; NODES], [0.0; BELLS.len()], [0.0; BELLS.len()]);
         query
             .relative_radiance(&conditions, view, &mut relative)
             .unwrap();
@@ -539,7 +543,7 @@ fn point_queries_are_projected_like_skies() {
     );
     assert_eq!(
         bands
-            .project(&[0.0; 12], &mut [0.0; 4])
+            .project(&[0.0; NODES], &mut [0.0; 4])
             .unwrap_err()
             .class(),
         "length"

@@ -4,7 +4,7 @@ use crate::assess::{self, Error, Quantiles};
 use crate::dataset::{Sample, Store};
 use crate::decompose::{self, Chunk, Fit, Options, chunk_geometry};
 use crate::finite;
-use crate::fitting::Fitting;
+use crate::fitting::{Fitting, unit_name};
 use crate::pack::{self, AirTables, PackedBasis};
 use crate::progress::bar;
 use crate::report;
@@ -150,11 +150,8 @@ fn fit_group(
     store: &Store,
     chunks: &[Chunk],
 ) -> Result<Fit> {
-    let grid = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
-    let name = |what: &str, settings: String| {
-        let key = crc32fast::hash(format!("{settings} {grid} {nodes:?}").as_bytes());
-        format!("{what}-{}-{key:08x}", options.rank)
-    };
+    let name =
+        |what: &str, refinements: usize| unit_name(what, &plan.grid, nodes, options, refinements);
     let read = |values: Vec<f32>| {
         let fit = Fit::from_values(&values, &plan.grid, options.rank, chunks.len(), FIELDS * NW);
         fit.context("a fit of another size")
@@ -169,7 +166,7 @@ fn fit_group(
         progress.finish();
         Ok(fit.to_values())
     };
-    let values = store.unit(&name("decomposition", format!("{options:?}")), first)?;
+    let values = store.unit(&name("decomposition", 0), first)?;
     let refine = || -> Result<Vec<f32>> {
         let mut fit = read(values)?;
         let progress = bar(fitting.refinements, "refining");
@@ -179,8 +176,7 @@ fn fit_group(
         progress.finish();
         Ok(fit.to_values())
     };
-    let settings = format!("{options:?} {}", fitting.refinements);
-    read(store.unit(&name("refinement", settings), refine)?)
+    read(store.unit(&name("refinement", fitting.refinements), refine)?)
 }
 
 fn fit_polarisation(

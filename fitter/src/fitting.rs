@@ -1,6 +1,24 @@
 //! How traced tensors are fitted.
 
+use crate::dataset::Grid;
 use crate::decompose::Options;
+
+/// Changes whenever what is fitted or how it is does.
+const VERSION: u32 = 2;
+
+/// Name of the unit that holds the fit of some nodes.
+pub(crate) fn unit_name(
+    what: &str,
+    grid: &Grid,
+    nodes: &[usize],
+    options: Options,
+    refinements: usize,
+) -> String {
+    let places = (&grid.altitudes, &grid.visibilities);
+    let settings = format!("{VERSION} {options:?} {refinements} {places:?} {nodes:?}");
+    let key = crc32fast::hash(settings.as_bytes());
+    format!("{what}-{}-{key:08x}", options.rank)
+}
 
 /// How the traced tensors are fitted.
 #[derive(Clone, Copy, Debug)]
@@ -37,10 +55,10 @@ impl Default for Fitting {
         Self {
             options: Options {
                 rank: 160,
-                sweeps: 250,
+                sweeps: 100,
                 seed: 1,
             },
-            refinements: 24,
+            refinements: 36,
             polarisation: Options {
                 rank: 48,
                 sweeps: 400,

@@ -62,6 +62,7 @@ pub fn head(
         altitudes: grid.altitudes.clone(),
         visibilities: grid.visibilities.clone(),
         constituents: airs[0].extinction.len(),
+        absorbers: gatherer.medium().absorbers(),
         extinction: airs
             .iter()
             .flat_map(|air| air.extinction.iter().flat_map(wide))

@@ -4,6 +4,7 @@ use crate::dataset::Store;
 use crate::decompose::{
     self, Chunk, Fit, Options, POLARISED_CHANNELS, PolarisedChunk, polarise as decompose_all,
 };
+use crate::fitting::unit_name;
 use crate::pack::PackedBasis;
 use crate::progress::bar;
 use crate::units::{Plan, Solved};
@@ -23,9 +24,7 @@ pub fn fit(
     chunks: &[Chunk],
     places: &[Place],
 ) -> Result<Fit> {
-    let grid = format!("{:?} {:?}", plan.grid.altitudes, plan.grid.visibilities);
-    let key = crc32fast::hash(format!("{options:?} {grid} {nodes:?}").as_bytes());
-    let name = format!("polarisation-{}-{key:08x}", options.rank);
+    let name = unit_name("polarisation", &plan.grid, nodes, options, 0);
     let values = store.unit(&name, || {
         let compressed = compress_all(plan, store, solved, (chunks, nodes), places)?;
         let progress = bar(options.sweeps, "decomposing polarisation");

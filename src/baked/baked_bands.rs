@@ -63,12 +63,14 @@ impl Channels<LANES> for OfBands<'_> {
         self.0.bands()
     }
 
-    fn project(&self, radiance: &[f32], block: usize) -> Lanes<LANES> {
+    #[inline(always)]
+    fn project(&self, radiance: &[f32], mut emit: impl FnMut(usize, Lanes<LANES>)) {
         let mut bands = [1.0; MOST_WAVELENGTHS];
         self.0.apply(radiance, &mut bands[..self.0.bands()]);
-        let mut lanes = Lanes::splat(1.0);
-        lanes.0.copy_from_slice(&bands[block * LANES..][..LANES]);
-        lanes
+        let blocks = bands.as_chunks::<LANES>().0.iter().take(self.blocks());
+        blocks
+            .enumerate()
+            .for_each(|(block, lanes)| emit(block, Lanes(*lanes)));
     }
 }
 

@@ -45,9 +45,10 @@ impl Channels<LANES> for Xyz<'_> {
         3
     }
 
-    fn project(&self, radiance: &[f32], _: usize) -> Lanes<LANES> {
+    #[inline(always)]
+    fn project(&self, radiance: &[f32], mut emit: impl FnMut(usize, Lanes<LANES>)) {
         let [x, y, z] = self.0.project_xyz(radiance);
-        Lanes([x, y, z, 1.0])
+        emit(0, Lanes([x, y, z, 1.0]));
     }
 }
 

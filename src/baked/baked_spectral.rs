@@ -57,11 +57,12 @@ impl Channels<LANES> for Spectrum {
         self.wavelengths
     }
 
-    fn project(&self, radiance: &[f32], block: usize) -> Lanes<LANES> {
-        let radiance = &radiance[block * LANES..];
-        Lanes(core::array::from_fn(|i| {
-            radiance.get(i).copied().unwrap_or(1.0)
-        }))
+    #[inline(always)]
+    fn project(&self, radiance: &[f32], mut emit: impl FnMut(usize, Lanes<LANES>)) {
+        for (block, radiance) in radiance.chunks(LANES).enumerate() {
+            let lane = |i: usize| radiance.get(i).copied().unwrap_or(1.0);
+            emit(block, Lanes(core::array::from_fn(lane)));
+        }
     }
 }
 

@@ -21,8 +21,8 @@ pub(crate) trait Channels<const N: usize> {
     fn blocks(&self) -> usize;
     /// Channels in all blocks that exist.
     fn count(&self) -> usize;
-    /// Channels of a block; those that do not exist are 1.
-    fn project(&self, radiance: &[f32], block: usize) -> Lanes<N>;
+    /// Hands over the channels of each block; those that do not exist are 1.
+    fn project(&self, radiance: &[f32], emit: impl FnMut(usize, Lanes<N>));
 }
 
 /// Radiance is not less than this share of the envelope: logarithms need an end where a fit has gone below zero.
@@ -68,10 +68,9 @@ impl<const N: usize, C: Channels<N>> Kernel for Envelope<'_, C, N> {
             let half_sine = f64::from(i) / f64::from(SUN);
             let angle = SunAngle::from_versine(2.0 * half_sine * half_sine);
             self.sky.relative_in(&beside_sun, 0.0, angle, &mut radiance);
-            for (block, values) in values.iter_mut().enumerate() {
-                let value = self.channels.project(&radiance, block);
-                values.push(value.max(Lanes::splat(f32::MIN_POSITIVE)).log2());
-            }
+            self.channels.project(&radiance, |block, value| {
+                values[block].push(value.max(Lanes::splat(f32::MIN_POSITIVE)).log2());
+            });
         }
         let blocks = values.iter();
         blocks
@@ -131,9 +130,8 @@ impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
         let angles = self.lattice.angles(ray, azimuths);
         for (&phi, angle) in azimuths.iter().zip(angles) {
             sky.relative_in(&row, phi, angle, radiance);
-            for block in 0..self.channels.blocks() {
-                emit(angle, block, self.channels.project(radiance, block));
-            }
+            let hand_on = |block, value| emit(angle, block, value);
+            self.channels.project(radiance, hand_on);
         }
     }
 

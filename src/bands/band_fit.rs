@@ -1,9 +1,12 @@
 //! Weights of nodes for bands.
 
-use super::band_projection::{Made, Power};
+use std::cell::OnceCell;
+
+use super::band_projection::Made;
 use super::examples::examples;
 use super::few_columns::{MOST, choose};
 use super::least_squares::{Problem, Weights};
+use super::powers::Power;
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::{SpectralAxis, Taps, power};
@@ -76,6 +79,8 @@ struct Examples<'a> {
     axis: &'a SpectralAxis,
     /// ln L at the nodes.
     logarithms: Vec<Vec<f64>>,
+    /// ln L of each example at the knots between which it is interpolated, as far as asked for.
+    knots: Vec<OnceCell<Vec<f64>>>,
 }
 
 impl<'a> Examples<'a> {
@@ -84,14 +89,25 @@ impl<'a> Examples<'a> {
             model,
             axis,
             logarithms: examples(model)?,
+            knots: vec![OnceCell::new(); axis.wavelengths.len()],
         })
     }
 
     /// Relative radiance at a wavelength.
     fn at(&self, wavelength: f64) -> Vec<f64> {
-        let rows = self.logarithms.iter();
-        rows.map(|row| self.axis.radiance(wavelength, row))
-            .collect()
+        let mut logarithms = vec![0.0; self.logarithms.len()];
+        for (knot, weight) in self.axis.knots(wavelength) {
+            let pairs = logarithms.iter_mut().zip(self.at_knot(knot));
+            pairs.for_each(|(sum, l)| *sum += weight * l);
+        }
+        logarithms.into_iter().map(f64::exp).collect()
+    }
+
+    fn at_knot(&self, knot: usize) -> &[f64] {
+        self.knots[knot].get_or_init(|| {
+            let rows = self.logarithms.iter();
+            rows.map(|row| self.axis.at_knot(knot, row)).collect()
+        })
     }
 
     /// What a response sees of each.

@@ -135,7 +135,7 @@ impl Bands {
     /// let model = Model::default_model()?;
     /// let bands = model.bands(&[Response::wavelength(450.0), Response::wavelength(650.0)])?;
     /// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
-    /// let (mut relative, mut radiance) = ([0.0; 12], [0.0; 2]);
+    /// let (mut relative, mut radiance) = (vec![0.0; model.wavelengths().len()], [0.0; 2]);
     /// query.relative_radiance(&Conditions::default(), [0.0, 0.0, 1.0], &mut relative)?;
     /// bands.project(&relative, &mut radiance)?; // W m⁻² sr⁻¹ nm⁻¹
     /// assert!(radiance[0] > radiance[1]);

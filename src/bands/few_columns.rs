@@ -27,11 +27,11 @@ pub(super) fn choose(
     let mut chosen = given.to_vec();
     while let Some(worst) = worst(problems, &goals, &chosen).filter(|_| chosen.len() < most) {
         let left = candidates.iter().filter(|c| !chosen.contains(c));
-        let error = |&&c: &&usize| {
-            let tried: Vec<usize> = chosen.iter().copied().chain([c]).collect();
-            residual(&problems[worst], &tried)
-        };
-        let Some(&next) = left.min_by(|a, b| error(a).total_cmp(&error(b))) else {
+        let tried = left.map(|&c| {
+            let columns: Vec<usize> = chosen.iter().copied().chain([c]).collect();
+            (c, residual(&problems[worst], &columns))
+        });
+        let Some((next, _)) = tried.min_by(|a, b| a.1.total_cmp(&b.1)) else {
             break;
         };
         chosen.push(next);

@@ -1,6 +1,6 @@
 //! Least squares with weights that are not negative, after Lawson & Hanson 1974, and a choice of few columns.
 
-/// A matrix and a right side, with the matrix compressed to as many rows as it has columns.
+/// A matrix and a right side, with the matrix compressed to about as many rows as it has columns.
 pub(super) struct Problem {
     /// Columns of the original matrix, `[column][row]`.
     columns: Vec<Vec<f64>>,
@@ -12,6 +12,9 @@ pub(super) struct Problem {
     scale: Vec<f64>,
 }
 
+/// How many times as many rows as columns are worth compressing.
+const WORTHWHILE: usize = 2;
+
 /// A column that counts, with its weight.
 pub(super) type Weights = Vec<(usize, f64)>;
 
@@ -21,8 +24,10 @@ impl Problem {
         let unit = |(c, &s): (&Vec<f64>, &f64)| scaled(c, if s > 0.0 { 1.0 / s } else { 0.0 });
         let mut compressed: Vec<Vec<f64>> = columns.iter().zip(&scale).map(unit).collect();
         compressed.push(right.clone());
-        let rows = triangularise(&mut compressed);
-        compressed.iter_mut().for_each(|c| c.truncate(rows));
+        if right.len() > WORTHWHILE * compressed.len() {
+            let rows = triangularise(&mut compressed);
+            compressed.iter_mut().for_each(|c| c.truncate(rows));
+        }
         let compressed_right = compressed.pop().unwrap_or_default();
         Self {
             columns,

@@ -2,7 +2,8 @@
 //!
 //! `response` holds curves, `spectral_axis` knows what light and air are between nodes, `examples` typical spectra.
 //! `band_fit` finds weights of nodes for the light and `transmittance_fit` exponentials for the air, both with
-//! `few_columns` and `least_squares`; `band_projection` and `mixture` apply them, and the rest are the public faces.
+//! `few_columns` and `least_squares`; `band_projection` (with `powers`) and `mixture` apply them, and
+//! the rest are the public faces.
 
 mod band_air;
 mod band_fit;
@@ -16,6 +17,7 @@ mod examples;
 mod few_columns;
 mod least_squares;
 mod mixture;
+mod powers;
 mod residual;
 mod response;
 mod spectral_axis;

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 /// // The mean spectral radiance over the filter, W m⁻² sr⁻¹ nm⁻¹.
 /// let mean = filter.clone().normalised();
 /// assert!((filter.integral() - 90.0).abs() < 1e-9 && (mean.integral() - 1.0).abs() < 1e-12);
+/// assert_eq!(filter.range(), [500.0, 600.0]);
 /// # assert_eq!(line.integral(), 1.0);
 /// # Ok::<(), welkin::Error>(())
 /// ```
@@ -41,8 +42,8 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::Length`] unless there are as many values as wavelengths; [`Error::Invalid`] for fewer than two,
-    /// wavelengths that do not increase, and values that are not finite, below zero, or all zero: a curve that is
-    /// negative somewhere is the difference of two bands.
+    /// wavelengths that do not increase, values that are not finite, below zero, or all zero, and for an integral beyond
+    /// single precision: a curve that is negative somewhere is the difference of two bands.
     pub fn table(wavelengths: &[f64], values: &[f64]) -> Result<Self> {
         if wavelengths.len() != values.len() {
             return Err(Error::Length {
@@ -69,7 +70,11 @@ impl Response {
         }
         let samples = wavelengths.iter().zip(values).map(|(&l, &v)| [l, v]);
         let curve = Curve::Table(trimmed(samples.collect()));
-        Ok(Self { curve })
+        let response = Self { curve };
+        match (response.integral() as f32).is_normal() {
+            true => Ok(response),
+            false => wrong("its integral is too large or too small"),
+        }
     }
 
     /// The same curve over its integral: its value is the mean spectral radiance, W m⁻² sr⁻¹ nm⁻¹. That of a single
@@ -96,8 +101,8 @@ impl Response {
         }
     }
 
-    /// First and last wavelength that count, nm.
-    pub(super) fn range(&self) -> [f64; 2] {
+    /// First and last wavelength that count, nm: those of a model must reach them.
+    pub fn range(&self) -> [f64; 2] {
         match &self.curve {
             Curve::Wavelength(wavelength) => [*wavelength; 2],
             Curve::Table(samples) => [samples[0][0], samples[samples.len() - 1][0]],
@@ -118,16 +123,25 @@ impl Response {
         edges.extend(kinks.iter().filter(|k| (first..=last).contains(*k)));
         edges.sort_unstable_by(f64::total_cmp);
         edges.dedup();
-        let mut out: Vec<[f64; 2]> = Vec::new();
+        let mut out = vec![[first, 0.0]];
         for pair in edges.windows(2) {
-            let pieces = ((pair[1] - pair[0]) / step).ceil().max(1.0);
-            let width = (pair[1] - pair[0]) / pieces;
-            for i in 0..pieces as usize {
-                let at = |k: usize| pair[0] + width * k as f64;
-                for l in [at(i), at(i + 1)] {
-                    out.push([l, 0.5 * width * self.at(samples, l)]);
+            let pieces = ((pair[1] - pair[0]) / step).ceil().max(1.0) as usize;
+            let width = (pair[1] - pair[0]) / pieces as f64;
+            for i in 1..=pieces {
+                // Neighbours share what lies between them.
+                if let Some(start) = out.last_mut() {
+                    start[1] += 0.5 * width;
                 }
+                let end = if i == pieces {
+                    pair[1]
+                } else {
+                    pair[0] + width * i as f64
+                };
+                out.push([end, 0.5 * width]);
             }
+        }
+        for [wavelength, weight] in &mut out {
+            *weight *= self.at(samples, *wavelength);
         }
         out.retain(|node| node[1] > 0.0);
         out
@@ -148,4 +162,33 @@ fn trimmed(samples: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let first = samples.iter().position(counts).unwrap_or(0);
     let last = samples.iter().rposition(counts).unwrap_or(0);
     samples[first.saturating_sub(1)..(last + 2).min(samples.len())].to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a curve times what is linear between kinks the trapezoids are exact, where the curve is constant.
+    #[test]
+    fn quadrature_takes_notice_of_kinks_and_asks_nothing_twice() {
+        let boxed = Response::table(&[499.9, 500.0, 530.0, 530.1], &[0.0, 2.0, 2.0, 0.0]).unwrap();
+        let kinks = [480.0, 503.3, 510.0, 529.5, 600.0];
+        let nodes = boxed.quadrature(&kinks);
+        assert!(
+            nodes.windows(2).all(|pair| pair[0][0] < pair[1][0]),
+            "{nodes:?}"
+        );
+        let inside = |k: &&f64| (500.0..=530.0).contains(*k);
+        assert!(
+            kinks
+                .iter()
+                .filter(inside)
+                .all(|k| nodes.iter().any(|n| n[0] == *k))
+        );
+        let bent = |l: f64| 1.0 + (l - 503.3).abs();
+        let sum: f64 = nodes.iter().map(|&[l, w]| w * bent(l)).sum();
+        let square = |l: f64| l * l / 2.0;
+        let exact = 2.0 * (30.0 + square(3.3) + square(26.7)) + 0.1 * (bent(500.0) + bent(530.0));
+        assert!((sum / exact - 1.0).abs() < 1e-5, "{sum} {exact}");
+    }
 }

@@ -64,6 +64,7 @@ impl SpectralAxis {
                 extinction: lines.iter().take(self.constituents).map(wide).collect(),
                 taps: nodes
                     .zip(spectrum.tap_weight[taps].iter().map(wide))
+                    .filter(|tap| tap.1 != 0.0)
                     .collect(),
             }
         };
@@ -98,16 +99,21 @@ impl SpectralAxis {
         self.cells.is_some()
     }
 
-    /// Relative radiance at a wavelength, where it has these logarithms at the nodes.
-    pub fn radiance(&self, wavelength: f64, logarithms: &[f64]) -> f64 {
+    /// What the logarithm of light at a wavelength is a sum of: cells, or nodes, with weights.
+    pub fn knots(&self, wavelength: f64) -> Taps {
+        match self.cells {
+            Some(_) => self.around(wavelength),
+            None => hermite(&self.wavelengths, wavelength).taps().collect(),
+        }
+    }
+
+    /// The logarithm of light at one of these, where it has these logarithms at the nodes.
+    pub fn at_knot(&self, knot: usize, logarithms: &[f64]) -> f64 {
         let Some(cells) = &self.cells else {
-            let taps: Taps = hermite(&self.wavelengths, wavelength).taps().collect();
-            return power(&taps, logarithms);
+            return logarithms[knot];
         };
-        let around = linear(&self.wavelengths, wavelength);
-        let of = |term: &Term| term.share * power(&term.taps, logarithms);
-        let cell = |c: usize| cells[c].iter().map(of).sum::<f64>().ln();
-        around.taps().map(|(c, w)| w * cell(c)).sum::<f64>().exp()
+        let light = |term: &Term| term.share * power(&term.taps, logarithms);
+        cells[knot].iter().map(light).sum::<f64>().ln()
     }
 
     /// What bands from one wavelength to another can be sums of: terms, or wavelengths between the nodes.
@@ -116,6 +122,9 @@ impl SpectralAxis {
             let taps = |&l: &f64| hermite(&self.wavelengths, l).taps().collect();
             return spread(&self.wavelengths, range).iter().map(taps).collect();
         };
+        if let Some(taps) = self.smooth(range) {
+            return vec![taps];
+        }
         let last = self.wavelengths.len() - 1;
         let first = self.wavelengths.partition_point(|&l| l <= range[0]).max(1) - 1;
         let end = self
@@ -127,6 +136,24 @@ impl SpectralAxis {
         taps.dedup();
         let step = taps.len().div_ceil(MOST_TERMS);
         taps.into_iter().step_by(step.max(1)).cloned().collect()
+    }
+
+    /// The taps of a single wavelength between cells without absorption lines: that is no sum.
+    fn smooth(&self, [first, last]: [f64; 2]) -> Option<Taps> {
+        let cells = self.cells.as_ref().filter(|_| first == last)?;
+        let mut sum = Taps::new();
+        for (cell, near) in self.around(first) {
+            let [term] = cells[cell].as_slice() else {
+                return None;
+            };
+            for &(node, weight) in &term.taps {
+                match sum.iter_mut().find(|tap| tap.0 == node) {
+                    Some(tap) => tap.1 += near * weight,
+                    None => sum.push((node, near * weight)),
+                }
+            }
+        }
+        Some(sum)
     }
 
     /// Extinction without lines at a visibility node, `[constituent]`.
@@ -148,22 +175,35 @@ impl SpectralAxis {
         (0..self.constituents).map(at).collect()
     }
 
-    /// What lines add to that in the shares of a wavelength: share and extinction, `[constituent]`.
+    /// The cells, or nodes, beside a wavelength, with weights of absorption by lines.
+    pub fn around(&self, wavelength: f64) -> Taps {
+        linear(&self.wavelengths, wavelength).taps().collect()
+    }
+
+    /// What lines add to the extinction in the shares of a wavelength: share and extinction, `[constituent]`.
     pub fn lines(&self, wavelength: f64) -> Vec<(f64, Vec<f64>)> {
-        let Some(cells) = &self.cells else {
-            return vec![(1.0, vec![0.0; self.constituents])];
-        };
         let mut lines: Vec<(f64, Vec<f64>)> = Vec::new();
-        for (cell, weight) in linear(&self.wavelengths, wavelength).taps() {
-            for term in cells[cell].iter().filter(|term| term.share > 0.0) {
-                let share = weight * term.share;
-                match lines.iter_mut().find(|(_, k)| *k == term.extinction) {
+        for (knot, weight) in self.around(wavelength) {
+            for (share, extinction) in self.lines_at(knot) {
+                let share = weight * share;
+                match lines.iter_mut().find(|(_, k)| *k == extinction) {
                     Some(same) => same.0 += share,
-                    None => lines.push((share, term.extinction.clone())),
+                    None => lines.push((share, extinction)),
                 }
             }
         }
         lines
+    }
+
+    /// The same at a cell or a node.
+    pub fn lines_at(&self, knot: usize) -> Vec<(f64, Vec<f64>)> {
+        let Some(cells) = &self.cells else {
+            return vec![(1.0, vec![0.0; self.constituents])];
+        };
+        let terms = cells[knot].iter().filter(|term| term.share > 0.0);
+        terms
+            .map(|term| (term.share, term.extinction.clone()))
+            .collect()
     }
 
     pub fn visibilities(&self) -> usize {

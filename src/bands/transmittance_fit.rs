@@ -3,6 +3,8 @@
 //! What a band sees through air is the mean of T, weighted by response and sunlight. That is Σ_j c_j exp(−Σ_k K_jk C_k)
 //! over the columns C of a line, with c ≥ 0 of sum 1, fitted to lines of all kinds.
 
+use std::cell::OnceCell;
+
 use super::band_integral::spread;
 use super::few_columns::choose;
 use super::least_squares::Problem;
@@ -49,12 +51,13 @@ struct Line {
 impl TransmittanceFit {
     pub fn new(model: &Model, axis: &SpectralAxis, responses: &[Response]) -> Result<Self> {
         let lines = lines(model, axis)?;
+        let passing = vec![OnceCell::new(); axis.wavelengths.len()];
         let mut kept: Vec<Candidate> = Vec::new();
         let mut weights = Vec::new();
         let mut sunlight = Vec::new();
         let most = MOST_WAVELENGTHS / responses.len();
         for (band, response) in responses.iter().enumerate() {
-            let (means, whole) = means(model, axis, response, &lines)?;
+            let (means, whole) = means(model, axis, response, &lines, &passing)?;
             sunlight.push(whole as f32);
             let candidates = candidates(axis, response);
             let problem = problem(&candidates, &lines, &means);
@@ -138,12 +141,14 @@ impl Line {
     }
 }
 
-/// The mean of T over response and sunlight for each line, and the integral of these.
+/// The mean of T over response and sunlight for each line, and the integral of these. What passes absorption lines at a
+/// knot of the axis is computed once for all bands.
 fn means(
     model: &Model,
     axis: &SpectralAxis,
     response: &Response,
     lines: &[Line],
+    passing: &[OnceCell<Vec<f64>>],
 ) -> Result<(Vec<f64>, f64)> {
     /// Where the sun gives no light, its colour is that of the response.
     const DARKEST: f64 = 1e-12;
@@ -157,15 +162,27 @@ fn means(
         let extinction: Vec<Vec<f64>> = (0..axis.visibilities())
             .map(|v| axis.extinction(v, wavelength))
             .collect();
-        let absorbing = axis.lines(wavelength);
-        for (sum, line) in sums.iter_mut().zip(lines) {
-            let shares = absorbing
-                .iter()
-                .map(|(share, k)| share * (-line.depth(k)).exp());
-            *sum += weight * line.passes(&extinction) * shares.sum::<f64>();
+        let mut shares = vec![0.0; lines.len()];
+        for (knot, near) in axis.around(wavelength) {
+            let passing = passing[knot].get_or_init(|| through_absorption(axis, knot, lines));
+            let pairs = shares.iter_mut().zip(passing);
+            pairs.for_each(|(share, passed)| *share += near * passed);
+        }
+        for ((sum, line), share) in sums.iter_mut().zip(lines).zip(shares) {
+            *sum += weight * line.passes(&extinction) * share;
         }
     }
     Ok((sums.into_iter().map(|sum| sum / whole).collect(), sunlight))
+}
+
+/// What absorption lines let pass of light along each line through the air, at a knot of the axis.
+fn through_absorption(axis: &SpectralAxis, knot: usize, lines: &[Line]) -> Vec<f64> {
+    let absorbing = axis.lines_at(knot);
+    let passed = |line: &Line| {
+        let shares = absorbing.iter();
+        shares.map(|(s, k)| s * (-line.depth(k)).exp()).sum()
+    };
+    lines.iter().map(passed).collect()
 }
 
 /// Lines of all lengths and heights: those of the model's air, or of any columns where it has none.

@@ -20,7 +20,9 @@ pub(crate) fn assemble(
             Error::invalid("chunk_count", format!("expected 32 bits, got {count}"))
         })?);
     if chunks.iter().any(|(e, _)| e.kind.get() == KIND_SPECTRUM) {
-        header.required_features = U32::new(FEATURE_SPECTRUM);
+        header.required_features |= U32::new(FEATURE_SPECTRUM);
+    }
+    if header.required_features.get() != 0 {
         header.version_minor = U16::new(header.version_minor.get().max(VERSION_MINOR));
     }
     let mut file = [header.as_bytes(), arrays].concat();

@@ -110,6 +110,9 @@ pub struct Head {
     pub visibilities: Vec<f64>,
     /// Number of constituents of the air.
     pub constituents: usize,
+    /// Constituents that absorb and do not scatter, bit k for constituent k: radiance is stored per share of the others
+    /// in the optical depth.
+    pub absorbers: u16,
     /// Extinction coefficients where a constituent's profile is 1, m⁻¹, `[visibilities][constituents][wavelengths]`.
     pub extinction: Vec<f64>,
     /// Spherical albedo of the atmosphere seen from the ground, `[visibilities][wavelengths]`.

@@ -7,10 +7,12 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
 /// The major version that this crate reads and writes.
 pub const VERSION_MAJOR: u16 = 1;
-/// The newest minor version that this crate writes, where a file has a spectrum; other files have 0.
+/// The newest minor version that this crate writes, where a file needs it; other files have 0.
 pub const VERSION_MINOR: u16 = 1;
 /// Bit of `required_features`: the file has a spectrum.
 pub const FEATURE_SPECTRUM: u32 = 1;
+/// From this bit of `required_features` on: which constituents absorb and do not scatter.
+pub const FEATURE_ABSORBERS_SHIFT: u32 = 16;
 /// Alignment of chunks in the file.
 pub const CHUNK_ALIGNMENT: u64 = 64;
 /// `kind` of a radiance chunk.
@@ -82,6 +84,17 @@ pub(crate) struct Header {
 }
 
 impl Header {
+    /// Which constituents absorb and do not scatter: bit k is constituent k.
+    pub(crate) fn absorbers(&self) -> u16 {
+        (self.required_features.get() >> FEATURE_ABSORBERS_SHIFT) as u16
+    }
+
+    /// Bits of `required_features` that this version does not know.
+    pub(crate) fn unknown_features(&self) -> u32 {
+        let constituents = (1u32 << self.constituents.get().min(16)) - 1;
+        self.required_features.get() & !(FEATURE_SPECTRUM | constituents << FEATURE_ABSORBERS_SHIFT)
+    }
+
     /// Length of the head that follows from the counts; at most about 2^39, so it cannot overflow.
     pub(crate) fn counted_head_length(&self) -> u64 {
         let n = |count: U16| u64::from(count.get());

@@ -117,7 +117,7 @@ fn header(bytes: &[u8]) -> Result<Header> {
         let expected = VERSION_MAJOR;
         return Err(Error::Version { expected, got });
     }
-    match header.required_features.get() & !FEATURE_SPECTRUM {
+    match header.unknown_features() {
         0 => Ok(header),
         bits => Err(Error::Feature { bits }),
     }
@@ -233,6 +233,7 @@ fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
         altitudes,
         visibilities,
         constituents: nk,
+        absorbers: header.absorbers(),
         extinction,
         spherical_albedo,
         xyz: xyz.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),

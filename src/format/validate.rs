@@ -26,6 +26,7 @@ impl Head {
         count("visibilities", self.visibilities.len(), 1, 1024)?;
         count("fields", self.fields.len(), 1, 16)?;
         count("constituents", self.constituents, 1, 16)?;
+        self.check_absorbers()?;
         count("alpha_up_intervals", self.up.intervals, 1, 1024)?;
         count("alpha_down_intervals", self.down.intervals, 1, 1024)?;
         count("phi_intervals", self.phi_intervals, 1, 1024)?;
@@ -38,6 +39,20 @@ impl Head {
         // Saturating, for machines of 32 bits.
         let table = table.iter().fold(1, |n: usize, m| n.saturating_mul(*m));
         count("table of a sky", table, 1, MAX_TABLE)
+    }
+
+    /// Each is a constituent, and something is left that scatters.
+    fn check_absorbers(&self) -> Result<()> {
+        let last = (1u32 << self.constituents) - 1;
+        if u32::from(self.absorbers) < last {
+            return Ok(());
+        }
+        let got = self.absorbers;
+        let detail = format!(
+            "must leave one of {} constituents, got {got:#b}",
+            self.constituents
+        );
+        Err(Error::invalid("absorbers", detail))
     }
 
     fn check_lengths(&self) -> Result<()> {

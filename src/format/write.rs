@@ -262,7 +262,7 @@ fn header(head: &Head) -> Header {
         magic: MAGIC,
         version_major: U16::new(VERSION_MAJOR),
         version_minor: U16::ZERO,
-        required_features: U32::ZERO,
+        required_features: U32::new(u32::from(head.absorbers) << FEATURE_ABSORBERS_SHIFT),
         file_length: U64::ZERO,
         head_length: U64::ZERO,
         head_crc32: U32::ZERO,

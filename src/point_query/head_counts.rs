@@ -24,6 +24,13 @@ pub(super) fn check_counts(header: &Header) -> Result<()> {
     let rows = n(header.alpha_up_intervals) + 3 + n(header.alpha_down_intervals) + 3;
     let channels = n(header.fields) * n(header.wavelengths);
     let table = rows * (n(header.phi_intervals) + 1) * channels;
+    // At most 16 constituents have a bit.
+    let last = (1u32 << header.constituents.get().min(16)) - 1;
+    require(
+        u32::from(header.absorbers()) < last,
+        "absorbers",
+        "no constituent scatters",
+    )?;
     require(
         limits.iter().all(kept) && table <= MAX_TABLE as u64,
         "header",

@@ -5,9 +5,7 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head_counts::check_counts;
 use crate::error::{Error, Result};
-use crate::format::{
-    CRC_RANGE, ENTRY_LENGTH, FEATURE_SPECTRUM, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR,
-};
+use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
 use crate::geometry::Planet;
 use crate::kernel::axis::ElevationAxis;
 
@@ -26,6 +24,8 @@ pub(crate) struct HeadView<'a> {
     pub visibilities: &'a [F64],
     /// `[visibility][constituent][wavelength]`.
     pub extinction: &'a [F64],
+    /// Bit k: constituent k absorbs and does not scatter.
+    pub absorbers: u16,
     /// `[visibility][wavelength]`.
     pub spherical_albedo: &'a [F64],
     /// `[field][wavelength]`.
@@ -93,6 +93,7 @@ impl<'a> HeadView<'a> {
             altitudes: take(&mut rest, n(header.altitudes))?,
             visibilities: take(&mut rest, nv)?,
             extinction: take(&mut rest, nv * nk * nw)?,
+            absorbers: header.absorbers(),
             spherical_albedo: take(&mut rest, nv * nw)?,
             phase_parameter: take(&mut rest, nf * nw)?,
             solar_axis: {
@@ -155,7 +156,7 @@ fn split(bytes: &[u8]) -> Result<(&Header, &[u8])> {
         let expected = VERSION_MAJOR;
         return Err(Error::Version { expected, got });
     }
-    match header.required_features.get() & !FEATURE_SPECTRUM {
+    match header.unknown_features() {
         0 => {}
         bits => return Err(Error::Feature { bits }),
     }

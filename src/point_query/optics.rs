@@ -26,6 +26,7 @@ pub(super) struct Light {
     wavelengths: usize,
     blocks: usize,
     constituents: usize,
+    absorbers: u16,
     fields: usize,
     /// Whether a field is Henyey-Greenstein, and whether the ground reflected it.
     kind: [(bool, bool); MOST],
@@ -60,6 +61,7 @@ impl Light {
             wavelengths: n,
             blocks,
             constituents: head.shape.constituents,
+            absorbers: head.absorbers,
             fields: head.fields.len(),
             kind: [(false, false); MOST],
             phase: [[Lanes::splat(1.0); 3]; MOST_PHASES],
@@ -102,7 +104,7 @@ impl Light {
         Ok(())
     }
 
-    /// (1 − T) · S · max(0, Σ fields · phase functions), block by block.
+    /// (1 − T) · ω · S · max(0, Σ fields · phase functions), block by block.
     #[inline(always)]
     pub fn mix(
         &self,
@@ -128,13 +130,20 @@ impl Light {
                 let light = if self.kind[f].1 { ground } else { one };
                 sum = sum + value * phase * light;
             }
-            let mut extinction = Lanes::splat(0.0);
+            let [mut extinction, mut scattering] = [Lanes::splat(0.0); 2];
             for k in 0..self.constituents {
                 let n = self.constituents;
                 let row = self.at(&self.extinction, n, &place.visibilities.line, k, b);
-                extinction = extinction + row * densities[k];
+                let part = row * densities[k];
+                extinction = extinction + part;
+                if self.absorbers >> k & 1 == 0 {
+                    scattering = scattering + part;
+                }
             }
-            let opacity = (extinction * place.ray.length as f32).one_minus_exp_neg();
+            let mut opacity = (extinction * place.ray.length as f32).one_minus_exp_neg();
+            if self.absorbers != 0 {
+                opacity = opacity * scattering / extinction.max(Lanes::splat(f32::MIN_POSITIVE));
+            }
             let value = opacity * level[b].exp() * sum.max(Lanes::splat(0.0));
             let value = value.max(Lanes::splat(0.0)).min(Lanes::splat(f32::MAX));
             let out = &mut out[b * WIDTH..];

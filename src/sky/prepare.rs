@@ -55,6 +55,7 @@ impl Sky {
             scale: pad(&scale),
             irradiance: pad(&solar(head)),
             extinction: place.extinction(head),
+            absorbers: head.absorbers,
             xyz: xyz(head),
             phases: groups.phases,
             layout: groups.layout,
@@ -387,8 +388,14 @@ impl Patterns {
             *group = self.sum(factors, cells, g * TOGETHER);
         }
         let first = groups.len() * TOGETHER;
-        for (i, cell) in rest.iter_mut().enumerate() {
-            [*cell] = self.sum(factors, cells, first + i);
+        // Two at once take little longer than one.
+        match rest.as_chunks_mut::<2>() {
+            ([pair], _) => *pair = self.sum(factors, cells, first),
+            (_, rest) => {
+                for cell in rest {
+                    [*cell] = self.sum(factors, cells, first);
+                }
+            }
         }
     }
 
@@ -436,4 +443,34 @@ fn pad(values: &[f32]) -> Vec<[f32; LANES]> {
     blocks
         .map(|block| core::array::from_fn(|i| lane(block, i)))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// However many cells there are, each is the sum over all components in their order, to the bit.
+    #[test]
+    fn all_cells_are_summed() {
+        const RANK: usize = 7;
+        for cells in 1..=13 {
+            let value = |i: usize| (i as f32 * 0.37).sin();
+            let cell = |c: usize| Cell(core::array::from_fn(|k| value(16 * c + k)));
+            let patterns = Patterns {
+                rank: RANK,
+                phi: Vec::new(),
+                channel: (0..RANK * cells).map(cell).collect(),
+            };
+            let factors: Vec<f32> = (0..RANK).map(|r| value(1000 + r)).collect();
+            let mut node = vec![Cell::ZERO; cells];
+            patterns.fill(&factors, &mut node);
+            for (c, got) in node.iter().enumerate() {
+                let mut sum = Cell::ZERO;
+                for (r, &factor) in factors.iter().enumerate() {
+                    sum.add(factor, &cell(r * cells + c));
+                }
+                assert_eq!(got.0, sum.0, "{c} of {cells}");
+            }
+        }
+    }
 }

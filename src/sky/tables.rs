@@ -138,6 +138,8 @@ pub(crate) struct Tables {
     pub irradiance: Vec<[f32; LANES]>,
     /// K, `[constituent][block]`.
     pub extinction: Vec<[f32; LANES]>,
+    /// Bit k: constituent k absorbs and does not scatter.
+    pub absorbers: u16,
     /// `[block][X, Y, Z]`.
     pub xyz: Vec<[[f32; LANES]; 3]>,
 }
@@ -259,14 +261,14 @@ impl Tables {
     pub fn radiance(&self, lookup: &Lookup, mut emit: impl FnMut(usize, [f32; LANES])) {
         let mut block = 0;
         if self.layout.quads == 1 {
-            // The usual case: three cells at a time share the work on weights and rows.
+            // The usual case: some cells at a time share the work on weights and rows.
             while block + 3 <= self.layout.blocks {
-                let cells = lookup.gather::<3>(block);
-                for (i, cell) in cells.iter().enumerate() {
-                    let fields = self.fields(lookup.angle, 0, block + i, cell);
-                    emit(block + i, self.finish(&lookup.depth, block + i, fields));
-                }
+                self.blocks::<3>(lookup, block, &mut emit);
                 block += 3;
+            }
+            if block + 2 == self.layout.blocks {
+                self.blocks::<2>(lookup, block, &mut emit);
+                block += 2;
             }
         }
         while block < self.layout.blocks {
@@ -278,6 +280,21 @@ impl Tables {
             }
             emit(block, self.finish(&lookup.depth, block, sum));
             block += 1;
+        }
+    }
+
+    /// [`Tables::radiance`] of `N` blocks of wavelengths whose groups are a quad.
+    #[inline(always)]
+    fn blocks<const N: usize>(
+        &self,
+        lookup: &Lookup,
+        first: usize,
+        emit: &mut impl FnMut(usize, [f32; LANES]),
+    ) {
+        let cells = lookup.gather::<N>(first);
+        for (i, cell) in cells.iter().enumerate() {
+            let fields = self.fields(lookup.angle, 0, first + i, cell);
+            emit(first + i, self.finish(&lookup.depth, first + i, fields));
         }
     }
 
@@ -323,27 +340,37 @@ impl Tables {
         core::array::from_fn(|i| bound(opacity[i] * scale[i] * sum[i].max(0.0), 0.0, f32::MAX))
     }
 
+    /// Optical depth of the constituents that are not among `without`.
     #[inline(always)]
-    fn depth(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
+    fn depth(&self, lengths: &[f32; MOST], block: usize, without: u16) -> [f32; LANES] {
         let mut depth = [0.0; LANES];
         let rows = self.extinction.chunks_exact(self.layout.blocks);
-        for (row, length) in rows.zip(lengths) {
-            for i in 0..LANES {
-                depth[i] += row[block][i] * length;
+        for (k, (row, length)) in rows.zip(lengths).enumerate() {
+            if without >> k & 1 == 0 {
+                for i in 0..LANES {
+                    depth[i] += row[block][i] * length;
+                }
             }
         }
         depth
     }
 
-    /// 1 − T.
+    /// (1 − T) · ω.
     #[inline(always)]
     fn opacity(&self, lengths: &[f32; MOST], block: usize) -> [f32; LANES] {
-        let mut depth = self.depth(lengths, block);
+        let depth = self.depth(lengths, block, 0);
+        let mut opacity = depth;
         // A plain loop: `map` over an array is not always inlined, and then does not vectorise.
-        for value in &mut depth {
+        for value in &mut opacity {
             *value = one_minus_exp_neg(*value);
         }
-        depth
+        if self.absorbers != 0 {
+            let scattering = self.depth(lengths, block, self.absorbers);
+            for i in 0..LANES {
+                opacity[i] *= scattering[i] / depth[i].max(f32::MIN_POSITIVE);
+            }
+        }
+        opacity
     }
 
     pub fn is_finite(&self) -> bool {

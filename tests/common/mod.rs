@@ -142,6 +142,7 @@ pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) ->
         altitudes: altitudes.to_vec(),
         visibilities: visibilities.to_vec(),
         constituents: 2,
+        absorbers: 0,
         extinction,
         spherical_albedo: (0..nv * nw)
             .map(|i| 0.05 + 0.01 * (i % 40) as f64)

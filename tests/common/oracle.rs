@@ -287,6 +287,12 @@ impl<'a> Oracle<'a> {
                     .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
                     .sum::<f64>()
                     * d;
+                let absorbers = u32::from_le_bytes(self.file[12..16].try_into().unwrap()) >> 16;
+                let scattering: f64 = (0..n.k)
+                    .filter(|k| absorbers >> k & 1 == 0)
+                    .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
+                    .sum::<f64>()
+                    * d;
                 let mut s = 0.0;
                 for &(j, aj) in &a {
                     for &(m, bm) in &b {
@@ -316,7 +322,7 @@ impl<'a> Oracle<'a> {
                     }
                     total += value * phase(code & 0xffff, parameter, cosine);
                 }
-                let outside = -(-depth).exp_m1() * s.exp();
+                let outside = -(-depth).exp_m1() * s.exp() * scattering / depth.max(1e-300);
                 let light = outside * total.max(0.0);
                 if !polarised {
                     return [light, 0.0, 0.0];

@@ -104,6 +104,14 @@ pub fn valid() -> Vec<Case> {
         )
     });
     cases.push(Case {
+        needs: vec!["polarisation"],
+        ..case(
+            "absorbers",
+            "a constituent that absorbs and does not scatter",
+            absorbers(),
+        )
+    });
+    cases.push(Case {
         needs: vec!["transmittance"],
         ..case(
             "air",
@@ -322,6 +330,15 @@ fn negative() -> Vec<u8> {
     let mut chunks = common::chunks(&head);
     common::negate_components(&mut chunks);
     encode(&head, &chunks).expect("a valid model")
+}
+
+/// Of two constituents the second absorbs.
+fn absorbers() -> Vec<u8> {
+    let head = Head {
+        absorbers: 0b10,
+        ..small(&[0.0, 900.0], &[25e3, 40e3, 75e3])
+    };
+    encode(&head, &common::polarised_chunks(&head, 0.02)).expect("a valid model")
 }
 
 fn polarised(strength: f32) -> Vec<u8> {

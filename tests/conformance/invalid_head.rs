@@ -6,7 +6,7 @@ use crate::files::small;
 use crate::invalid::{Case, HeadOffsets, forged};
 
 pub fn all() -> Vec<Case> {
-    [scalars(), tables(), counts(), close_nodes()].concat()
+    [scalars(), tables(), counts(), close_nodes(), absorbers()].concat()
 }
 
 fn case(name: &'static str, shows: &'static str, bytes: Vec<u8>) -> Case {
@@ -21,6 +21,23 @@ fn case(name: &'static str, shows: &'static str, bytes: Vec<u8>) -> Case {
 
 fn bare(head: &Head) -> Vec<u8> {
     encode(head, &[]).expect("a valid model")
+}
+
+/// Of two constituents.
+fn absorbers() -> Vec<Case> {
+    let good = bare(&small(&[0.0], &[50e3]));
+    let bits = |bits: u32| forged(&good, 12, &(bits << 16).to_le_bytes());
+    vec![
+        case("absorbers-all", "no constituent scatters", bits(0b11)),
+        Case {
+            class: "feature",
+            ..case(
+                "absorbers-third",
+                "a third of two constituents absorbs",
+                bits(0b100),
+            )
+        },
+    ]
 }
 
 /// Numbers of the header.

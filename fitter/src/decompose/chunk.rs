@@ -36,9 +36,9 @@ const AUREOLE: f32 = 5.0;
 /// less is asked.
 fn importance(wavelengths: &[f64]) -> Spectrum {
     std::array::from_fn(|w| match wavelengths[w] {
-        ..320.0 => 1.4,
+        ..320.0 => 1.8,
         ..745.0 => 1.0,
-        _ => 0.75,
+        _ => 0.55,
     })
 }
 

@@ -3,7 +3,7 @@
 use super::chunk::Chunk;
 use super::collocation::Collocation;
 use super::coupled::{Factors, Options, decompose};
-use super::refine::{self, Basis, Own};
+use super::refine::{self, Basis, Own, Pass};
 use super::row_major::row_major;
 use super::tucker::{Dense, Tucker, compress_together};
 use super::weights::channel_weights;
@@ -92,16 +92,8 @@ pub fn refine_all(
     progress: &dyn Fn(usize),
 ) {
     for sweep in 0..sweeps {
-        // The shared matrices settle first; afterwards the chunks adapt to them.
-        let shared = sweep + 2 < sweeps;
-        refine::sweep(
-            chunks,
-            nodes,
-            &mut fit.own,
-            &mut fit.basis,
-            1 + sweep as u64,
-            shared,
-        );
+        let pass = Pass::new(sweep, sweeps);
+        refine::sweep(chunks, nodes, &mut fit.own, &mut fit.basis, pass);
         progress(sweep + 1);
     }
 }

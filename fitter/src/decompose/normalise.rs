@@ -53,15 +53,17 @@ fn site_length(planet: Planet, altitude: f64, elevation: f64, side: Side) -> f64
 }
 
 impl ChunkGeometry {
-    /// 1 − T at view site `row` for wavelength `w`.
+    /// (1 − T) · ω at view site `row` for wavelength `w`: what the air hides, and the share that it does not swallow.
     fn opacity(&self, medium: &Medium, row: usize, w: usize) -> f64 {
-        let tau: f64 = medium
-            .parts
-            .iter()
-            .enumerate()
-            .map(|(k, part)| f64::from(part.extinction[w]) * self.log_density[(row, k)].exp())
-            .sum();
-        -(-tau * self.length[row]).exp_m1()
+        let (mut extinction, mut scattering) = (0.0, 0.0);
+        for (k, part) in medium.parts.iter().enumerate() {
+            let tau = f64::from(part.extinction[w]) * self.log_density[(row, k)].exp();
+            extinction += tau;
+            if part.scatters() {
+                scattering += tau;
+            }
+        }
+        -(-extinction * self.length[row]).exp_m1() * scattering / extinction
     }
 
     /// Spline coefficients of ln n̄, `[up + down][constituent]`.

@@ -154,14 +154,7 @@ fn irradiances(visibility: f64, part: &[Monochromatic]) -> Result<Vec<f32>> {
     lights.resize(NW, *part.last().context("no lights")?);
     let air = real_at(visibility, &lights, Particles::HenyeyGreenstein)?;
     let medium = Medium::new(air, SOLAR_ANGULAR_RADIUS)?;
-    let settings = Settings {
-        up: 8,
-        down: 5,
-        azimuths: 6,
-        first: 2,
-        orders: 5,
-        fineness: 6.0,
-    };
+    let settings = Settings::COARSE;
     let light = solve(&medium, settings, &|_| {});
     let gatherer = Gatherer::new(&medium, &light, 2.0);
     let mu = ZENITH.to_radians().cos();

@@ -1,6 +1,7 @@
 //! The weights of all terms of all cells, from traced spectra; and how well they do.
 
 use super::cells::Cell;
+use super::thinned::{needed, strong};
 use super::training::{Training, lights};
 use super::weights::{FLOOR, Taps, Target, floored, learn, value};
 use crate::assess::Quantiles;
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 
 /// What was learned.
 pub struct Learned {
-    /// The cells.
+    /// The cells that readers need.
     pub cells: Vec<Cell>,
     /// Taps of the terms, cell by cell.
     pub taps: Vec<Taps>,
@@ -37,7 +38,7 @@ pub struct HeldOut {
 }
 
 /// Skies that readers get as examples.
-const EXAMPLES: usize = 96;
+const EXAMPLES: usize = 64;
 /// Darker samples teach nothing.
 const DARK: f64 = 1e-13;
 
@@ -115,13 +116,29 @@ impl Lesson {
         let taps = self.taps(&all, &used);
         let skies: Vec<Vec<f64>> = used.iter().map(|&s| self.nodes[s].clone()).collect();
         let example = |i: usize| skies[i * skies.len() / EXAMPLES].clone();
+        let kept = self.needed(&used);
+        let mut taps = taps.into_iter();
+        let cells = self.cells.into_iter().map(|cell| {
+            let taps: Vec<Taps> = taps.by_ref().take(cell.terms.len()).collect();
+            without_weak(cell, taps)
+        });
+        let kept = cells.enumerate().filter(|(c, _)| kept.contains(c));
+        let (cells, taps): (Vec<_>, Vec<_>) = kept.map(|(_, cell)| cell).unzip();
         Learned {
-            taps,
+            taps: taps.concat(),
             examples: (0..EXAMPLES).map(example).collect(),
             skies,
             errors,
-            cells: self.cells,
+            cells,
         }
+    }
+
+    /// Indices of the cells that do not lie between their neighbours.
+    fn needed(&self, used: &[usize]) -> Vec<usize> {
+        let wavelengths: Vec<f64> = self.cells.iter().map(|c| c.wavelength).collect();
+        let logarithms = |cell: &Vec<f64>| used.iter().map(|&s| cell[s].ln()).collect();
+        let logarithms: Vec<Vec<f64>> = self.whole.iter().map(logarithms).collect();
+        needed(&wavelengths, &logarithms)
     }
 
     /// Errors at what is held out if these nodes are all there is.
@@ -206,6 +223,22 @@ impl Lesson {
         };
         (0..self.terms.len()).into_par_iter().map(one).collect()
     }
+}
+
+/// Without the terms that count for nothing; the others make up for them.
+fn without_weak(cell: Cell, taps: Vec<Taps>) -> (Cell, Vec<Taps>) {
+    let weights: Vec<f64> = cell.terms.iter().map(|t| t.weight).collect();
+    let kept = strong(&weights);
+    let pairs = cell.terms.into_iter().zip(taps).zip(kept);
+    let (mut terms, taps): (Vec<_>, Vec<_>) = pairs
+        .filter(|(_, kept)| *kept)
+        .map(|(pair, _)| pair)
+        .unzip();
+    let left: f64 = terms.iter().map(|t| t.weight).sum();
+    let whole: f64 = weights.iter().sum();
+    terms.iter_mut().for_each(|t| t.weight *= whole / left);
+    let wavelength = cell.wavelength;
+    (Cell { wavelength, terms }, taps)
 }
 
 /// Units of other nodes have other names.

@@ -9,6 +9,7 @@ pub mod g173;
 pub mod judge;
 pub mod learned;
 mod pack;
+mod thinned;
 pub mod training;
 pub mod walk;
 pub mod weights;

@@ -27,14 +27,7 @@ impl Default for Training {
             visibilities: vec![40_000.0, 131_800.0, 20_000.0],
             altitudes: vec![0.5, 800.0, 3000.0, 8000.0, 15_000.0],
             counts: [48, 16],
-            settings: Settings {
-                up: 8,
-                down: 5,
-                azimuths: 6,
-                first: 2,
-                orders: 5,
-                fineness: 6.0,
-            },
+            settings: Settings::COARSE,
             fineness: 2.0,
         }
     }
@@ -58,14 +51,7 @@ impl Training {
             visibilities: vec![40_000.0],
             altitudes: vec![0.5, 8000.0],
             counts: [16, 9],
-            settings: Settings {
-                up: 4,
-                down: 3,
-                azimuths: 4,
-                first: 1,
-                orders: 3,
-                fineness: 12.0,
-            },
+            settings: Settings::DRAFT,
             fineness: 4.0,
         }
     }

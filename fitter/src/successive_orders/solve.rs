@@ -31,6 +31,27 @@ pub struct Settings {
     pub fineness: f64,
 }
 
+impl Settings {
+    /// Coarse enough for what compares wavelengths or integrates over directions: errors some tenths of a percent.
+    pub const COARSE: Self = Self {
+        up: 8,
+        down: 5,
+        azimuths: 6,
+        first: 2,
+        orders: 5,
+        fineness: 6.0,
+    };
+    /// To try things with.
+    pub const DRAFT: Self = Self {
+        up: 4,
+        down: 3,
+        azimuths: 4,
+        first: 1,
+        orders: 3,
+        fineness: 12.0,
+    };
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {

@@ -53,7 +53,20 @@ pub struct Medium {
     sun_radius: f64,
 }
 
+impl Part {
+    /// Whether it scatters at all.
+    pub fn scatters(&self) -> bool {
+        !self.aerosols.is_empty() || self.rayleigh.iter().any(|&s| s > 0.0)
+    }
+}
+
 impl Medium {
+    /// Constituents that absorb and do not scatter: bit k is constituent k.
+    pub fn absorbers(&self) -> u16 {
+        let bit = |(k, part): (usize, &Part)| u16::from(!part.scatters()) << k;
+        self.parts.iter().enumerate().map(bit).sum()
+    }
+
     /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is
     /// a point).
     pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {

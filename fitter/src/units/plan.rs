@@ -117,14 +117,7 @@ impl Plan {
             grid,
             coverage: VISIBLE,
             training: Training::draft(),
-            settings: Settings {
-                up: 4,
-                down: 3,
-                azimuths: 4,
-                first: 1,
-                orders: 3,
-                fineness: 12.0,
-            },
+            settings: Settings::DRAFT,
             held_out: HeldOut { views: 24, suns: 6 },
             cross_check: CrossCheck::default(),
         }

@@ -233,6 +233,7 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
 #define WELKIN__NONE 65535u
 #define WELKIN__HALF_PI 1.57079632679489661923
 #define WELKIN__HAS_SPECTRUM 1u /* bit of required_features */
+#define WELKIN__ABSORBERS_SHIFT 16 /* from this bit on: which constituents absorb and do not scatter */
 #define WELKIN__CELL_TERMS 64u /* at most */
 
 enum {
@@ -327,10 +328,12 @@ static int welkin__within(double value, double low, double high) { return value 
 static welkin_error welkin__check_start(const unsigned char *p, size_t length)
 {
     static const unsigned char magic[8] = {0x89, 0x57, 0x4C, 0x4B, 0x0D, 0x0A, 0x1A, 0x0A};
+    uint32_t constituents;
     if (length < sizeof magic || memcmp(p, magic, sizeof magic) != 0) return WELKIN_ERROR_MAGIC;
     if (length < WELKIN__HEADER) return WELKIN_ERROR_LENGTH;
     if (welkin__u16(p + 8) != 1) return WELKIN_ERROR_VERSION;
-    if ((welkin__u32(p + 12) & ~WELKIN__HAS_SPECTRUM) != 0) return WELKIN_ERROR_FEATURE;
+    constituents = welkin__u16(p + 48) < 16 ? (1u << welkin__u16(p + 48)) - 1 : 0xFFFFu;
+    if ((welkin__u32(p + 12) & ~(WELKIN__HAS_SPECTRUM | constituents << WELKIN__ABSORBERS_SHIFT)) != 0) return WELKIN_ERROR_FEATURE;
     if (welkin__u64(p + 16) != length) return WELKIN_ERROR_LENGTH;
     return WELKIN_OK;
 }
@@ -367,6 +370,7 @@ static int welkin__counts_are_good(const welkin_file *f)
     if (f->altitudes < 1 || f->altitudes > 1024 || f->visibilities < 1 || f->visibilities > 1024) return 0;
     if (f->fields < 1 || f->fields > WELKIN_MAX_FIELDS) return 0;
     if (f->constituents < 1 || f->constituents > WELKIN_MAX_CONSTITUENTS) return 0;
+    if (welkin__u32(f->bytes + 12) >> WELKIN__ABSORBERS_SHIFT == (1u << f->constituents) - 1) return 0; /* none scatters */
     if (f->up_intervals < 1 || f->up_intervals > 1024 || f->down_intervals < 1 || f->down_intervals > 1024) return 0;
     if (f->phi_intervals < 1 || f->phi_intervals > 1024) return 0;
     if (f->elevation_intervals < 1 || f->elevation_intervals > 1024) return 0;
@@ -865,7 +869,7 @@ static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t le
     welkin__find_ranks(file);
     if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
     file->spectrum.error = welkin__read_spectrum(file, &file->spectrum);
-    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != (welkin__u32(file->bytes + 12) == WELKIN__HAS_SPECTRUM))
+    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != ((welkin__u32(file->bytes + 12) & WELKIN__HAS_SPECTRUM) != 0))
         return WELKIN_ERROR_VALUE;
     file->metadata = (const char *)(file->bytes + file->metadata_at);
     return WELKIN_OK;
@@ -1633,13 +1637,15 @@ static float welkin__absorbed(float depth)
     return (1.0f - power) - power * (p * r);
 }
 
-/* (1 - T) S at every wavelength */
+/* (1 - T) w S at every wavelength, w the share of the constituents that scatter in the optical depth */
 static void welkin__envelope(const welkin_sky *sky, const welkin__view *view, float *out)
 {
     const welkin_file *f = sky->file;
+    uint32_t absorbers = welkin__u32(f->bytes + 12) >> WELKIN__ABSORBERS_SHIFT;
     double length = welkin__ray_length(sky, view), mean;
+    float scattering[WELKIN_MAX_WAVELENGTHS];
     uint32_t k, w, i;
-    for (w = 0; w < f->wavelengths; w++) out[w] = 0;
+    for (w = 0; w < f->wavelengths; w++) out[w] = scattering[w] = 0;
     for (k = 0; k < f->constituents; k++) {
         const float *extinction = sky->extinction + (size_t)k * f->wavelengths;
         float column;
@@ -1647,8 +1653,13 @@ static void welkin__envelope(const welkin_sky *sky, const welkin__view *view, fl
             mean += view->alpha.weight[i] * (double)sky->column[(size_t)view->alpha.row[i] * f->constituents + k];
         column = welkin__narrow(length * exp(mean < 600 ? mean : 600)); /* stays finite */
         for (w = 0; w < f->wavelengths; w++) out[w] += extinction[w] * column;
+        if ((absorbers >> k & 1) == 0)
+            for (w = 0; w < f->wavelengths; w++) scattering[w] += extinction[w] * column;
     }
-    for (w = 0; w < f->wavelengths; w++) out[w] = welkin__absorbed(out[w]) * sky->level[w];
+    for (w = 0; w < f->wavelengths; w++) {
+        float share = absorbers == 0 ? 1 : out[w] > 0 ? scattering[w] / out[w] : 0;
+        out[w] = welkin__absorbed(out[w]) * share * sky->level[w];
+    }
 }
 
 static void welkin__sum_dense(const welkin_file *f, const welkin_table *t, const welkin__view *view, float *out)

@@ -12,6 +12,9 @@ pub const LUMINANCE: &str = "cd.m^-2";
 /// Of spectra.
 pub const RADIANCE: &str = "W.m^-2.sr^-1.nm^-1";
 
+/// Of bands.
+pub const BAND_RADIANCE: &str = "W.m^-2.sr^-1";
+
 /// The value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {

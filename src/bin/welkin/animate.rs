@@ -89,7 +89,8 @@ impl Options {
             }
         }
         hasher.update(&self.render.source.bytes()?);
-        if let Some(path) = self.render.landscape.file() {
+        let files = [self.render.landscape.file(), self.render.sensor.file()];
+        for path in files.into_iter().flatten() {
             let unreadable = |e| Failure::message(format!("{}: {e}", path.display()));
             hasher.update(&std::fs::read(path).map_err(unreadable)?);
         }

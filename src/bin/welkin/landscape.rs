@@ -25,7 +25,7 @@ pub struct Options {
     /// Render a landscape in perspective instead of the sky alone: `flat`, `hills`, or a height field (.png or .exr, +y
     /// up). Before `hills` --altitude is 2600 m, --view-azimuth 104°, and --pitch towards a mountain there, if they are
     /// absent.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "sensor")]
     terrain: Option<PathBuf>,
     /// Width of the height field on the ground, km.
     #[arg(long, default_value_t = 50.0, value_name = "KM")]
@@ -35,7 +35,12 @@ pub struct Options {
     terrain_height: Option<f64>,
     /// Look at the landscape through an ideal polariser that passes light along this angle from the top of the picture
     /// to the right, degrees.
-    #[arg(long, value_name = "DEG", requires = "terrain")]
+    #[arg(
+        long,
+        value_name = "DEG",
+        requires = "terrain",
+        conflicts_with = "sensor"
+    )]
     polariser: Option<f64>,
     /// How the light of the air before the terrain is computed.
     #[arg(
@@ -43,7 +48,7 @@ pub struct Options {
         value_enum,
         default_value_t,
         requires = "terrain",
-        conflicts_with = "polariser"
+        conflicts_with_all = ["polariser", "sensor"]
     )]
     aerial_perspective: Method,
 }

@@ -6,6 +6,7 @@ mod about;
 mod almanac;
 mod animate;
 mod camera;
+mod cells;
 mod difference;
 mod disc;
 mod edges;

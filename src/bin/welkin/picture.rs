@@ -1,14 +1,21 @@
 //! Pictures of skies, encoded.
 
-use welkin::{PolarisedSky, Sky};
+use welkin::{BandSky, PolarisedSky, Sky};
 
-use crate::about::{About, LUMINANCE, RADIANCE};
+use crate::about::{About, BAND_RADIANCE, LUMINANCE, RADIANCE};
 use crate::failure::Result;
 use crate::image::{Planes, exr, png, png_of_display};
 use crate::polarised::{self, Colouring};
 use crate::sensor::Sensor;
 use crate::tone::Film;
 use crate::view::View;
+
+/// Of files with one channel per wavelength.
+const SPECTRUM: [(&str, &str); 2] = [
+    ("spectralLayoutVersion", "1.0"),
+    ("emissiveUnits", RADIANCE),
+];
+const SPECTRAL_RADIANCE: &str = "spectral radiance, W m^-2 sr^-1 nm^-1";
 
 /// Which encodings are asked for, and what is the same in all of them.
 pub struct Wanted {
@@ -55,19 +62,38 @@ impl Picture {
     }
 
     /// The sky in the bands of a sensor, beside its colours as PNG.
-    pub fn of_bands(view: &View, sky: &Sky, sensor: Sensor, wanted: &Wanted) -> Result<Self> {
+    pub fn of_bands(
+        view: &View,
+        sky: &Sky,
+        (sensor, bands): (&Sensor, &BandSky),
+        wanted: &Wanted,
+    ) -> Result<Self> {
         let pixels = match wanted.png {
             true => view.rgb(sky)?,
             false => Vec::new(),
         };
         let planes = || {
-            let values = view.bands(&sensor.sky)?;
-            exr(Planes {
-                size: view.size,
-                planes: sensor.names.into_iter().zip(values).collect(),
-                about: wanted.about.clone(),
-                units: sensor.units,
-                comment: sensor.comment,
+            let values = view.bands(bands)?;
+            let (names, about) = (sensor.names.clone(), wanted.about.clone());
+            exr(match &sensor.wavelengths {
+                Some(wavelengths) => Planes {
+                    size: view.size,
+                    planes: wavelengths
+                        .iter()
+                        .map(|&l| channel_name(0, l))
+                        .zip(values)
+                        .collect(),
+                    about: about.with(&SPECTRUM),
+                    units: RADIANCE,
+                    comment: SPECTRAL_RADIANCE,
+                },
+                None => Planes {
+                    size: view.size,
+                    planes: names.into_iter().zip(values).collect(),
+                    about,
+                    units: BAND_RADIANCE,
+                    comment: "integrals of response times spectral radiance, W m^-2 sr^-1",
+                },
             })
         };
         Self::encoded(wanted, planes, || {
@@ -144,11 +170,7 @@ fn planes(
 ) -> Result<Planes> {
     let mut about = about.clone();
     if spectral {
-        let spectrum = [
-            ("spectralLayoutVersion", "1.0"),
-            ("emissiveUnits", RADIANCE),
-        ];
-        about = about.with(&spectrum);
+        about = about.with(&SPECTRUM);
     }
     if polarised.is_some() {
         about = about.with(&polarised::ATTRIBUTES);
@@ -170,7 +192,7 @@ fn planes(
         }
     };
     let (units, comment) = match spectral {
-        true => (RADIANCE, "spectral radiance, W m^-2 sr^-1 nm^-1"),
+        true => (RADIANCE, SPECTRAL_RADIANCE),
         false => (LUMINANCE, "linear sRGB, cd m^-2"),
     };
     Ok(Planes {

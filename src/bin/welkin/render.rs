@@ -39,18 +39,18 @@ pub struct Options {
     #[command(flatten)]
     pub outputs: outputs::Options,
     /// Write the EXR with one channel per wavelength (W m⁻² sr⁻¹ nm⁻¹) instead of linear sRGB (cd m⁻²).
-    #[arg(long)]
+    #[arg(long, conflicts_with = "sensor")]
     spectral: bool,
     /// Write the EXR with Stokes layers: S0.R … S3.B, or with --spectral S0.550nm and the like for
     /// each wavelength.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "sensor")]
     stokes: bool,
     /// Fill what is below the horizon with the ground of the given albedo in the light of sun and sky; black if absent.
-    #[arg(long, conflicts_with_all = ["stokes", "terrain"])]
+    #[arg(long, conflicts_with_all = ["stokes", "terrain", "sensor"])]
     ground: bool,
     /// Add the sun's disc, darker towards its limb; pixels that it covers in part get their share of its light. It is
     /// 10⁵ times as bright as the sky: environment maps are better off with a light of their own (welkin light).
-    #[arg(long, conflicts_with_all = ["stokes", "polariser"])]
+    #[arg(long, conflicts_with_all = ["stokes", "polariser", "sensor"])]
     sun: bool,
     /// What the picture shows.
     #[arg(long, value_enum, default_value = "radiance")]
@@ -62,7 +62,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value = "sun")]
     frame: Axes,
     #[command(flatten)]
-    sensor: sensor::Options,
+    pub sensor: sensor::Options,
     #[command(flatten)]
     pub landscape: landscape::Options,
     #[command(flatten)]
@@ -100,6 +100,10 @@ impl Options {
         marks: &[(&'static str, &str)],
     ) -> Result<Shot> {
         let start = Instant::now();
+        let sensor = match self.sensor.sensor(model)? {
+            Some(sensor) => Some((sensor, model.band_sky(conditions, &sensor.bands)?)),
+            None => None,
+        };
         let polarised = match self.stokes || self.quantity != Quantity::Radiance {
             true => Some(model.polarised_sky(conditions)?),
             false => None,
@@ -124,10 +128,10 @@ impl Options {
                 let view = self.view(model, conditions, azimuth)?;
                 let film = self.exposure.of_sky(&sky)?;
                 let mut wanted = outputs.wanted(film, about);
-                let picture = match self.sensor.sky(model, conditions)? {
-                    Some(sensor) => {
+                let picture = match &sensor {
+                    Some((sensor, bands)) => {
                         wanted.about.text("projection", self.projection.name());
-                        Picture::of_bands(&view, &sky, sensor, &wanted)?
+                        Picture::of_bands(&view, &sky, (sensor, bands), &wanted)?
                     }
                     None => self.picture(&view, &sky, polarised.as_ref(), &mut wanted)?,
                 };

@@ -12,6 +12,9 @@ pub const ALBEDOS: [f32; 3] = [0.0, 0.3, 1.0];
 /// Weight of the relative error of a single field against that of the radiance.
 const FIELD_WEIGHT: f32 = 0.4;
 
+/// Relative errors above this count linearly and not squared: at the edge of the Earth's shadow they are large whatever
+/// the fit does, and must not cost what the rest could have.
+const OUTLIER: f32 = 0.03;
 /// Field without phase function.
 const DIFFUSE: usize = 3;
 /// Radiance below this share of its level counts less: nobody sees it, and it would cost what all see.
@@ -68,17 +71,25 @@ impl Equation {
         }
     }
 
+    /// Root of the weight where the factors say `value`.
+    pub fn robust_weight(&self, value: f32) -> f32 {
+        let outlier = (self.target - value) / OUTLIER;
+        self.weight * (1.0 + outlier * outlier).sqrt().sqrt().recip()
+    }
+
     /// Adds itself, linear in `x` with the coefficients `coefficient`, to the normal equations of a step of `x`.
     #[inline(always)]
     pub fn push(&self, normal: &mut Normal, x: &[f32], coefficient: impl Fn(usize) -> f32) {
         normal.push(|column| {
             let mut value = 0.0;
-            for (r, (x, entry)) in x.iter().zip(column).enumerate() {
+            for (r, (x, entry)) in x.iter().zip(column.iter_mut()).enumerate() {
                 let c = coefficient(r);
                 value += c * x;
-                *entry = c * self.weight;
+                *entry = c;
             }
-            (self.target - value) * self.weight
+            let weight = self.robust_weight(value);
+            column.iter_mut().for_each(|entry| *entry *= weight);
+            (self.target - value) * weight
         });
     }
 }

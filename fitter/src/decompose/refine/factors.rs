@@ -24,13 +24,39 @@ pub struct Basis {
     pub channel: Vec<f32>,
 }
 
+/// What one pass over the matrices does.
+#[derive(Clone, Copy, Debug)]
+pub struct Pass {
+    /// Selects the sites.
+    pub seed: u64,
+    /// Share of each step that is taken.
+    pub step: f32,
+    /// Whether the shared matrices move, too.
+    pub shared: bool,
+}
+
+impl Pass {
+    /// Pass `index` of `count`. Each sees another random part of the equations, so that whole steps never settle: after a
+    /// third of the passes they become shorter, which averages over what the passes see. The shared matrices settle
+    /// first; then the chunks adapt to them.
+    pub fn new(index: usize, count: usize) -> Self {
+        let whole = count as f32 / 3.0;
+        Self {
+            seed: 1 + index as u64,
+            step: (whole / (index as f32 + 1.0)).min(1.0),
+            shared: index + 2 < count,
+        }
+    }
+}
+
 pub(super) fn row(matrix: &[f32], i: usize, rank: usize) -> &[f32] {
     &matrix[i * rank..][..rank]
 }
 
-pub(super) fn add(matrix: &mut [f32], i: usize, rank: usize, step: &[f32]) {
+/// Moves a row by a share of a step.
+pub(super) fn add(matrix: &mut [f32], i: usize, rank: usize, step: &[f32], share: f32) {
     for (x, s) in matrix[i * rank..][..rank].iter_mut().zip(step) {
-        *x += s;
+        *x += share * s;
     }
 }
 

@@ -14,27 +14,20 @@ mod shared;
 use super::chunk::Chunk;
 use crate::successive_orders::{FIELDS, NW};
 use equation::{ALBEDOS, Equation};
-pub use factors::{Basis, Own};
+pub use factors::{Basis, Own, Pass};
 use factors::{random, row};
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 
-/// One pass over all factor matrices for some nodes. `seed` selects the sites.
-pub fn sweep(
-    chunks: &[Chunk],
-    nodes: &[usize],
-    own: &mut [Own],
-    basis: &mut Basis,
-    seed: u64,
-    shared: bool,
-) {
-    if shared {
-        shared::channels(chunks, nodes, own, basis, seed);
-        shared::azimuths(chunks, nodes, own, basis, seed);
+/// One pass over all factor matrices for some nodes.
+pub fn sweep(chunks: &[Chunk], nodes: &[usize], own: &mut [Own], basis: &mut Basis, pass: Pass) {
+    if pass.shared {
+        shared::channels(chunks, nodes, own, basis, pass);
+        shared::azimuths(chunks, nodes, own, basis, pass);
     }
     own.par_iter_mut().zip(chunks).for_each(|(own, chunk)| {
-        own::elevations(chunk, nodes, own, basis, seed);
-        own::views(chunk, nodes, own, basis, seed);
+        own::elevations(chunk, nodes, own, basis, pass);
+        own::views(chunk, nodes, own, basis, pass);
     });
 }
 

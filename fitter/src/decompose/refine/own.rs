@@ -1,14 +1,14 @@
 //! Steps of the factor matrices of a single chunk.
 
 use super::equation::equations;
-use super::factors::{Basis, Own, add, random, row};
+use super::factors::{Basis, Own, Pass, add, random, row};
 use super::normal::Normal;
 use crate::decompose::Chunk;
 
-pub fn views(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, seed: u64) {
+pub fn views(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, pass: Pass) {
     let rank = basis.rank;
     let [views, phis, elevations] = chunk.sites;
-    let mut rng = random(seed, chunk, 1);
+    let mut rng = random(pass.seed, chunk, 1);
     let mut mixed = vec![0.0; rank];
     for v in 0..views {
         let mut normal = Normal::new(rank);
@@ -23,14 +23,14 @@ pub fn views(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, seed:
                 }
             }
         }
-        add(&mut own.view, v, rank, &normal.step());
+        add(&mut own.view, v, rank, &normal.step(), pass.step);
     }
 }
 
-pub fn elevations(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, seed: u64) {
+pub fn elevations(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, pass: Pass) {
     let rank = basis.rank;
     let [views, phis, elevations] = chunk.sites;
-    let mut rng = random(seed, chunk, 2);
+    let mut rng = random(pass.seed, chunk, 2);
     let mut mixed = vec![0.0; rank];
     for e in 0..elevations {
         let mut normal = Normal::new(rank);
@@ -45,6 +45,6 @@ pub fn elevations(chunk: &Chunk, nodes: &[usize], own: &mut Own, basis: &Basis, 
                 }
             }
         }
-        add(&mut own.elevation, e, rank, &normal.step());
+        add(&mut own.elevation, e, rank, &normal.step(), pass.step);
     }
 }

@@ -1,7 +1,7 @@
 //! Steps of the factor matrices that all chunks share.
 
 use super::equation::{ALBEDOS, Equation, equations};
-use super::factors::{Basis, Own, add, random, row};
+use super::factors::{Basis, Own, Pass, add, random, row};
 use super::normal::Normal;
 use crate::decompose::Chunk;
 use crate::successive_orders::{FIELDS, NW};
@@ -32,18 +32,18 @@ fn step(
     whole.map_or_else(|| vec![0.0; unknowns], Normal::step)
 }
 
-pub fn azimuths(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, seed: u64) {
+pub fn azimuths(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, pass: Pass) {
     let rank = basis.rank;
     let phis = chunks.first().map_or(0, |chunk| chunk.sites[1]);
     let steps: Vec<Vec<f32>> = (0..phis)
         .map(|p| {
             step(rank, (chunks, own), |normal, chunk, own| {
-                azimuth(normal, (chunk, nodes, own), basis, p, seed)
+                azimuth(normal, (chunk, nodes, own), basis, p, pass.seed)
             })
         })
         .collect();
     for (p, step) in steps.iter().enumerate() {
-        add(&mut basis.phi, p, rank, step);
+        add(&mut basis.phi, p, rank, step, pass.step);
     }
 }
 
@@ -70,14 +70,14 @@ fn azimuth(
     }
 }
 
-pub fn channels(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, seed: u64) {
+pub fn channels(chunks: &[Chunk], nodes: &[usize], own: &[Own], basis: &mut Basis, pass: Pass) {
     let rank = basis.rank;
     for &w in nodes {
         let step = step(FIELDS * rank, (chunks, own), |normal, chunk, own| {
-            channel(normal, (chunk, own), basis, w, seed)
+            channel(normal, (chunk, own), basis, w, pass.seed)
         });
         for (f, step) in step.chunks_exact(rank).enumerate() {
-            add(&mut basis.channel, f * NW + w, rank, step);
+            add(&mut basis.channel, f * NW + w, rank, step, pass.step);
         }
     }
 }
@@ -113,12 +113,13 @@ fn push(normal: &mut Normal, equation: &Equation, basis: &Basis, z: &[f32]) {
         let sum: f32 = channel.iter().zip(z).map(|(c, z)| c * z).sum();
         value += share * sum;
     }
+    let weight = equation.robust_weight(value);
     normal.push(|column| {
         for (part, share) in column.chunks_exact_mut(rank).zip(&equation.share) {
             for (c, z) in part.iter_mut().zip(z) {
-                *c = share * z * equation.weight;
+                *c = share * z * weight;
             }
         }
-        (equation.target - value) * equation.weight
+        (equation.target - value) * weight
     });
 }

@@ -5,6 +5,8 @@ use welkin::{
     Sky, SolarDisc, Stokes, Transmittance,
 };
 
+use super::band_answer::BandAnswerer;
+use super::kept::{Kept, kept};
 use super::quantity::{Key, Quantity, Question};
 use super::shared::Shared;
 
@@ -18,10 +20,8 @@ pub struct Answerer<'a> {
     disc: Kept<SolarDisc>,
     air: Kept<Transmittance, u64>,
     spectrum: Spectrum,
+    bands: Option<BandAnswerer<'a>>,
 }
-
-/// Something prepared, and what for.
-type Kept<T, K = [u64; 4]> = Option<(K, T)>;
 
 /// The last spectrum: rows often differ in their wavelength only.
 #[derive(Default)]
@@ -48,10 +48,46 @@ impl<'a> Answerer<'a> {
                 values: zeros(),
                 rest: zeros(),
             },
+            bands: (shared.bands.as_ref()).map(|bands| BandAnswerer::new(shared.model, bands)),
         }
     }
 
-    pub fn answer(&mut self, question: &Question) -> Result<f32> {
+    /// One number, or one for each band.
+    pub fn answer(&mut self, question: &Question, out: &mut [f32]) -> Result<()> {
+        // Taken out, so that it can be asked beside the rest.
+        if let Some(mut bands) = self.bands.take() {
+            let answered = self.answer_in(&mut bands, question, out);
+            self.bands = Some(bands);
+            return answered;
+        }
+        let value = self.at_wavelength(question)?;
+        out.iter_mut().for_each(|out| *out = value);
+        Ok(())
+    }
+
+    fn answer_in(
+        &mut self,
+        bands: &mut BandAnswerer,
+        question: &Question,
+        out: &mut [f32],
+    ) -> Result<()> {
+        let conditions = &self.shared.reachable(&question.conditions)?;
+        let (vertical, aligned) = (PolarisationFrame::Vertical, PolarisationFrame::SunAligned);
+        match question.quantity {
+            Quantity::Radiance | Quantity::RelativeRadiance | Quantity::InScatter => {
+                bands.project(self.spectrum(question)?, out)
+            }
+            Quantity::Transmittance => bands.transmittance(question, conditions, out),
+            Quantity::SunRadiance => bands.sun(question, conditions, out),
+            Quantity::Polarisation => {
+                bands.stokes(question, conditions, aligned, Stokes::signed_degree, out)
+            }
+            Quantity::StokesQ => bands.stokes(question, conditions, vertical, |l| l.q, out),
+            Quantity::StokesU => bands.stokes(question, conditions, vertical, |l| l.u, out),
+        }
+    }
+
+    fn at_wavelength(&mut self, question: &Question) -> Result<f32> {
         let wavelength = question.wavelength;
         match question.quantity {
             Quantity::Radiance => {
@@ -78,14 +114,19 @@ impl<'a> Answerer<'a> {
 
     /// The spectrum of a question at its wavelength, relative to the sun's where that makes it smooth.
     fn at(&mut self, question: &Question) -> Result<f32> {
+        let shared = self.shared;
+        shared.between(self.spectrum(question)?, question.wavelength)
+    }
+
+    /// The same at the wavelengths of the model.
+    fn spectrum(&mut self, question: &Question) -> Result<&[f32]> {
         let key = Some(question.key());
         if self.spectrum.key != key {
             self.spectrum.key = None;
             self.fill(question)?;
             self.spectrum.key = key;
         }
-        self.shared
-            .between(&self.spectrum.values, question.wavelength)
+        Ok(&self.spectrum.values)
     }
 
     fn fill(&mut self, question: &Question) -> Result<()> {
@@ -223,21 +264,5 @@ impl<'a> Answerer<'a> {
             q: irradiance * light.q,
             u: irradiance * light.u,
         })
-    }
-}
-
-/// What was prepared last if it was for the same, or else prepared now.
-fn kept<K: PartialEq, T>(
-    last: &mut Option<(K, T)>,
-    key: K,
-    prepare: impl FnOnce() -> Result<T>,
-) -> Result<&T> {
-    match last {
-        Some((for_what, _)) if *for_what == key => {}
-        _ => *last = Some((key, prepare()?)),
-    }
-    match last {
-        Some((_, prepared)) => Ok(prepared),
-        None => unreachable!("it was prepared just now"),
     }
 }

@@ -23,8 +23,21 @@ const PORTION: usize = 256;
 /// The error of a row whose value is no number.
 const OVERFLOW: &str = "the value overflows: the file is not a sensible sky";
 
-/// What to write beside a row.
-pub type Answer = Result<f32, String>;
+/// What to write beside rows.
+pub struct Answers {
+    /// `[row][column]`; of rows with an error anything.
+    pub values: Vec<f32>,
+    pub errors: Vec<Result<(), String>>,
+}
+
+impl Answers {
+    fn with_capacity(rows: usize, width: usize) -> Self {
+        Self {
+            values: vec![f32::NAN; rows * width],
+            errors: Vec::with_capacity(rows),
+        }
+    }
+}
 
 /// Rows whose records are used again and again.
 #[derive(Default)]
@@ -57,13 +70,14 @@ impl Block {
         &self.records[..self.len]
     }
 
-    /// Answers all rows, in their order.
+    /// Answers all rows, in their order, with so many values each.
     pub fn answer<'a>(
         &self,
         columns: &Columns,
+        width: usize,
         shared: &'a Shared<'a>,
         answerers: &Mutex<Vec<Answerer<'a>>>,
-    ) -> Vec<Answer> {
+    ) -> Answers {
         let questions: Vec<_> = (self.rows().par_iter().with_min_len(PORTION))
             .map(|row| columns.question(row))
             .collect();
@@ -71,20 +85,23 @@ impl Block {
             .filter_map(|(i, question)| Some((question.as_ref().ok()?.key(), i)))
             .collect();
         order.par_sort_unstable();
-        let portions: Vec<Vec<Answer>> = order
+        let portions: Vec<Answers> = order
             .par_chunks(PORTION)
             .map(|portion| {
                 let rows = portion.iter().map(|&(_, i)| &questions[i]);
                 let rows = rows.filter_map(|question| question.as_ref().ok());
-                answer_all(rows, shared, answerers)
+                answer_all(rows, width, shared, answerers)
             })
             .collect();
-        let mut answers: Vec<Answer> = (questions.into_iter())
-            .map(|question| question.map(|_| f32::NAN))
-            .collect();
-        let answered = portions.into_iter().flatten();
-        for ((_, i), answer) in order.into_iter().zip(answered) {
-            answers[i] = answer;
+        let mut answers = Answers::with_capacity(questions.len(), width);
+        let errors = questions.into_iter().map(|question| question.map(|_| ()));
+        answers.errors.extend(errors);
+        for (portion, order) in portions.into_iter().zip(order.chunks(PORTION)) {
+            let rows = portion.errors.into_iter().zip(portion.values.chunks(width));
+            for ((error, values), &(_, i)) in rows.zip(order) {
+                answers.errors[i] = error;
+                answers.values[i * width..][..width].copy_from_slice(values);
+            }
         }
         answers
     }
@@ -92,9 +109,10 @@ impl Block {
 
 fn answer_all<'a, 'q>(
     questions: impl Iterator<Item = &'q Question>,
+    width: usize,
     shared: &'a Shared<'a>,
     answerers: &Mutex<Vec<Answerer<'a>>>,
-) -> Vec<Answer> {
+) -> Answers {
     // A thread that panicked leaves nothing half done in the list.
     let lock = || {
         answerers
@@ -103,12 +121,15 @@ fn answer_all<'a, 'q>(
     };
     let idle = lock().pop();
     let mut answerer = idle.unwrap_or_else(|| Answerer::new(shared));
-    let answers = questions.map(|question| match answerer.answer(question) {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(OVERFLOW.to_owned()),
-        Err(error) => Err(describe(&error)),
-    });
-    let answers = answers.collect();
+    let mut answers = Answers::with_capacity(PORTION, width);
+    for (question, values) in questions.zip(answers.values.chunks_mut(width)) {
+        let error = match answerer.answer(question, values) {
+            Ok(()) if values.iter().all(|value| value.is_finite()) => Ok(()),
+            Ok(()) => Err(OVERFLOW.to_owned()),
+            Err(error) => Err(describe(&error)),
+        };
+        answers.errors.push(error);
+    }
     lock().push(answerer);
     answers
 }

@@ -2,35 +2,38 @@
 
 use csv::ByteRecord;
 use welkin::Conditions;
-use welkin::output::printable;
 
 use super::quantity::{Quantity, Question, Ray};
+use crate::cells;
 use crate::failure::{Failure, Result, plain};
 
 const QUANTITY: &str = "quantity";
 const DISTANCE: &str = "distance_m";
-const NUMBERS: [&str; 7] = [
+const NUMBERS: [&str; 6] = [
     "visibility_km",
     "albedo",
     "altitude_m",
     "solar_elevation_deg",
     "view_zenith_deg",
     "view_azimuth_deg",
-    "wavelength_nm",
 ];
+const WAVELENGTH: &str = "wavelength_nm";
 
 /// Where the columns stand.
 pub struct Columns {
     /// Cells of a row.
     pub count: usize,
     quantity: usize,
-    numbers: [usize; 7],
+    numbers: [usize; 6],
+    /// Not in the table where bands are asked for.
+    wavelength: Option<usize>,
     distance: Option<usize>,
 }
 
 impl Columns {
-    pub fn find(header: &ByteRecord) -> Result<Self> {
-        for reserved in ["value", "error"] {
+    /// `values` are the columns of the answers: those of bands need no wavelength in the table.
+    pub fn find(header: &ByteRecord, values: &[String], bands: bool) -> Result<Self> {
+        for reserved in values.iter().map(String::as_str).chain(["error"]) {
             if position(header, reserved)?.is_some() {
                 let text = format!("the table has a column \"{reserved}\" already: rename it");
                 return Err(Failure::message(text));
@@ -39,13 +42,14 @@ impl Columns {
         let wanted = |name: &str| {
             position(header, name)?.ok_or_else(|| {
                 Failure::message(format!(
-                    "the table lacks the column \"{name}\"; it needs {QUANTITY}, {}{}",
+                    "the table lacks the column \"{name}\"; it needs {QUANTITY}, {}{}{}",
                     NUMBERS.join(", "),
-                    separator_hint(header)
+                    if bands { "" } else { ", wavelength_nm" },
+                    cells::separator_hint(header)
                 ))
             })
         };
-        let mut numbers = [0; 7];
+        let mut numbers = [0; 6];
         for (index, name) in numbers.iter_mut().zip(NUMBERS) {
             *index = wanted(name)?;
         }
@@ -53,6 +57,10 @@ impl Columns {
             count: header.len(),
             quantity: wanted(QUANTITY)?,
             numbers,
+            wavelength: match bands {
+                true => None,
+                false => Some(wanted(WAVELENGTH)?),
+            },
             distance: position(header, DISTANCE)?,
         })
     }
@@ -69,14 +77,21 @@ impl Columns {
         }
         let cell = |index: usize| row[index].trim_ascii();
         let quantity = Quantity::parse(cell(self.quantity))?;
-        let mut numbers = [0.0; 7];
+        let mut numbers = [0.0; 6];
         for ((number, &index), name) in numbers.iter_mut().zip(&self.numbers).zip(NUMBERS) {
-            *number = parse_number(name, cell(index))?;
+            *number = cells::number(name, cell(index))?;
         }
+        let wavelength = match self.wavelength.map(cell) {
+            Some(cell) => cells::number(WAVELENGTH, cell)?,
+            None => 0.0,
+        };
         let distance = match self.distance.map(cell) {
-            Some(cell) if !cell.is_empty() => parse_number(DISTANCE, cell)?,
+            Some(cell) if !cell.is_empty() => cells::number(DISTANCE, cell)?,
             _ => f64::INFINITY,
         };
+        if self.wavelength.is_none() && quantity == Quantity::RelativeRadiance {
+            return Err("relative_radiance has no bands: ask for radiance".to_owned());
+        }
         if !quantity.is_of_segments() && distance != f64::INFINITY {
             return Err("distance_m must be empty: radiance is along the whole ray".to_owned());
         }
@@ -86,21 +101,14 @@ impl Columns {
                 plain(distance)
             ));
         }
-        question(quantity, numbers, distance)
+        question(quantity, numbers, wavelength, distance)
     }
 }
 
 fn question(
     quantity: Quantity,
-    [
-        visibility,
-        albedo,
-        altitude,
-        elevation,
-        zenith,
-        azimuth,
-        wavelength,
-    ]: [f64; 7],
+    [visibility, albedo, altitude, elevation, zenith, azimuth]: [f64; 6],
+    wavelength: f64,
     distance: f64,
 ) -> std::result::Result<Question, String> {
     if !(0.0..=180.0).contains(&zenith) {
@@ -132,11 +140,10 @@ fn question(
 /// The index of a column; two of the same name are an error.
 fn position(header: &ByteRecord, name: &str) -> Result<Option<usize>> {
     let bytes = name.as_bytes();
-    let mut found = header.iter().enumerate().filter(|(_, cell)| {
-        // Some programs put a byte order mark before the first column.
-        let cell = cell.strip_prefix(b"\xef\xbb\xbf").unwrap_or(cell);
-        cell.trim_ascii() == bytes
-    });
+    let mut found = header
+        .iter()
+        .enumerate()
+        .filter(|(_, cell)| cells::name(cell) == bytes);
     let first = found.next().map(|(i, _)| i);
     match found.next() {
         None => Ok(first),
@@ -144,39 +151,6 @@ fn position(header: &ByteRecord, name: &str) -> Result<Option<usize>> {
             "the table has two columns \"{name}\""
         ))),
     }
-}
-
-/// What may be wrong with a header of which a column is not found.
-fn separator_hint(header: &ByteRecord) -> String {
-    for (mark, name) in [(b';', "semicolons"), (b'\t', "tabs"), (b'|', "bars")] {
-        if header.iter().any(|cell| cell.contains(&mark)) {
-            return format!(
-                ". It seems to be separated by {name}: commas are expected, and points in decimals"
-            );
-        }
-    }
-    String::new()
-}
-
-fn parse_number(name: &str, cell: &[u8]) -> std::result::Result<f64, String> {
-    let number = std::str::from_utf8(cell)
-        .ok()
-        .and_then(|text| text.parse().ok());
-    number.ok_or_else(|| not_a_number(name, cell))
-}
-
-#[cold]
-fn not_a_number(name: &str, cell: &[u8]) -> String {
-    if cell.is_empty() {
-        return format!("{name} is empty");
-    }
-    let text = printable(&String::from_utf8_lossy(cell));
-    let pointed = text.replacen(',', ".", 1);
-    let hint = match pointed != text && pointed.parse::<f64>().is_ok() {
-        true => format!(": decimals are written with a point, {pointed}"),
-        false => String::new(),
-    };
-    format!("{name} must be a number, got \"{text}\"{hint}")
 }
 
 /// Unit vector at a zenith angle and an azimuth from the sun, degrees; exact at the poles and the horizon.

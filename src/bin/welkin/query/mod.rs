@@ -1,9 +1,11 @@
 //! `welkin query`: a CSV table in, the same table with values out.
 
 mod answer;
+mod band_answer;
 mod block;
 mod bounded;
 mod columns;
+mod kept;
 mod progress;
 mod quantity;
 mod shared;
@@ -15,10 +17,10 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use csv::ByteRecord;
-use welkin::Model;
 
 use crate::Source;
 use crate::failure::{Failure, Result};
+use crate::sensor;
 use block::Block;
 use bounded::Bounded;
 use columns::Columns;
@@ -29,6 +31,8 @@ use shared::Shared;
 pub struct Options {
     #[command(flatten)]
     source: Source,
+    #[command(flatten)]
+    sensor: sensor::Options,
     /// Fail (exit code 2) if a row got an error.
     #[arg(long)]
     strict: bool,
@@ -49,7 +53,13 @@ pub fn run(options: &Options) -> Result<()> {
         .num_threads(options.threads.map_or(0, usize::from))
         .build()
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
-    let summary = answer(&model, options.clamp, &threads, input, io::stdout().lock())?;
+    let sensor = options.sensor.sensor(&model)?;
+    let shared = Shared::new(&model, options.clamp, sensor.map(|s| s.bands.clone()));
+    let names = match sensor {
+        Some(sensor) => sensor.names.clone(),
+        None => vec!["value".to_owned()],
+    };
+    let summary = answer(&shared, &names, &threads, input, io::stdout().lock())?;
     if summary.moved {
         // Nobody is left to tell when standard error is closed.
         let text =
@@ -73,51 +83,51 @@ pub struct Summary {
     pub moved: bool,
 }
 
-/// Answers a table; returns how many rows it has and how many of them failed.
-pub fn answer(
-    model: &Model,
-    clamp: bool,
+/// Answers a table with so many columns of values; returns how many rows it has and how many of them failed.
+fn answer<'a>(
+    shared: &'a Shared<'a>,
+    names: &[String],
     threads: &rayon::ThreadPool,
     input: impl Read,
     output: impl io::Write,
 ) -> Result<Summary> {
-    let shared = &Shared::new(model, clamp);
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .buffer_capacity(BUFFER)
         .from_reader(Bounded::new(input, block::MOST_BYTES));
     let header = reader.byte_headers().map_err(unreadable)?.clone();
-    let columns = Columns::find(&header)?;
+    let columns = Columns::find(&header, names, shared.bands.is_some())?;
     let mut writer = csv::WriterBuilder::new()
         .buffer_capacity(BUFFER)
         .from_writer(output);
-    write_row(&mut writer, &header, header.len(), "value", "error")?;
+    write_row(&mut writer, &header, header.len(), names, "error")?;
     let answerers = Mutex::new(Vec::new());
     let mut progress = Progress::new();
     let (mut rows, mut failures) = (0u64, 0u64);
     let mut block = Block::default();
+    let mut texts = vec![String::new(); names.len()];
     loop {
         let read = block.read(&mut reader);
         if block.rows().is_empty() {
             read.map_err(unreadable)?;
             break;
         }
-        let answers = threads.install(|| block.answer(&columns, shared, &answerers));
-        let mut value = String::new();
-        for (row, answer) in block.rows().iter().zip(&answers) {
-            value.clear();
-            let error = match answer {
-                Ok(number) => {
+        let width = names.len();
+        let answers = threads.install(|| block.answer(&columns, width, shared, &answerers));
+        let values = answers.values.chunks(width).zip(&answers.errors);
+        for (row, (values, error)) in block.rows().iter().zip(values) {
+            for (text, value) in texts.iter_mut().zip(values) {
+                text.clear();
+                if error.is_ok() {
                     // Writing to a string never fails.
-                    let _ = fmt::Write::write_fmt(&mut value, format_args!("{number:?}"));
-                    ""
+                    let _ = fmt::Write::write_fmt(text, format_args!("{value:?}"));
                 }
-                Err(error) => error,
-            };
-            failures += u64::from(answer.is_err());
-            write_row(&mut writer, row, header.len(), &value, error)?;
+            }
+            failures += u64::from(error.is_err());
+            let error = error.as_ref().err().map_or("", String::as_str);
+            write_row(&mut writer, row, header.len(), &texts, error)?;
         }
-        rows += answers.len() as u64;
+        rows += answers.errors.len() as u64;
         progress.rows(rows);
         read.map_err(unreadable)?;
     }
@@ -150,11 +160,12 @@ fn write_row(
     writer: &mut csv::Writer<impl io::Write>,
     row: &ByteRecord,
     columns: usize,
-    value: &str,
+    values: &[String],
     error: &str,
 ) -> Result<()> {
     let cells = (0..columns).map(|i| row.get(i).unwrap_or(b"").trim_ascii());
-    let written = writer.write_record(cells.chain([value.as_bytes(), error.as_bytes()]));
+    let values = values.iter().map(String::as_bytes);
+    let written = writer.write_record(cells.chain(values).chain([error.as_bytes()]));
     written.map_err(|error| match error.into_kind() {
         csv::ErrorKind::Io(error) => Failure::from(error),
         other => Failure::message(format!("cannot write the table: {other:?}")),

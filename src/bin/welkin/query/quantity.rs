@@ -63,7 +63,7 @@ pub struct Question {
     pub quantity: Quantity,
     pub conditions: Conditions,
     pub ray: Ray,
-    /// nm.
+    /// nm; of bands nobody asks for it.
     pub wavelength: f64,
 }
 

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use welkin::{
-    AerialPerspectiveQuery, Budget, Channels, Conditions, Interpolation, Model, Plan, PointQuery,
-    PolarisedPointQuery, Result,
+    AerialPerspectiveQuery, Bands, Budget, Channels, Conditions, Interpolation, Model, Plan,
+    PointQuery, PolarisedPointQuery, Result,
 };
 
 /// The model and what is prepared of it when it is first needed.
@@ -16,6 +16,8 @@ use welkin::{
 pub struct Shared<'a> {
     pub model: &'a Model,
     pub clamp: bool,
+    /// Of a sensor, if answers are in those.
+    pub bands: Option<Bands>,
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     moved: AtomicBool,
@@ -25,13 +27,14 @@ pub struct Shared<'a> {
 }
 
 impl<'a> Shared<'a> {
-    pub fn new(model: &'a Model, clamp: bool) -> Self {
+    pub fn new(model: &'a Model, clamp: bool, bands: Option<Bands>) -> Self {
         let head = model.head();
         let irradiance = |&l: &f64| head.solar_irradiance_at(l) as f32;
         Self {
             irradiance: head.wavelengths.iter().map(irradiance).collect(),
             model,
             clamp,
+            bands,
             moved: AtomicBool::new(false),
             point_query: OnceLock::new(),
             polarised: OnceLock::new(),

@@ -5,6 +5,7 @@
 //! they stand for). Only ratios mean something on another machine.
 
 mod baked;
+mod bands;
 mod clock;
 mod finite;
 mod point_query;
@@ -20,6 +21,7 @@ fn main() -> welkin::Result<()> {
     let json = std::env::args().any(|argument| argument == "--json");
     let scene = Scene::new()?;
     let mut rows = baked::rows(&scene)?;
+    rows.extend(bands::rows(&scene)?);
     rows.extend(polarised::rows(&scene)?);
     rows.extend(finite::rows(&scene)?);
     rows.extend(point_query::rows(&scene)?);

@@ -26,6 +26,8 @@ MAX_EXPANSION = 256
 
 HAS_SPECTRUM = 1
 """Bit of required_features."""
+ABSORBERS_SHIFT = 16
+"""From this bit of required_features on: which constituents absorb and do not scatter."""
 
 RADIANCE, COLUMN, RADIANCE_BASIS, TRANSMITTANCE = 1, 2, 3, 4
 SOURCE, POLARISATION, POLARISATION_BASIS, SOURCE_BASIS, SPECTRUM = 5, 6, 7, 8, 9
@@ -110,6 +112,7 @@ class Head:
     altitude: np.ndarray
     visibility: np.ndarray
     extinction: np.ndarray
+    scatters: np.ndarray
     spherical_albedo: np.ndarray
     phase_parameter: np.ndarray
     xyz: np.ndarray
@@ -146,10 +149,12 @@ def read_head(source):
     _check_arrays(header, arrays)
     chunks = _read_directory(head[arrays_length:], head_length, len(source), counts)
     has_spectrum = (SPECTRUM, NONE, NONE) in chunks
-    require(has_spectrum == (header["features"] == HAS_SPECTRUM), "spectrum and feature bit differ")
+    require(has_spectrum == bool(header["features"] & HAS_SPECTRUM), "spectrum and feature bit differ")
     names = ("planet_radius", "top_altitude", "alpha_up_exponent", "alpha_down_exponent")
     names += ("elevation_min", "elevation_max", "elevation_centre", "elevation_width")
-    return Head(counts=counts, chunks=chunks, **{name: header[name] for name in names}, **arrays)
+    scatters = (header["features"] >> ABSORBERS_SHIFT + np.arange(counts["nk"])) & 1 == 0
+    require(scatters.any(), "no constituent scatters")
+    return Head(counts=counts, chunks=chunks, scatters=scatters, **{name: header[name] for name in names}, **arrays)
 
 
 def _read_header(source):
@@ -165,7 +170,8 @@ def _read_header(source):
     header = dict(zip(names, _HEADER.unpack(data), strict=True))
     if header["major"] != 1:
         raise VersionError(f"version {header['major']}.{header['minor']} is not 1.x")
-    if header["features"] & ~HAS_SPECTRUM:
+    constituents = (1 << min(header["nk"], 16)) - 1
+    if header["features"] & ~(HAS_SPECTRUM | constituents << ABSORBERS_SHIFT):
         raise FeatureError(f"unknown required features {header['features']:#x}")
     if header["file_length"] != len(source):
         raise LengthError(f"the file has {len(source)} bytes, not {header['file_length']}")

@@ -162,11 +162,15 @@ class Sky:
             yield code, self._head.phase_parameter[f], fields[:, f], weight
 
     def _lead(self, view):
-        """(1 − T) · S: (N, nw)."""
+        """(1 − T) · ω · S: (N, nw)."""
         nu = self._head.counts["nu"]
         logarithm = view.by_side(self._column[: nu + 3], self._column[nu + 3 :])
-        depth = view.ray_length[:, None] * (np.exp(logarithm) @ self._extinction)
-        return -np.expm1(-depth) * self._level
+        density = np.exp(logarithm)
+        extinction = density @ self._extinction
+        depth = view.ray_length[:, None] * extinction
+        scattering = density @ (self._head.scatters[:, None] * self._extinction)
+        share = scattering / np.maximum(extinction, np.finfo(np.float64).tiny)
+        return -np.expm1(-depth) * share * self._level
 
     def _stokes(self, units):
         view = _View(self, units)
