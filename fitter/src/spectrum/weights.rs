@@ -12,6 +12,8 @@ pub const TAPS: usize = 8;
 pub const FLOOR: f64 = 1.0 / (1u64 << 27) as f64;
 /// Absorption by lines below this is none.
 const CLEAR: f64 = 1e-3;
+/// Error of ln L of a node in a model: weights that are large against each other would multiply it.
+const NOISE: f64 = 0.003;
 /// What is left of ln L in a typical sample, beyond which samples count less.
 const TYPICAL: f64 = 0.003;
 
@@ -131,6 +133,7 @@ impl Moments {
         }
         products /= importance.iter().sum::<f64>();
         products.fill_lower_triangle_with_upper_triangle();
+        (0..n - 1).for_each(|i| products[(i, i)] += NOISE * NOISE);
         Self {
             products,
             ridge: if absorbs { 1e-4 } else { 1e-6 },

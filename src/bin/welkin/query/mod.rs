@@ -17,10 +17,11 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use csv::ByteRecord;
+use welkin::Model;
 
 use crate::Source;
 use crate::failure::{Failure, Result};
-use crate::sensor;
+use crate::sensor::{self, Sensor};
 use block::Block;
 use bounded::Bounded;
 use columns::Columns;
@@ -54,12 +55,8 @@ pub fn run(options: &Options) -> Result<()> {
         .build()
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
     let sensor = options.sensor.sensor(&model)?;
-    let shared = Shared::new(&model, options.clamp, sensor.map(|s| s.bands.clone()));
-    let names = match sensor {
-        Some(sensor) => sensor.names.clone(),
-        None => vec!["value".to_owned()],
-    };
-    let summary = answer(&shared, &names, &threads, input, io::stdout().lock())?;
+    let output = io::stdout().lock();
+    let summary = answer(&model, options.clamp, sensor, &threads, input, output)?;
     if summary.moved {
         // Nobody is left to tell when standard error is closed.
         let text =
@@ -83,8 +80,25 @@ pub struct Summary {
     pub moved: bool,
 }
 
-/// Answers a table with so many columns of values; returns how many rows it has and how many of them failed.
-fn answer<'a>(
+/// Answers a table, in the bands of a sensor if there is one; returns how many rows it has and how many of them failed.
+pub fn answer(
+    model: &Model,
+    clamp: bool,
+    sensor: Option<&Sensor>,
+    threads: &rayon::ThreadPool,
+    input: impl Read,
+    output: impl io::Write,
+) -> Result<Summary> {
+    let shared = Shared::new(model, clamp, sensor.map(|s| s.bands.clone()));
+    let names = match sensor {
+        Some(sensor) => sensor.names.clone(),
+        None => vec!["value".to_owned()],
+    };
+    answer_columns(&shared, &names, threads, input, output)
+}
+
+/// Answers a table with so many columns of values.
+fn answer_columns<'a>(
     shared: &'a Shared<'a>,
     names: &[String],
     threads: &rayon::ThreadPool,
