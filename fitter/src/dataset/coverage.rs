@@ -8,6 +8,8 @@ use crate::successive_orders::NW;
 pub struct Coverage {
     /// The nodes, by increasing wavelength.
     pub nodes: [Monochromatic; NW],
+    /// Index of the node that air stops most.
+    pub guard: usize,
     /// Ranges of cells (nm), one after another, and the steps in them.
     pub steps: &'static [(f64, f64, f64)],
 }
@@ -47,6 +49,7 @@ pub const VISIBLE: Coverage = Coverage {
         Monochromatic::vapour(941.0, 0.3),
         clear(1030.0),
     ],
+    guard: 0,
     steps: &[
         (300.0, 345.0, 1.0),
         (345.0, 680.0, 5.0),
@@ -83,6 +86,7 @@ pub const SHORT_WAVE_INFRARED: Coverage = Coverage {
         Monochromatic::vapour(2450.0, 0.3),
         clear(2500.0),
     ],
+    guard: 19,
     steps: &[(1100.0, 2500.0, 10.0)],
 };
 

@@ -2,7 +2,7 @@
 
 use super::cells::Cell;
 use super::thinned::{needed, strong};
-use super::training::{Training, lights};
+use super::training::{TOGETHER, Training, guarded, lights};
 use super::weights::{FLOOR, Taps, Target, floored, learn, value};
 use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
@@ -66,7 +66,7 @@ impl Training {
     pub fn lesson(&self, store: &Store, coverage: &Coverage, cells: Vec<Cell>) -> Result<Lesson> {
         let name = nodes_name(coverage);
         let lights = lights(&cells);
-        let sets = lights.len().div_ceil(NW);
+        let sets = lights.len().div_ceil(TOGETHER);
         let progress = bar(self.visibilities.len() * (sets + 1), "tracing spectra");
         let (mut samples, mut nodes) = (vec![], vec![]);
         let mut radiance = vec![vec![]; lights.len()];
@@ -75,9 +75,14 @@ impl Training {
             progress.inc(1);
             nodes.extend(traced.iter().map(|s| floored(&s.radiance)));
             samples.extend(traced);
-            for (set, part) in lights.chunks(NW).enumerate() {
-                let traced = self.unit(store, visibility, part, &set.to_string())?;
-                for (k, term) in radiance[set * NW..].iter_mut().take(part.len()).enumerate() {
+            for (set, part) in lights.chunks(TOGETHER).enumerate() {
+                let part = guarded(part, coverage);
+                let traced = self.unit(store, visibility, &part, &set.to_string())?;
+                for (k, term) in radiance[set * TOGETHER..]
+                    .iter_mut()
+                    .take(TOGETHER)
+                    .enumerate()
+                {
                     term.extend(traced.iter().map(|s| s.radiance[k]));
                 }
                 progress.inc(1);

@@ -2,9 +2,9 @@
 
 use super::cells::Cell;
 use crate::atmosphere::{Monochromatic, Particles, real_at};
-use crate::dataset::{Sample, Store, truth};
+use crate::dataset::{Coverage, Sample, Store, truth};
 use crate::successive_orders::{Gatherer, Medium, NW, SOLAR_ANGULAR_RADIUS, Settings, solve};
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 /// How spectra are traced.
 #[derive(Clone, Debug)]
@@ -34,7 +34,16 @@ impl Default for Training {
 }
 
 /// Changes whenever the physics or the layout of the units does.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
+/// Lights that are solved together, beside the guard.
+pub const TOGETHER: usize = NW - 1;
+
+/// A set of lights, filled up with the guard. How finely rays are divided goes by the light that air stops most: with that
+/// in every set, no light depends on what it is solved with. (Without it, light at 343 nm is 0.9 % darker in this coarse
+/// solution than among the nodes.)
+pub fn guarded(part: &[Monochromatic], coverage: &Coverage) -> [Monochromatic; NW] {
+    std::array::from_fn(|w| *part.get(w).unwrap_or(&coverage.nodes[coverage.guard]))
+}
 
 impl Training {
     /// Nothing is learned.
@@ -73,18 +82,16 @@ impl Training {
         Ok(self.altitudes.iter().flat_map(one).collect())
     }
 
-    /// The samples of a visibility for some lights, of which there are at most [`NW`], under the name `name`.
+    /// The samples of a visibility for a set of lights, under the name `name`.
     pub fn unit(
         &self,
         store: &Store,
         visibility: f64,
-        lights: &[Monochromatic],
+        lights: &[Monochromatic; NW],
         name: &str,
     ) -> Result<Vec<Sample>> {
-        let mut chosen = lights.to_vec();
-        chosen.resize(NW, *lights.last().context("no lights")?);
         let values = store.unit(&format!("spectra-{visibility}-{name}"), || {
-            let samples = self.traced(visibility, &chosen)?;
+            let samples = self.traced(visibility, lights)?;
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;
         Ok(Sample::from_values(&values))
