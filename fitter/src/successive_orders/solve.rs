@@ -32,7 +32,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Coarse enough for what compares wavelengths or integrates over directions: errors some tenths of a percent.
+    /// Coarse enough for what compares wavelengths or integrates over directions; 1 % off in the ultraviolet.
     pub const COARSE: Self = Self {
         up: 8,
         down: 5,
