@@ -157,7 +157,7 @@ fn check(bands: &Bands, errors: &[Vec<f64>]) {
         let [median, p99] = [0.5, 0.99].map(|q| errors[(q * (errors.len() - 1) as f64) as usize]);
         println!("{residual:?}: {median:.5} {p99:.5}");
         assert!(
-            p99 <= 2.0 * residual.p99.max(Bands::TOLERANCE),
+            p99 <= 3.0 * residual.p99.max(Bands::TOLERANCE),
             "{residual:?} {p99}"
         );
         assert!(

@@ -252,7 +252,7 @@ mod tests {
                     // Deep in the air the upper part of the disc gives ever more than its centroid.
                     let most = if got > 0.2 { 0.005 } else { 0.015 };
                     if got > 0.05 {
-                        assert!((got / disc - 1.0).abs() < most, "{conditions:?} {nm} nm");
+                        assert!((got / disc - 1.0).abs() < most, "{conditions:?} {nm} nm {got} {disc} {centre}");
                         assert!((got / centre - 1.0).abs() < most, "{conditions:?} {nm} nm");
                     }
                     report += &format!(
