@@ -276,7 +276,7 @@ fn row(
 /// Rows of a page: radiance by 20 nm, median and p95 per class of suns.
 pub fn bands(judgement: &Judgement) -> String {
     let classes = SUNS
-        .map(|(name, _)| format!("{name}: median,… p95,… p99"))
+        .map(|(name, _)| format!("{name}: median,p95,p99"))
         .join(",");
     let mut out = format!("radiance at,{classes}\n");
     let wavelengths = || judgement.radiance.iter().map(|d| d.wavelength);
