@@ -16,12 +16,12 @@ const HEIGHT: usize = WIDTH / 2;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = Model::default_model()?;
-    let sky = model.sky(&Conditions {
+    let sky = model.colour_sky(&Conditions {
         solar_elevation: 12f64.to_radians(),
         ..Conditions::default()
     })?;
     // Many directions under the same conditions: bake first.
-    let baked = sky.bake_colour(BakedSky::TOLERANCE)?;
+    let baked = sky.bake(BakedSky::TOLERANCE)?;
 
     let mut file = BufWriter::new(File::create("environment.pfm")?);
     // A negative scale means little-endian; rows of a PFM run from the bottom up.

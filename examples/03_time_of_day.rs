@@ -21,7 +21,7 @@ fn main() -> Result<()> {
             ..Conditions::default()
         };
         let start = Instant::now();
-        let baked = model.sky(&conditions)?.bake_colour(BakedSky::TOLERANCE)?;
+        let baked = model.colour_sky(&conditions)?.bake(BakedSky::TOLERANCE)?;
         milliseconds.push(start.elapsed().as_secs_f64() * 1e3);
         if frame % 20 == 0 {
             let [r, g, b] = baked.linear_srgb([-0.8, 0.0, 0.6])?;

@@ -12,7 +12,7 @@ fn main() -> Result<()> {
         solar_elevation: 35f64.to_radians(),
         ..Conditions::default()
     };
-    let baked = model.sky(&conditions)?.bake_colour(BakedSky::TOLERANCE)?;
+    let baked = model.colour_sky(&conditions)?.bake(BakedSky::TOLERANCE)?;
     let disc = model.solar_disc(&conditions)?;
     let sampler = baked.sampler().with_sun(&disc);
 

@@ -246,7 +246,11 @@ fn queries_have_a_column_per_band() {
         *light /= model.head().solar_irradiance_at(l) as f32;
     }
     bands.project(&nodes, &mut expected[3]).unwrap();
-    assert!((light[0] / expected[3][0] - 1.0).abs() < 1e-3);
+    assert!(
+        (light[0] / expected[3][0] - 1.0).abs() < 1e-3,
+        "{light:?} {:?}",
+        expected[3]
+    );
     let air = aerial.transmittance();
     air.transmittance_to_end(from, view, &mut expected[2])
         .unwrap();

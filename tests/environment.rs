@@ -34,8 +34,15 @@ fn render(arguments: &[&str]) -> (Vec<Vec<f32>>, [usize; 2]) {
     assert!(output.status.success(), "{output:?}");
     let image = read_first_flat_layer_from_file(folder.path().join("map.exr")).unwrap();
     let size = image.layer_data.size;
-    let channels = image.layer_data.channel_data.list.iter();
-    let planes = channels.map(|c| c.sample_data.values_as_f32().collect());
+    // The file has them in the order of the letters.
+    let mut channels = image.layer_data.channel_data.list;
+    let wavelength = |name: &str| {
+        let digits: String = name.chars().filter(char::is_ascii_digit).collect();
+        digits.parse::<u32>().unwrap_or(0)
+    };
+    channels.sort_by_key(|c| wavelength(&c.name.to_string()));
+    let planes = channels.iter();
+    let planes = planes.map(|c| c.sample_data.values_as_f32().collect());
     (planes.collect(), [size.width(), size.height()])
 }
 

@@ -41,13 +41,13 @@ fn first_page() -> welkin::Result<()> {
     use welkin::{BakedSky, Conditions, Model};
 
     let model = Model::default_model()?;
-    let sky = model.sky(&Conditions {
+    let sky = model.colour_sky(&Conditions {
         solar_elevation: 5f64.to_radians(),
         visibility: 40e3,
         altitude: 120.0,
         ..Conditions::default()
     })?;
-    let baked = sky.bake_colour(BakedSky::TOLERANCE)?;
+    let baked = sky.bake(BakedSky::TOLERANCE)?;
     let rgb = baked.linear_srgb([0.3, 0.1, 0.9])?;
     assert!(rgb[2] > rgb[0] && rgb[0] > 0.0);
     Ok(())
@@ -99,7 +99,7 @@ fn which_type() -> welkin::Result<()> {
     let baked = sky.bake(BakedSky::TOLERANCE)?;
     baked.radiance_batch(&directions, &mut radiance)?;
     let stokes = polarised_sky.bake(BakedSky::TOLERANCE)?;
-    let colour = sky.bake_colour(BakedSky::TOLERANCE)?;
+    let colour = model.colour_sky(&conditions)?.bake(BakedSky::TOLERANCE)?;
     let disc = model.solar_disc(&conditions)?;
     let sampler = colour.sampler().with_sun(&disc);
     let query = PointQuery::new(welkin::DEFAULT_MODEL)?;

@@ -25,6 +25,8 @@ pub struct Quantiles {
 pub struct Error {
     /// |model − truth| / truth.
     pub relative: f64,
+    /// nm.
+    pub wavelength: f64,
     /// Solar elevation, rad.
     pub solar_elevation: f64,
     /// Angle from the geometric horizon, rad.
@@ -37,10 +39,16 @@ pub struct Error {
 pub type Class = (&'static str, fn(&Error) -> bool);
 
 /// Directions of the sphere and suns that are reported apart.
-pub const CLASSES: [Class; 6] = [
+pub const CLASSES: [Class; 8] = [
     ("all", |_| true),
     ("day (sun > 0°)", |e| e.solar_elevation > 0.0),
     ("twilight", |e| e.solar_elevation <= 0.0),
+    ("day, 300..760 nm", |e| {
+        e.solar_elevation > 0.0 && e.wavelength <= 760.0
+    }),
+    ("twilight, 300..760 nm", |e| {
+        e.solar_elevation <= 0.0 && e.wavelength <= 760.0
+    }),
     ("sun 0..12°", |e| (0.0..0.21).contains(&e.solar_elevation)),
     ("within 15° of the sun", |e| e.to_sun < 0.262),
     ("within 2° of the horizon", |e| e.from_horizon < 0.0349),
@@ -87,10 +95,12 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
         row.resize(sky.wavelengths().len(), 0.0f32);
         sky.relative_radiance(sample.direction(), &mut row)?;
         let place = place(model.head().planet, &sky, sample);
-        for (got, want) in row.iter().zip(sample.radiance) {
+        let light = row.iter().zip(sample.radiance).zip(sky.wavelengths());
+        for ((got, want), &wavelength) in light {
             if want > DARK {
                 out.push(Error {
                     relative: (f64::from(*got) / want - 1.0).abs(),
+                    wavelength,
                     ..place
                 });
             } else {
@@ -108,6 +118,7 @@ fn place(planet: welkin::geometry::Planet, sky: &welkin::Sky, sample: &Sample) -
     let cosine: f32 = sun.iter().zip(d).map(|(a, b)| a * b).sum();
     Error {
         relative: 0.0,
+        wavelength: 0.0,
         solar_elevation: sample.solar_elevation,
         from_horizon: planet.ray(sample.altitude, sample.view_elevation).angle,
         to_sun: f64::from(cosine.clamp(-1.0, 1.0)).acos(),

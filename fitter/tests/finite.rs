@@ -37,6 +37,7 @@ fn head(air: &Atmosphere) -> Head {
     head.visibilities = vec![VISIBILITIES[0]];
     head.wavelengths = air.wavelengths.clone();
     head.constituents = air.constituents.len();
+    head.absorbers = 0;
     head.extinction = air
         .constituents
         .iter()
@@ -194,9 +195,7 @@ impl Classes {
 #[test]
 fn the_way_to_the_sun_agrees_with_exact_columns() {
     let model = Model::default_model().unwrap();
-    if model.wavelengths() != VISIBLE.wavelengths() {
-        return println!("skipped: the embedded model was fitted to other nodes");
-    }
+    assert_eq!(model.wavelengths(), VISIBLE.wavelengths());
     let mut classes = Classes::new();
     let mut outside = [0.0; NW];
     let mut bright: f64 = 0.0;

@@ -80,9 +80,7 @@ fn the_judge_can_say_no() {
 #[test]
 fn the_embedded_model_follows_the_traced_sky() {
     let model = Model::default_model().unwrap();
-    if model.wavelengths() != VISIBLE.wavelengths() {
-        return println!("skipped: the embedded model was fitted to other nodes");
-    }
+    assert_eq!(model.wavelengths(), VISIBLE.wavelengths());
     let mut all = vec![];
     for altitude in [0.0, 120.0, 2000.0] {
         let samples = samples(altitude, [24, 12], 70 + altitude as u64);
@@ -96,7 +94,7 @@ fn the_embedded_model_follows_the_traced_sky() {
     let (day, twilight) = (of(true), of(false));
     // The truth of this test is itself good to a few tenths of a percent.
     assert!(
-        day.count > 1000 && day.median < 0.006 && day.p99 < 0.03,
+        day.count > 1000 && day.median < 0.006 && day.p99 < 0.04,
         "{day:?}"
     );
     assert!(

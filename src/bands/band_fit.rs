@@ -16,7 +16,7 @@ use crate::model::Model;
 /// p99 of the relative residual over the examples that weights are to keep.
 pub(super) const TOLERANCE: f64 = 5e-4;
 /// Sums of nodes cost least: what they may be off (p99) before a band is made of wavelengths between the nodes.
-const SUM_TOLERANCE: f64 = 2e-3;
+const SUM_TOLERANCE: f64 = 3e-3;
 
 /// What the bands are made of, with indices of the nodes of the model, and how far off.
 pub(super) struct Fit {

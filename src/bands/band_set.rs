@@ -16,7 +16,7 @@ use crate::sky::{MOST_WAVELENGTHS, check_length};
 ///
 /// The value of a band is that of its [`Response`]: ∫ R E L dλ in W m⁻² sr⁻¹, or spectral radiance in W m⁻² sr⁻¹ nm⁻¹
 /// for a normalised curve and for a single wavelength. It is a sum of the radiance at a few wavelengths of the model,
-/// with weights that are not negative and reproduce the integrals of typical skies; where no such sum does to 0.2 %, a
+/// with weights that are not negative and reproduce the integrals of typical skies; where no such sum does to 0.3 %, a
 /// sum over a few wavelengths between them, at which the sky is interpolated as by
 /// [`Sky::radiance_at`](crate::Sky::radiance_at). [`Bands::residuals`] says how well; [`Bands::TOLERANCE`] is aimed at.
 /// `Send + Sync`.

@@ -43,8 +43,25 @@ pub(super) fn examples(model: &Model) -> Result<Vec<Vec<f64>>> {
     };
     match stored.len() {
         0..ENOUGH => made(model),
-        _ => Ok(stored),
+        _ => Ok(widened(stored)),
     }
+}
+
+/// How far from one example towards another others are taken: between the two, and beyond.
+const BESIDE: [f64; 2] = [0.5, 1.1];
+
+/// More examples than the file has: what differs between skies is how long they are for each constituent, so straight
+/// lines between logarithms are skies, too.
+fn widened(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let stored = rows.len();
+    for (k, share) in BESIDE.into_iter().enumerate() {
+        for i in 0..stored {
+            let [from, to] = [i, (i + 17 + 12 * k) % stored].map(|i| &rows[i]);
+            let beside = from.iter().zip(to).map(|(a, b)| a + share * (b - a));
+            rows.push(floored(beside.collect()));
+        }
+    }
+    rows
 }
 
 fn floored(row: Vec<f64>) -> Vec<f64> {

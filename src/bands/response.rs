@@ -112,7 +112,8 @@ impl Response {
     /// Wavelengths with weights of a quadrature, which takes notice of the kinks of the curve and of those (increasing)
     /// of what it is multiplied with.
     pub(super) fn quadrature(&self, kinks: &[f64]) -> Vec<[f64; 2]> {
-        const STEP: f64 = 1.0;
+        // In the ultraviolet light rises by a third within a nanometre.
+        const STEP: f64 = 0.25;
         const STEPS: f64 = 32.0;
         let Curve::Table(samples) = &self.curve else {
             return vec![[self.range()[0], 1.0]];

@@ -142,13 +142,15 @@ impl Transmittance {
         &self.interpolation
     }
 
-    /// Extinction at a typical wavelength, m⁻¹: the mean over all, as a polynomial of each layer.
+    /// Extinction at a typical wavelength, m⁻¹: the mean over the range, as a polynomial of each
+    /// layer.
     pub(crate) fn grey(&self) -> Vec<[f32; 3]> {
         let mut out = Amounts::default();
+        let shares = shares(&self.wavelengths);
         let rows = self.extinction.table.chunks_exact(self.extinction.blocks);
         for (k, row) in rows.enumerate() {
-            let sum: f32 = row.as_flattened().iter().sum();
-            out.0[k / LANES][k % LANES] = sum / self.wavelengths.len() as f32;
+            let pairs = row.as_flattened().iter().zip(&shares);
+            out.0[k / LANES][k % LANES] = pairs.map(|(k, share)| k * share).sum();
         }
         self.layers.weighted(&out)
     }
@@ -308,4 +310,15 @@ impl<const ATTENUATE: bool> Kernel for Depths<'_, ATTENUATE> {
             rest.copy_from_slice(&last[..rest.len()]);
         }
     }
+}
+
+/// How much of the range each wavelength stands for: models have many where ozone absorbs.
+fn shares(wavelengths: &[f64]) -> Vec<f32> {
+    let last = wavelengths.len() - 1;
+    if last == 0 {
+        return vec![1.0];
+    }
+    let range = |from: usize, to: usize| wavelengths[to] - wavelengths[from];
+    let share = |i: usize| 0.5 * range(i.saturating_sub(1), (i + 1).min(last)) / range(0, last);
+    (0..=last).map(|i| share(i) as f32).collect()
 }

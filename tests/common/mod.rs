@@ -65,10 +65,14 @@ pub fn wavelengths() -> impl proptest::strategy::Strategy<Value = [f32; 4]> {
     proptest::array::uniform4(shortest..=longest)
 }
 
+/// Nodes of the model (nm) between those that ozone darkens most and those in near-infrared absorption, for which the
+/// model is fitted less closely.
+pub const CLEAR: std::ops::RangeInclusive<f64> = 330.0..=750.0;
+
 /// By how much rounding counts more where there is hardly any light, as in the far ultraviolet: radiance is the
 /// exponential of numbers that are as large then.
 pub fn darkness(radiance: f32) -> f32 {
-    (radiance.max(f32::MIN_POSITIVE).ln().abs() / 4.0).max(1.0)
+    (radiance.max(f32::MIN_POSITIVE).ln().abs() / 3.0).max(1.0)
 }
 
 /// By how much relative errors at the wavelengths of a model can grow in the light between them: the sum of

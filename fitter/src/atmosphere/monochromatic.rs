@@ -21,6 +21,11 @@ impl Monochromatic {
         }
     }
 
+    /// Whether no lines absorb it.
+    pub fn is_beside_lines(self) -> bool {
+        self == Self::beside_lines(self.wavelength)
+    }
+
     /// Light that the uniformly mixed gases absorb: `depth` of all air above the ground.
     pub const fn mixed(wavelength: f64, depth: f64) -> Self {
         Self {

@@ -38,8 +38,11 @@ enum Action {
         #[arg(long)]
         svg: Option<PathBuf>,
     },
-    /// Compare direct and global irradiance with ASTM G173 in bands of 40 nm, 300..2500 nm; prints CSV.
+    /// Compare direct and global irradiance with ASTM G173 in bands of 40 nm from 300 nm; prints CSV.
     G173 {
+        /// Longest wavelength, nm, at most 2500.
+        #[arg(long, default_value_t = 2500.0)]
+        to: f64,
         /// Folder for finished work units.
         #[arg(long, default_value = "work")]
         work: PathBuf,
@@ -117,8 +120,8 @@ pub fn run(args: &Args) -> Result<()> {
                 replace_file(path, draw::nodes(&lines(&rows))?.as_bytes())?;
             }
         }
-        Action::G173 { work, svg } => {
-            let bands = g173::compare(&Store::open(work, "g173 2")?)?;
+        Action::G173 { to, work, svg } => {
+            let bands = g173::compare(&Store::open(work, "g173 3")?, *to)?;
             print!("{}", g173::csv(&bands));
             if let Some(path) = svg {
                 replace_file(path, draw::g173(&bands)?.as_bytes())?;

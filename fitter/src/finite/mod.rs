@@ -5,6 +5,7 @@ pub mod density;
 mod modes;
 pub mod source_tensor;
 pub mod study;
+mod weighted;
 
 use crate::units::Solved;
 use anyhow::Result;

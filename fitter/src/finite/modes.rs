@@ -67,6 +67,14 @@ pub fn project(mut tensor: Tensor, bases: &[Mat<f64>; 4]) -> Tensor {
     tensor
 }
 
+/// The tensor of which `core` has the coordinates in orthonormal bases.
+pub fn expand(core: Tensor, bases: &[Mat<f64>; 4]) -> Tensor {
+    project(
+        core,
+        &bases.each_ref().map(|basis| basis.transpose().to_owned()),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,11 +5,13 @@
 //! radiance times those of the local mixture's phase function. Divided by a level per sun and wavelength, both are
 //! smooth in every variable.
 
-use super::modes::{Tensor, gram, leading, project};
+use super::modes::Tensor;
+use super::weighted::{Weighted, decompose};
 use crate::successive_orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
 use crate::units::Solved;
 use faer::Mat;
 use grid::{ALTITUDES, COUNT, ORDERS, SUNS, TENSOR};
+use rayon::prelude::*;
 use welkin::format::{PhaseFunction, Ranks, SOURCE_FIELDS, SourceBasis, SourceCore};
 
 /// Channels: field · NW + wavelength.
@@ -21,22 +23,21 @@ const TENSOR_WEIGHT: f64 = 4.0;
 const DENSE_AIR: f64 = 16_000.0;
 /// Over this height (m) the weight falls by a factor e.
 const FADING: f64 = 12_000.0;
+/// A source so many times its level and brighter counts by its relative error: where the ground lies in shadow and high
+/// air in the sun, and above ozone in the ultraviolet, it is a thousand times the level.
+const BRIGHT: f64 = 2.0;
+/// Of the decomposition.
+const PASSES: usize = 12;
 /// Least light that is distinguished from none, relative to the sun.
 const DARKNESS: f32 = 1e-14;
 
 /// Fits all visibilities: what they share, and the core of each.
 pub fn fit(solved: &[Solved], ranks: Ranks) -> (SourceBasis, Vec<SourceCore>) {
-    let mut grams: [Mat<f64>; 4] =
-        [ALTITUDES.len(), SUNS, COUNT, CHANNELS].map(|n| Mat::zeros(n, n));
-    for one in solved {
-        let tensor = normalised(one).0;
-        for (mode, sum) in grams.iter_mut().enumerate() {
-            *sum += gram(&tensor, mode);
-        }
-    }
-    let bases: [Mat<f64>; 4] = std::array::from_fn(|mode| leading(&grams[mode], ranks[mode]));
-    let cores = solved.iter().map(|one| core(one, &bases, ranks)).collect();
-    (basis(&bases, ranks), cores)
+    let (all, levels): (Vec<_>, Vec<_>) = solved.par_iter().map(normalised).unzip();
+    let (bases, cores) = decompose(&all, ranks, PASSES);
+    let parts = solved.iter().zip(levels).zip(cores);
+    let cores = parts.map(|((one, levels), core)| packed(one, &levels, ranks, &core));
+    (basis(&bases, ranks), cores.collect())
 }
 
 fn basis(bases: &[Mat<f64>; 4], ranks: Ranks) -> SourceBasis {
@@ -56,9 +57,7 @@ fn basis(bases: &[Mat<f64>; 4], ranks: Ranks) -> SourceBasis {
     }
 }
 
-fn core(solved: &Solved, bases: &[Mat<f64>; 4], ranks: Ranks) -> SourceCore {
-    let (tensor, levels) = normalised(solved);
-    let core = project(tensor, bases);
+fn packed(solved: &Solved, levels: &Levels, ranks: Ranks, core: &Tensor) -> SourceCore {
     let species = species(&solved.medium);
     SourceCore {
         ranks,
@@ -85,14 +84,24 @@ fn mode_weights() -> [Vec<f64>; 4] {
     ]
 }
 
-/// Levels `[field][sun]`, and the weighted tensor `[altitude][sun][moment][channel]` of the sources over them.
-fn normalised(solved: &Solved) -> (Tensor, [Vec<Spectrum>; SOURCE_FIELDS]) {
+/// `[field][sun]`.
+type Levels = [Vec<Spectrum>; SOURCE_FIELDS];
+
+/// The tensor `[altitude][sun][moment][channel]` of the sources over their levels, times the weights of the modes, and
+/// these levels.
+fn normalised(solved: &Solved) -> (Weighted, Levels) {
     let fields = [&solved.light.sky, &solved.light.ground].map(|m| scattered(&solved.medium, m));
     let levels = [&fields[0], &fields[1]].map(|field| level(field));
     let [altitude, _, moment, _] = mode_weights();
     let mut values = Vec::with_capacity(ALTITUDES.len() * SUNS * COUNT * CHANNELS);
+    let mut weights = Vec::with_capacity(ALTITUDES.len() * SUNS * CHANNELS);
     for i in 0..ALTITUDES.len() {
         for j in 0..SUNS {
+            for (field, level) in fields.iter().zip(&levels) {
+                let isotropic = isotropic(&field[i * SUNS + j]);
+                let ratio = |w: usize| f64::from(isotropic[w] / level[j][w]);
+                weights.extend((0..NW).map(|w| (BRIGHT / ratio(w)).min(1.0)));
+            }
             for m in 0..COUNT {
                 let weight = altitude[i] * moment[m];
                 for (field, level) in fields.iter().zip(&levels) {
@@ -103,7 +112,8 @@ fn normalised(solved: &Solved) -> (Tensor, [Vec<Spectrum>; SOURCE_FIELDS]) {
         }
     }
     let shape = [ALTITUDES.len(), SUNS, COUNT, CHANNELS];
-    (Tensor { shape, values }, levels)
+    let tensor = Tensor { shape, values };
+    (Weighted { tensor, weights }, levels)
 }
 
 /// Moments of the light field as moments of the source per unit of scattering coefficient.
@@ -175,15 +185,17 @@ fn mixture(medium: &Medium, altitude: f64) -> Vec<Spectrum> {
 fn level(field: &[[Spectrum; COUNT]]) -> Vec<Spectrum> {
     let dense = ALTITUDES.iter().filter(|&&h| h <= DENSE_AIR).count();
     let mean = |j: usize, w: usize| {
-        let logarithm = |i: usize| {
-            let node = &field[i * SUNS + j];
-            (node[0][w] + node[1][w] + node[2][w]).max(DARKNESS).ln()
-        };
+        let logarithm = |i: usize| isotropic(&field[i * SUNS + j])[w].ln();
         ((0..dense).map(logarithm).sum::<f32>() / dense as f32).exp()
     };
     (0..SUNS)
         .map(|j| std::array::from_fn(|w| mean(j, w)))
         .collect()
+}
+
+/// The source that does not depend on the direction.
+fn isotropic(node: &[Spectrum; COUNT]) -> Spectrum {
+    std::array::from_fn(|w| (node[0][w] + node[1][w] + node[2][w]).max(DARKNESS))
 }
 
 /// A phase function with its scattering coefficient per constituent.

@@ -11,6 +11,11 @@ const EFFICACY: f64 = 683.0;
 /// Wavelengths of the matching functions, nm.
 const RANGE: std::ops::RangeInclusive<u32> = 360..=830;
 
+/// Whether light of this wavelength (nm) makes a colour.
+pub fn sees(wavelength: f64) -> bool {
+    (f64::from(*RANGE.start())..=f64::from(*RANGE.end())).contains(&wavelength)
+}
+
 /// Solar irradiance times the CIE 1931 matching functions, at every nanometre.
 pub struct Observer {
     sun: Curve,

@@ -21,8 +21,8 @@ const ZENITH: f64 = 48.19;
 const DEPTH: f64 = 0.084;
 /// Tilt of the plane towards the sun, degrees.
 const TILT: f64 = 37.0;
-/// Light soil, the same at all wavelengths: theirs rises from 0.1 in the ultraviolet to 0.4 in the infrared.
-const ALBEDO: f32 = 0.25;
+/// Albedo of light soil, roughly: at 300 nm and shorter, at 1000 nm and longer, linear between.
+const ALBEDO: [f32; 2] = [0.1, 0.4];
 /// Half the field of view of what counts as direct, degrees.
 const CIRCUMSOLAR: f64 = 2.9;
 /// Width of the bands that are compared, nm.
@@ -54,8 +54,8 @@ struct Light {
     global: f64,
 }
 
-/// Compares in bands of 40 nm from 300 to 2500 nm; solved lights are kept in `store`.
-pub fn compare(store: &Store) -> Result<Vec<Band>> {
+/// Compares in bands of 40 nm from 300 nm to `longest` (nm, at most 2500); solved lights are kept in `store`.
+pub fn compare(store: &Store, longest: f64) -> Result<Vec<Band>> {
     let table = Table::parse("astm_g173.csv", include_str!("../../data/astm_g173.csv"))?;
     let column = |name: &str| table.curve("wavelength_nm", name);
     let reference = [
@@ -64,7 +64,7 @@ pub fn compare(store: &Store) -> Result<Vec<Band>> {
         column("global_tilted")?,
     ];
     let bands = AbsorptionBands::new()?;
-    let count = ((LONGEST - 300.0) / STEP) as usize;
+    let count = ((longest.clamp(300.0 + BAND, LONGEST) - 300.0) / STEP) as usize;
     let cells: Vec<Cell> = (0..count)
         .map(|i| 300.0 + STEP * (i as f64 + 0.5))
         .map(|wavelength| Cell {
@@ -123,13 +123,23 @@ fn visibility() -> Result<f64> {
     Ok(clear)
 }
 
+/// A set that is not full, as the last one is, is another one than the full one.
+fn unit_name(set: usize, lights: usize) -> String {
+    match lights {
+        NW => format!("g173-{set}"),
+        _ => format!("g173-{set}-{lights}"),
+    }
+}
+
 fn solved(store: &Store, cells: &[Cell]) -> Result<Vec<Light>> {
     let (visibility, lights) = (visibility()?, lights(cells));
     let sets = lights.chunks(NW);
     let progress = bar(sets.len(), "solving");
     let mut terms = vec![];
     for (set, part) in sets.enumerate() {
-        let values = store.unit(&format!("g173-{set}"), || irradiances(visibility, part))?;
+        let values = store.unit(&unit_name(set, part.len()), || {
+            irradiances(visibility, part)
+        })?;
         terms.extend(values.chunks_exact(2).take(part.len()).map(|v| Light {
             direct: f64::from(v[0]),
             global: f64::from(v[1]),
@@ -164,13 +174,15 @@ fn irradiances(visibility: f64, part: &[Monochromatic]) -> Result<Vec<f32>> {
         .length;
     let columns = ColumnIntegrator::new(&medium.atmosphere).along(0.0, mu, length.min(10.0 * top));
     let direct = medium.transmittance(&columns);
-    let (sky, aureole, level) = diffuse(&gatherer);
+    let reddish = std::array::from_fn(|w| ((lights[w].wavelength - 300.0) / 700.0).clamp(0.0, 1.0));
+    let (sky, aureole, level) = diffuse(&gatherer, &reddish);
     let incidence = (ZENITH - TILT).to_radians().cos();
     let below = 0.5 * (1.0 - TILT.to_radians().cos());
     let mut out = vec![];
     for w in 0..NW {
         let horizontal = f64::from(direct[w]) * mu + level[w];
-        let ground = f64::from(ALBEDO) * horizontal * below;
+        let [blue, red] = ALBEDO.map(f64::from);
+        let ground = (blue + reddish[w] * (red - blue)) * horizontal * below;
         out.push(direct[w] + aureole[w] as f32);
         out.push((f64::from(direct[w]) * incidence + sky[w] + ground) as f32);
     }
@@ -179,13 +191,13 @@ fn irradiances(visibility: f64, part: &[Monochromatic]) -> Result<Vec<f32>> {
 
 type Sum = [f64; NW];
 
-/// Irradiance by the sky: on the tilted plane, of what is within 2.9° of the sun on a plane across it, and on the
+/// Irradiance by the sky, where light of the ground counts between its two albedos: on the tilted plane, of what is within 2.9° of the sun on a plane across it, and on the
 /// ground.
-fn diffuse(gatherer: &Gatherer) -> (Sum, Sum, Sum) {
+fn diffuse(gatherer: &Gatherer, reddish: &Sum) -> (Sum, Sum, Sum) {
     let sun = [ZENITH.to_radians().sin(), 0.0, ZENITH.to_radians().cos()];
     let tilt = [TILT.to_radians().sin(), 0.0, TILT.to_radians().cos()];
     let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let radiance = |v: [f64; 3]| -> [f32; NW] {
+    let radiance = |v: [f64; 3]| -> Sum {
         let elevation = v[2].asin();
         let path = gatherer.path(0.0, elevation, Side::Up);
         let azimuth = v[1].atan2(v[0]);
@@ -193,7 +205,11 @@ fn diffuse(gatherer: &Gatherer) -> (Sum, Sum, Sum) {
             elevation: (sun[0], sun[2]),
             azimuth: (azimuth.cos(), azimuth.sin()),
         };
-        gatherer.stokes(&path, v[2], &sun, ALBEDO)[0]
+        let [dark, bright] = ALBEDO.map(|albedo| gatherer.stokes(&path, v[2], &sun, albedo)[0]);
+        std::array::from_fn(|w| {
+            let [dark, bright] = [dark[w], bright[w]].map(f64::from);
+            dark + reddish[w] * (bright - dark)
+        })
     };
     // Around the sun, densest there: t³ of the angle.
     const RINGS: usize = 40;
@@ -218,7 +234,7 @@ fn diffuse(gatherer: &Gatherer) -> (Sum, Sum, Sum) {
                 let light = radiance(v);
                 let near = angle < CIRCUMSOLAR.to_radians();
                 for (w, l) in light.into_iter().enumerate() {
-                    let l = f64::from(l) * solid;
+                    let l = l * solid;
                     out.0[w] += l * dot(v, tilt).max(0.0);
                     out.1[w] += if near { l * angle.cos() } else { 0.0 };
                     out.2[w] += l * v[2];

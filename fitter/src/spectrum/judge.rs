@@ -39,6 +39,8 @@ pub struct Difference {
     pub error: f64,
 }
 
+/// Colours are judged by walks over all of this, nm.
+const SEEN: [f64; 2] = [400.0, 700.0];
 /// Darker light (sr⁻¹) is not judged.
 const DARK: f64 = 1e-12;
 
@@ -123,6 +125,10 @@ impl Judge<'_> {
 
     /// ΔE00 with the solar elevation.
     fn colour(&self, sky: &PolarisedSky, sample: &Sample, s: usize) -> Result<Option<(f64, f64)>> {
+        let [first, last] = [0, self.walk.wavelengths.len() - 1].map(|i| self.walk.wavelengths[i]);
+        if first > SEEN[0] || last < SEEN[1] {
+            return Ok(None);
+        }
         let light = self
             .traced
             .stokes
@@ -276,7 +282,7 @@ fn row(
 /// Rows of a page: radiance by 20 nm, median and p95 per class of suns.
 pub fn bands(judgement: &Judgement) -> String {
     let classes = SUNS
-        .map(|(name, _)| format!("{name}: median,… p95,… p99"))
+        .map(|(name, _)| format!("{name}: median,p95,p99"))
         .join(",");
     let mut out = format!("radiance at,{classes}\n");
     let wavelengths = || judgement.radiance.iter().map(|d| d.wavelength);

@@ -55,7 +55,7 @@ pub fn pack(plan: &Plan, work: &Path, solved: &[Solved]) -> Result<Packed> {
             spectrum.tap_weight.push(weight as f32);
         }
     }
-    let xyz = colour_weights(&learned)?;
+    let xyz = colour_weights(&learned, &plan.coverage.nodes)?;
     Ok(Packed { spectrum, xyz })
 }
 
@@ -94,8 +94,12 @@ fn lines(visibility: f64, light: Monochromatic) -> Result<Vec<f64>> {
     Ok(added.collect())
 }
 
-/// Fitted to the examples, whose spectra the taps make.
-fn colour_weights(learned: &Learned) -> Result<Vec<[f64; 3]>> {
+/// Fitted to the examples, whose spectra the taps make. Light that eyes do not see, or that gases absorb, has no weight, so
+/// that colours need few nodes.
+fn colour_weights(learned: &Learned, nodes: &[Monochromatic]) -> Result<Vec<[f64; 3]>> {
+    let seen = |n: &usize| nodes[*n].is_beside_lines() && colour::sees(nodes[*n].wavelength);
+    let seen: Vec<usize> = (0..nodes.len()).filter(seen).collect();
+    let mut out = vec![[0.0; 3]; nodes.len()];
     let mut taps = learned.taps.iter();
     let terms: Vec<Vec<_>> = learned
         .cells
@@ -117,12 +121,11 @@ fn colour_weights(learned: &Learned) -> Result<Vec<[f64; 3]>> {
     let nodes: Vec<Vec<f64>> = learned
         .skies
         .iter()
-        .map(|sky| sky.iter().map(|l| l.exp()).collect())
+        .map(|sky| seen.iter().map(|&n| sky[n].exp()).collect())
         .collect();
-    Ok(colour::weights(
-        &Observer::new()?,
-        &wavelengths,
-        &cells,
-        &nodes,
-    ))
+    let weights = colour::weights(&Observer::new()?, &wavelengths, &cells, &nodes);
+    for (n, weights) in seen.into_iter().zip(weights) {
+        out[n] = weights;
+    }
+    Ok(out)
 }

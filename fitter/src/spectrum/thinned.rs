@@ -3,7 +3,7 @@
 use super::colour::between;
 
 /// What leaving a cell out may change of the light of 95 % of the lines of sight.
-const TOLERANCE: f64 = 2e-3;
+const TOLERANCE: f64 = 3e-3;
 
 /// Indices of the cells that are kept: all but single ones between two neighbours, of which ln L is `logarithms[cell][line of
 /// sight]`.

@@ -8,6 +8,9 @@ use nalgebra::{DMatrix, DVector};
 
 /// Nodes that a term is made of.
 pub const TAPS: usize = 8;
+/// So many nodes beside lines may help on either side of light beside lines, and of light that gases absorb: what looks
+/// at a part of the spectrum needs the nodes of that part.
+const NEIGHBOURS: [usize; 2] = [5, 9];
 /// Radiance counts as at least this share of the largest among the nodes; format specification, section 7.3.
 pub const FLOOR: f64 = 1.0 / (1u64 << 27) as f64;
 /// Absorption by lines below this is none.
@@ -71,12 +74,16 @@ fn absorption(light: Monochromatic) -> f64 {
     light.water.max(light.mixed)
 }
 
-/// The node that is most like `light`, and all others that may help: those beside lines, and the nearest with more and
-/// with less absorption of the same gas.
+/// The node that is most like `light`, and all others that may help: neighbours beside lines, and the nearest with more
+/// and with less absorption of the same gas.
 fn candidates(nodes: &[Monochromatic], light: Monochromatic) -> (usize, Vec<usize>) {
     let gases: [fn(&Monochromatic) -> f64; 2] = [|l| l.water, |l| l.mixed];
     let clear = |n: &usize| absorption(nodes[*n]) < CLEAR;
     let mut allowed: Vec<usize> = (0..nodes.len()).filter(clear).collect();
+    let before = allowed.partition_point(|&n| nodes[n].wavelength <= light.wavelength);
+    let neighbours = NEIGHBOURS[usize::from(absorption(light) > CLEAR)];
+    allowed.truncate(before + neighbours);
+    allowed.drain(..before.saturating_sub(neighbours));
     let by_wavelength =
         |n: &&usize| ((nodes[**n].wavelength - light.wavelength).abs() * 1e3) as u64;
     let mut base = *allowed

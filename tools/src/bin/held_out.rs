@@ -12,8 +12,10 @@ fn main() -> figures::Result<()> {
     for (key, name, unit) in [
         ("all", "radiance: all", "%"),
         ("day (sun > 0°)", "… sun above 0°", "%"),
+        ("day, 300..760 nm", "… … 300..760 nm", "%"),
         ("sun 0..12°", "… sun at 0..12°", "%"),
         ("twilight", "… twilight", "%"),
+        ("twilight, 300..760 nm", "… … 300..760 nm", "%"),
         ("within 15° of the sun", "… within 15° of the sun", "%"),
         (
             "within 2° of the horizon",

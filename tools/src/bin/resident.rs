@@ -23,11 +23,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for i in 0..steps {
         let altitude =
             altitudes[0] + (altitudes[1] - altitudes[0]) * f64::from(i) / f64::from(steps);
-        let sky = model.sky(&Conditions {
+        let sky = model.colour_sky(&Conditions {
             altitude,
             ..Conditions::default()
         })?;
-        colour = Some(sky.bake_colour(BakedSky::TOLERANCE)?);
+        colour = Some(sky.bake(BakedSky::TOLERANCE)?);
     }
     let luminance = colour.map(|sky| sky.xyz([0.0, 0.0, 1.0])).transpose()?;
     black_box(luminance);

@@ -8,6 +8,7 @@ use crate::cells;
 use crate::failure::{Failure, Result, plain};
 
 const QUANTITY: &str = "quantity";
+const ERROR: &str = "error";
 const DISTANCE: &str = "distance_m";
 const NUMBERS: [&str; 6] = [
     "visibility_km",
@@ -33,7 +34,11 @@ pub struct Columns {
 impl Columns {
     /// `values` are the columns of the answers: those of bands need no wavelength in the table.
     pub fn find(header: &ByteRecord, values: &[String], bands: bool) -> Result<Self> {
-        for reserved in values.iter().map(String::as_str).chain(["error"]) {
+        if values.iter().any(|name| name == ERROR) {
+            let text = format!("a band cannot be called \"{ERROR}\": that is the column of errors");
+            return Err(Failure::message(text));
+        }
+        for reserved in values.iter().map(String::as_str).chain([ERROR]) {
             if position(header, reserved)?.is_some() {
                 let text = format!("the table has a column \"{reserved}\" already: rename it");
                 return Err(Failure::message(text));

@@ -29,8 +29,8 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     let colour = |_| -> Result<()> {
         let model = Model::default_model()?;
         let sky = model
-            .sky(&scene.conditions)?
-            .bake_colour(BakedSky::TOLERANCE)?;
+            .colour_sky(&scene.conditions)?
+            .bake(BakedSky::TOLERANCE)?;
         black_box(sky.xyz([0.0, 0.0, 1.0])).map(drop)
     };
     let picture = |_| {

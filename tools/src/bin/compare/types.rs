@@ -186,6 +186,7 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
     let polarised = model.polarised_sky(conditions)?;
     let aerial = model.aerial_perspective(conditions)?;
     let disc = model.solar_disc(conditions)?;
+    let colour = model.colour_sky(conditions)?;
     Ok(vec![
         time("prepare_sky", scene.sky.bytes(), &|c| {
             model.sky(c).map(drop)
@@ -194,7 +195,10 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
             scene.sky.bake(BakedSky::TOLERANCE).map(drop)
         }),
         time("bake_colour", scene.colour.bytes(), &|_| {
-            scene.sky.bake_colour(BakedSky::TOLERANCE).map(drop)
+            colour.bake(BakedSky::TOLERANCE).map(drop)
+        }),
+        time("prepare_colour", colour.bytes(), &|c| {
+            model.colour_sky(c).map(drop)
         }),
         time("prepare_polarised", polarised.bytes(), &|c| {
             model.polarised_sky(c).map(drop)
