@@ -81,12 +81,16 @@ impl CellTable {
         if terms.len() == 1 {
             return self.term(terms.start, logarithms);
         }
-        // Relative to the brightest, so that nothing overflows.
-        let brightest = terms.clone().map(|term| self.term(term, logarithms));
-        let brightest = brightest.fold(f32::MIN, f32::max);
-        let light =
-            |term: usize| self.term_weight[term] * exp2(self.term(term, logarithms) - brightest);
-        let sum: f32 = terms.map(light).sum();
+        // Relative to the brightest so far, so that nothing overflows.
+        let (mut brightest, mut sum) = (f32::MIN, 0.0);
+        for term in terms {
+            let logarithm = self.term(term, logarithms);
+            if logarithm > brightest {
+                sum *= exp2(brightest - logarithm);
+                brightest = logarithm;
+            }
+            sum += self.term_weight[term] * exp2(logarithm - brightest);
+        }
         brightest + log2(sum.max(f32::MIN_POSITIVE))
     }
 
