@@ -10,7 +10,7 @@ pub(crate) const XYZ_TO_SRGB: [[f32; 3]; 3] = [
 
 /// Converts CIE 1931 XYZ to linear sRGB (IEC 61966-2-1, D65 white): Y = 1 and the chromaticity of D65 give (1, 1, 1).
 ///
-/// Colours outside the gamut have negative components; deep blue skies do. What overflows becomes the largest number.
+/// Colours outside the gamut have negative components. What overflows becomes the largest number.
 pub fn xyz_to_linear_srgb([x, y, z]: [f32; 3]) -> [f32; 3] {
     XYZ_TO_SRGB.map(|[a, b, c]| finite(a * x + b * y + c * z))
 }

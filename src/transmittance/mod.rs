@@ -142,8 +142,7 @@ impl Transmittance {
         &self.interpolation
     }
 
-    /// Extinction at a typical wavelength, m⁻¹: the mean over the range, as a polynomial of each
-    /// layer.
+    /// Extinction at a typical wavelength, m⁻¹: the mean over the range, as a polynomial of each layer.
     pub(crate) fn grey(&self) -> Vec<[f32; 3]> {
         let mut out = Amounts::default();
         let shares = shares(&self.wavelengths);
