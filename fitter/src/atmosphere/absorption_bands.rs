@@ -50,16 +50,54 @@ impl AbsorptionBands {
         let water = exponentials(self.water.at(wavelength), MOST_WATER, water_transmittance);
         let mixed = exponentials(self.mixed.at(wavelength), MOST_AIR, mixed_transmittance);
         let pairs = water.iter().flat_map(|w| mixed.iter().map(move |m| (w, m)));
-        pairs
-            .map(|(water, mixed)| Term {
-                weight: water.weight * mixed.weight,
-                light: Monochromatic {
-                    wavelength,
-                    water: water.depth,
-                    mixed: mixed.depth,
-                },
-            })
-            .collect()
+        let all = pairs.map(|(water, mixed)| Term {
+            weight: water.weight * mixed.weight,
+            light: Monochromatic {
+                wavelength,
+                water: water.depth,
+                mixed: mixed.depth,
+            },
+        });
+        merged(all.collect())
+    }
+}
+
+/// Where both gases absorb, so many terms have to do.
+const MOST_TERMS: usize = 48;
+
+/// At most [`MOST_TERMS`]: the lightest becomes one with the one that is most like it, again and again.
+fn merged(mut terms: Vec<Term>) -> Vec<Term> {
+    while terms.len() > MOST_TERMS {
+        let weight = |&i: &usize| terms[i].weight;
+        let lightest = (0..terms.len()).min_by(|a, b| weight(a).total_cmp(&weight(b)));
+        let light = terms.swap_remove(lightest.expect("terms"));
+        let nearest = terms
+            .iter_mut()
+            .min_by(|a, b| distance(light, **a).total_cmp(&distance(light, **b)));
+        nearest.expect("terms").take(light);
+    }
+    terms
+}
+
+/// How unlike light under both terms is, along paths of all lengths.
+fn distance(a: Term, b: Term) -> f64 {
+    let apart = |a: f64, b: f64, most: f64| {
+        let [a, b] = [a, b].map(|depth| (1.0 + depth * most).ln());
+        (a - b).abs()
+    };
+    let water = apart(a.light.water, b.light.water, MOST_WATER);
+    let mixed = apart(a.light.mixed, b.light.mixed, MOST_AIR);
+    b.weight * (water + mixed).powi(2)
+}
+
+impl Term {
+    /// One term for both, with the mean of their absorption.
+    fn take(&mut self, other: Self) {
+        let weight = self.weight + other.weight;
+        let mean = |mine: f64, its: f64| (self.weight * mine + other.weight * its) / weight;
+        self.light.water = mean(self.light.water, other.light.water);
+        self.light.mixed = mean(self.light.mixed, other.light.mixed);
+        self.weight = weight;
     }
 }
 
@@ -167,6 +205,27 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// Where all terms of both gases are good to 0.005, see above.
+    #[test]
+    fn where_both_gases_absorb_few_terms_do() {
+        let bands = AbsorptionBands::new().unwrap();
+        let along = |i: u32| 10f64.powf(-4.0 * f64::from(i) / 19.0);
+        let mut most = 0;
+        for wavelength in (0..141).map(|i| 1100.0 + 10.0 * f64::from(i)) {
+            let terms = bands.terms(wavelength);
+            most = most.max(terms.len());
+            let [water, mixed] = [&bands.water, &bands.mixed].map(|c| c.at(wavelength));
+            for (i, j) in (0..20).flat_map(|i| (0..20).map(move |j| (i, j))) {
+                let (vapour, air) = (MOST_WATER * along(i), MOST_AIR * along(j));
+                let through = |t: &Term| (-t.light.water * vapour - t.light.mixed * air).exp();
+                let sum: f64 = terms.iter().map(|t| t.weight * through(t)).sum();
+                let truth = water_transmittance(water * vapour) * mixed_transmittance(mixed * air);
+                assert!((sum - truth).abs() < 0.006, "{wavelength}: {sum}, {truth}");
+            }
+        }
+        assert_eq!(most, MOST_TERMS);
     }
 
     #[test]
