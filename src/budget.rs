@@ -137,13 +137,18 @@ impl Model {
             .map(|&[basis, _]| (basis, None, None))
             .collect();
         for a in altitudes {
-            keys.push((Kind::Column, Some(a), None));
+            if !head.estimated {
+                keys.push((Kind::Column, Some(a), None));
+            }
             for v in visibilities.clone() {
                 keys.extend(kinds.iter().map(|&[_, own]| (own, Some(a), Some(v))));
             }
         }
         if self.has_spectrum() {
             keys.push(SPECTRUM);
+        }
+        if head.estimated {
+            keys.push((Kind::Estimate, None, None));
         }
         let chunks = keys
             .into_iter()
@@ -200,7 +205,11 @@ impl Model {
             let place = [entry.altitude, entry.visibility].map(Option::unwrap_or_default);
             chunks.insert(&head, kind, place, entry.rank, self.chunk(i)?)?;
         }
-        PointQuery::assemble(head, chunks, self.spectrum_chunk()?)
+        let estimate = match self.head().estimated {
+            true => Some(self.estimate_chunk()?),
+            false => None,
+        };
+        PointQuery::assemble(head, chunks, self.spectrum_chunk()?, estimate)
     }
 }
 

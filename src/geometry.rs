@@ -5,6 +5,9 @@ use core::f64::consts::FRAC_PI_2;
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
+/// Angular radius of the sun, rad: 0.2667°, as in the published model.
+pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
+
 /// A sphere of radius `radius` with an atmosphere up to `top` above it (m).
 ///
 /// ```

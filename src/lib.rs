@@ -107,6 +107,7 @@
 mod azimuth_fade;
 mod conditions;
 mod error;
+pub mod estimate;
 pub mod format;
 pub mod geometry;
 mod kernel;
@@ -114,6 +115,7 @@ mod phase_function;
 mod place;
 mod point_query;
 mod spectrum;
+mod visible_disc;
 
 pub use conditions::Conditions;
 pub use error::{Error, Result};

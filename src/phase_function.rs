@@ -142,6 +142,7 @@ mod tests {
             let table = PhaseTable::new(&Field {
                 phase,
                 ground: false,
+                estimate: 0,
                 parameter: vec![parameter],
             });
             let n = 20_000;

@@ -2,7 +2,8 @@
 
 use crate::assess::{self, Error, Quantiles};
 use crate::dataset::{Sample, Store};
-use crate::decompose::{self, Chunk, Fit, Options, chunk_geometry};
+use crate::decompose::{self, Chunk, Fit, Options};
+use crate::estimate;
 use crate::finite;
 use crate::fitting::{Fitting, unit_name};
 use crate::pack::{self, AirTables, PackedBasis};
@@ -18,7 +19,8 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::time::Instant;
 use welkin::Model;
-use welkin::format::{self, ColumnTable, Head, Payload, encode};
+use welkin::estimate::Estimates;
+use welkin::format::{self, Estimate, Head, Payload, encode};
 use welkin::output::{Target, write};
 
 /// A chunk of the model before it is packed.
@@ -35,13 +37,15 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let store = plan.store(work)?;
     let started = Instant::now();
     let solved = solve_all(plan, work)?;
-    let traced = trace_all(plan, &store, &solved)?;
+    let (tables, estimates) = estimates(&solved);
+    let traced = trace_all(plan, &store, (&solved, &estimates))?;
     let tracing = started.elapsed();
     let (chunks, places) = split(traced);
     let fit = fit_all(plan, fitting, &store, &chunks)?;
-    let polarisation = fit_polarisation(plan, fitting, &store, &solved, &chunks, &places)?;
+    let media = (solved.as_slice(), estimates.as_slice());
+    let polarisation = fit_polarisation(plan, fitting, &store, media, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
-    let (mut head, mut file) = radiance_file(plan, &solved, &chunks, &places, &fit)?;
+    let (mut head, mut file) = radiance_file(plan, &solved, tables, &places, &fit)?;
     if !plan.training.visibilities.is_empty() {
         let spectrum = spectrum::pack(plan, work, &solved)?;
         head.xyz = spectrum.xyz;
@@ -105,8 +109,20 @@ pub(crate) fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
     plan.grid.visibilities.iter().map(solve).collect()
 }
 
+/// The tables of the estimates, and the estimates at each visibility.
+pub(crate) fn estimates(solved: &[Solved]) -> (Estimate, Vec<Estimates>) {
+    let tables = estimate::tables(solved);
+    let prepare = |s: &Solved| estimate::prepare(&tables, &s.medium);
+    let estimates = solved.iter().map(prepare).collect();
+    (tables, estimates)
+}
+
 /// Chunks in the order of the file: altitude by altitude, so that a range of altitudes is one piece of the file.
-pub(crate) fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result<Vec<Traced>> {
+pub(crate) fn trace_all(
+    plan: &Plan,
+    store: &Store,
+    (solved, estimates): (&[Solved], &[Estimates]),
+) -> Result<Vec<Traced>> {
     let altitudes = plan.grid.altitudes.len();
     let progress = bar(altitudes * solved.len(), "tracing");
     let mut out = vec![];
@@ -117,7 +133,13 @@ pub(crate) fn trace_all(plan: &Plan, store: &Store, solved: &[Solved]) -> Result
             out.push(Traced {
                 altitude,
                 visibility,
-                chunk: Chunk::new(&tensor, &s.gatherer(), &plan.grid, altitude, seed),
+                chunk: Chunk::new(
+                    &tensor,
+                    (&s.gatherer(), &estimates[visibility]),
+                    &plan.grid,
+                    altitude,
+                    seed,
+                ),
                 truth: plan.held_out(store, s, plan.grid.altitudes[altitude])?,
             });
             progress.inc(1);
@@ -183,7 +205,7 @@ fn fit_polarisation(
     plan: &Plan,
     fitting: Fitting,
     store: &Store,
-    solved: &[Solved],
+    media: (&[Solved], &[Estimates]),
     chunks: &[Chunk],
     places: &[Place],
 ) -> Result<Vec<format::Chunk>> {
@@ -193,7 +215,7 @@ fn fit_polarisation(
     let places: Vec<polarise::Place> = places.iter().map(|p| (p.altitude, p.visibility)).collect();
     let [plain, strong] = plan.coverage.groups();
     let group = |nodes: &[usize], options: Options| {
-        polarise::fit(plan, (nodes, options), store, solved, chunks, &places)
+        polarise::fit(plan, (nodes, options), store, media, chunks, &places)
     };
     let mut fit = group(&plain, fitting.polarisation)?;
     if !strong.is_empty() {
@@ -282,11 +304,11 @@ fn check_rounding(
     })
 }
 
-/// The head, and the basis, then for each altitude its column and its radiance chunks.
+/// The head, and the basis and the estimates, then for each altitude its radiance chunks.
 pub(crate) fn radiance_file(
     plan: &Plan,
     solved: &[Solved],
-    chunks: &[Chunk],
+    tables: Estimate,
     places: &[Place],
     fit: &Fit,
 ) -> Result<(Head, Vec<format::Chunk>)> {
@@ -299,22 +321,14 @@ pub(crate) fn radiance_file(
         "{}".into(),
     )?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
-    let medium = &solved[0].medium;
-    let planet = crate::column::planet(&medium.atmosphere);
     let shared = Payload::RadianceBasis(basis.radiance());
-    let mut out = vec![format::Chunk::new(None, None, shared)];
+    let mut out = vec![
+        format::Chunk::new(None, None, shared),
+        format::Chunk::new(None, None, Payload::Estimate(tables)),
+    ];
     for (k, place) in places.iter().enumerate() {
         let a = place.altitude;
-        if place.visibility == 0 {
-            let geometry = chunk_geometry(medium, planet, &plan.grid, a);
-            let values = geometry.coefficients(plan.grid.up.0, plan.grid.down.0);
-            out.push(format::Chunk::new(
-                Some(a),
-                None,
-                Payload::Column(ColumnTable { values }),
-            ));
-        }
-        let factors = basis.radiance_chunk(&plan.grid, &chunks[k], &fit.own[k]);
+        let factors = basis.radiance_chunk(&plan.grid, &fit.own[k]);
         out.push(format::Chunk::new(
             Some(a),
             Some(place.visibility),

@@ -12,6 +12,7 @@ pub mod column;
 pub mod cross_check;
 pub mod dataset;
 pub mod decompose;
+pub mod estimate;
 pub mod finite;
 pub mod fitting;
 pub mod manifest;

@@ -2,7 +2,8 @@
 
 use crate::atmosphere::table::Table;
 use crate::dataset::{Coverage, Grid};
-use crate::decompose::{Basis, Chunk, Own, row_major, splines};
+use crate::decompose::{Basis, Own, row_major, splines};
+use crate::estimate::OF_FIELD;
 use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
 use anyhow::Result;
 use faer::Mat;
@@ -63,6 +64,7 @@ pub fn head(
         visibilities: grid.visibilities.clone(),
         constituents: airs[0].extinction.len(),
         absorbers: gatherer.medium().absorbers(),
+        estimated: true,
         extinction: airs
             .iter()
             .flat_map(|air| air.extinction.iter().flat_map(wide))
@@ -84,27 +86,30 @@ pub fn head(
 }
 
 fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Field> {
-    let field = |phase, ground, parameter| Field {
+    let field = |f: usize, phase, ground, parameter| Field {
         phase,
         ground,
+        estimate: OF_FIELD[f],
         parameter,
     };
     // Δ = (1 − ρ)/(1 + ρ/2) solved for ρ.
     let depolarisation = gatherer.polarising().map(|d| (1.0 - d) / (1.0 + d / 2.0));
     vec![
-        field(PhaseFunction::Rayleigh, false, wide(&depolarisation)),
+        field(0, PhaseFunction::Rayleigh, false, wide(&depolarisation)),
         field(
+            1,
             PhaseFunction::HenyeyGreenstein,
             false,
             wide(&gatherer.asymmetry(0)),
         ),
         field(
+            2,
             PhaseFunction::HenyeyGreenstein,
             false,
             wide(&gatherer.asymmetry(1)),
         ),
-        field(PhaseFunction::None, false, vec![0.0; NW]),
-        field(PhaseFunction::None, true, vec![0.0; NW]),
+        field(3, PhaseFunction::None, false, vec![0.0; NW]),
+        field(4, PhaseFunction::None, true, vec![0.0; NW]),
     ]
 }
 
@@ -156,7 +161,7 @@ impl PackedBasis {
     }
 
     /// Radiance factors of a chunk.
-    pub fn radiance_chunk(&self, grid: &Grid, chunk: &Chunk, own: &Own) -> RadianceFactors {
+    pub fn radiance_chunk(&self, grid: &Grid, own: &Own) -> RadianceFactors {
         let packed = self.chunk(grid, own);
         RadianceFactors {
             rank: self.rank,
@@ -164,7 +169,7 @@ impl PackedBasis {
             alpha_up: packed.alpha_up,
             alpha_down: packed.alpha_down,
             elevation: packed.elevation,
-            level: chunk.level.clone(),
+            level: vec![],
         }
     }
 

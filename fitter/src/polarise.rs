@@ -10,6 +10,7 @@ use crate::progress::bar;
 use crate::units::{Plan, Solved};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
+use welkin::estimate::Estimates;
 use welkin::format::{self, Payload};
 
 /// Altitude and visibility of a chunk.
@@ -20,13 +21,13 @@ pub fn fit(
     plan: &Plan,
     (nodes, options): (&[usize], Options),
     store: &Store,
-    solved: &[Solved],
+    (solved, estimates): (&[Solved], &[Estimates]),
     chunks: &[Chunk],
     places: &[Place],
 ) -> Result<Fit> {
     let name = unit_name("polarisation", &plan.grid, nodes, options, 0);
     let values = store.unit(&name, || {
-        let compressed = compress_all(plan, store, solved, (chunks, nodes), places)?;
+        let compressed = compress_all(plan, store, (solved, estimates), (chunks, nodes), places)?;
         let progress = bar(options.sweeps, "decomposing polarisation");
         let tell = |sweep: usize, rms: f64| {
             progress.set_position(sweep as u64 + 1);
@@ -44,7 +45,7 @@ pub fn fit(
 fn compress_all(
     plan: &Plan,
     store: &Store,
-    solved: &[Solved],
+    (solved, estimates): (&[Solved], &[Estimates]),
     (chunks, nodes): (&[Chunk], &[usize]),
     places: &[Place],
 ) -> Result<Vec<PolarisedChunk>> {
@@ -56,7 +57,7 @@ fn compress_all(
         Ok(PolarisedChunk::new(
             &tensor,
             (chunk, nodes),
-            &gatherer,
+            (&gatherer, &estimates[v]),
             &plan.grid,
             a,
         ))

@@ -4,10 +4,10 @@ use super::path_points::{BATCH, PathPoints};
 use super::prepared::AerialPerspective;
 use super::quadrature_limits::{MOST_PANELS, MOST_PATH_POINTS};
 use super::sun_transmittance::Two;
-use super::visible_disc::mean_shares;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::transmittance::QUADS;
+use crate::visible_disc::mean_shares;
 
 /// Over which the density of the air falls to 1/e, roughly, m.
 const SCALE: f32 = 8e3;

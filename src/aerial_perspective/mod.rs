@@ -25,7 +25,6 @@ mod spectral_light;
 mod spherical_harmonics;
 mod stokes_integral;
 mod sun_transmittance;
-mod visible_disc;
 mod xyz_sum;
 
 pub use aerial_perspective_query::AerialPerspectiveQuery;

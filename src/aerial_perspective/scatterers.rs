@@ -95,6 +95,7 @@ impl Scatterers {
                 let field = Field {
                     phase,
                     ground: false,
+                    estimate: 0,
                     parameter,
                 };
                 Scatterer::new(PhaseTable::new(&field), &scattering, block_count)

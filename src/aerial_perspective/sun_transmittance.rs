@@ -1,12 +1,12 @@
 //! Sunlight at points: how high the disc stands above the planet's edge, and the air that it crosses.
 
 use super::path_points::{BATCH, PathPoints};
-use super::visible_disc::visible_rise;
 use crate::geometry::Planet;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::{LANES, bound, sqrt};
 use crate::sun::SOLAR_ANGULAR_RADIUS;
 use crate::transmittance::{Layers, QUADS};
+use crate::visible_disc::visible_rise;
 
 type Heights = Lanes<BATCH>;
 /// Columns at two places: four constituents at the one, then at the other.

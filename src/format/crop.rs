@@ -4,6 +4,7 @@ use zerocopy::little_endian::U16;
 
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
+use super::estimate::{Estimate, view as estimate_view};
 use super::head::{Head, Kind};
 use super::layout::POLARISATION_PARTS;
 use super::matrix::{columns, narrow, pick, rows};
@@ -93,6 +94,9 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
             Kind::Spectrum => {
                 Payload::Spectrum(Spectrum::from(&spectrum_view(&contents.head, &payload)?))
             }
+            Kind::Estimate => {
+                Payload::Estimate(Estimate::from(&estimate_view(&contents.head, &payload)?))
+            }
             Kind::SourceBasis => {
                 Payload::SourceBasis(SourceBasis::from(&SourceBasisView::new(&payload, nw)?))
             }
@@ -143,12 +147,15 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
         (chunk.altitude, chunk.visibility) = (altitude, visibility);
         match &mut chunk.payload {
             Payload::Radiance(factors) => {
-                factors.level = columns(&factors.level, nw, &selection.wavelengths);
+                if !head.estimated {
+                    factors.level = columns(&factors.level, nw, &selection.wavelengths);
+                }
             }
             Payload::RadianceBasis(basis) => basis.channel = kept(&basis.channel, nf),
             Payload::PolarisationBasis(basis) => {
                 basis.channel = kept(&basis.channel, POLARISATION_PARTS);
             }
+            Payload::Estimate(estimate) => estimate.keep(nw, &selection.wavelengths),
             Payload::Source(core) => core.keep(nw, &selection.wavelengths),
             Payload::SourceBasis(basis) => basis.keep(nw, &selection.wavelengths),
             Payload::Spectrum(spectrum) => {

@@ -1,8 +1,8 @@
 //! The head of a file in owned form: everything except the chunks.
 
 use super::layout::{
-    KIND_COLUMN, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
-    KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, Shape,
+    KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE,
+    KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, Shape,
 };
 use super::matrix::{columns, pick};
 use crate::geometry::Planet;
@@ -75,6 +75,8 @@ pub struct Field {
     pub phase: PhaseFunction,
     /// Whether the ground reflected this light (scaled by the albedo).
     pub ground: bool,
+    /// Which estimate the field is relative to; 0 in files without estimates.
+    pub estimate: usize,
     /// Parameter of the phase function, `[wavelengths]`.
     pub parameter: Vec<f64>,
 }
@@ -113,6 +115,8 @@ pub struct Head {
     /// Constituents that absorb and do not scatter, bit k for constituent k: radiance is stored per share of the others
     /// in the optical depth.
     pub absorbers: u16,
+    /// Whether fields are relative to estimates, and not to (1 − T) · ω · S.
+    pub estimated: bool,
     /// Extinction coefficients where a constituent's profile is 1, m⁻¹, `[visibilities][constituents][wavelengths]`.
     pub extinction: Vec<f64>,
     /// Spherical albedo of the atmosphere seen from the ground, `[visibilities][wavelengths]`.
@@ -142,6 +146,10 @@ impl Head {
             wavelengths: self.wavelengths.len(),
             channels: self.fields.len() * self.wavelengths.len(),
             constituents: self.constituents,
+            levels: match self.estimated {
+                true => 0,
+                false => coefficients(self.elevation.intervals, Ends::Free),
+            },
         }
     }
 
@@ -239,6 +247,8 @@ pub enum Kind {
     RadianceBasis,
     /// What lies between the wavelengths.
     Spectrum,
+    /// Tables of the estimates that fields are relative to.
+    Estimate,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -255,6 +265,7 @@ impl Kind {
             KIND_SOURCE_BASIS => Kind::SourceBasis,
             KIND_RADIANCE_BASIS => Kind::RadianceBasis,
             KIND_SPECTRUM => Kind::Spectrum,
+            KIND_ESTIMATE => Kind::Estimate,
             other => Kind::Unknown(other),
         }
     }
@@ -271,6 +282,7 @@ impl Kind {
             Kind::SourceBasis => "source basis",
             Kind::RadianceBasis => "radiance basis",
             Kind::Spectrum => "spectrum",
+            Kind::Estimate => "estimate",
             Kind::Unknown(_) => "unknown",
         }
     }

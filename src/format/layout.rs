@@ -11,6 +11,8 @@ pub const VERSION_MAJOR: u16 = 1;
 pub const VERSION_MINOR: u16 = 1;
 /// Bit of `required_features`: the file has a spectrum.
 pub const FEATURE_SPECTRUM: u32 = 1;
+/// Bit of `required_features`: fields are relative to estimates.
+pub const FEATURE_ESTIMATE: u32 = 2;
 /// From this bit of `required_features` on: which constituents absorb and do not scatter.
 pub const FEATURE_ABSORBERS_SHIFT: u32 = 16;
 /// Alignment of chunks in the file.
@@ -39,6 +41,8 @@ pub const KIND_SOURCE_BASIS: u32 = 8;
 pub const KIND_RADIANCE_BASIS: u32 = 3;
 /// `kind` of a spectrum chunk.
 pub const KIND_SPECTRUM: u32 = 9;
+/// `kind` of the estimate chunk.
+pub const KIND_ESTIMATE: u32 = 10;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a chunk.
@@ -47,6 +51,8 @@ pub const MAX_RANK: usize = 4096;
 pub const MAX_TABLE: usize = 1 << 24;
 /// Bit of a field code: light reflected by the ground.
 pub const FIELD_GROUND: u32 = 1 << 16;
+/// From this bit of a field code on: the estimate that the field is relative to.
+pub const FIELD_ESTIMATE_SHIFT: u32 = 24;
 
 pub(crate) const CRC_RANGE: core::ops::Range<usize> = 32..36;
 
@@ -92,7 +98,8 @@ impl Header {
     /// Bits of `required_features` that this version does not know.
     pub(crate) fn unknown_features(&self) -> u32 {
         let constituents = (1u32 << self.constituents.get().min(16)) - 1;
-        self.required_features.get() & !(FEATURE_SPECTRUM | constituents << FEATURE_ABSORBERS_SHIFT)
+        self.required_features.get()
+            & !(FEATURE_SPECTRUM | FEATURE_ESTIMATE | constituents << FEATURE_ABSORBERS_SHIFT)
     }
 
     /// Length of the head that follows from the counts; at most about 2^39, so it cannot overflow.
@@ -175,6 +182,9 @@ pub struct Shape {
     pub channels: usize,
     /// Constituents of the air.
     pub constituents: usize,
+    /// Rows of ln S in a radiance chunk: as many as the elevation axis has coefficients, or none where fields are relative
+    /// to estimates.
+    pub levels: usize,
 }
 
 /// Parts of the polarisation: Q and U/sin φ of light over black ground, Q and U/sin φ of light from the ground.
@@ -184,7 +194,7 @@ impl Shape {
     /// Raw bytes of a radiance chunk of the given rank.
     pub fn radiance_bytes(&self, rank: usize) -> usize {
         let rows = self.up + self.down + self.elevation;
-        ceil16(rank) * (4 + 2 * rows) + 2 * self.elevation * self.wavelengths
+        ceil16(rank) * (4 + 2 * rows) + 2 * self.levels * self.wavelengths
     }
 
     /// Raw bytes of a radiance basis of the given rank.

@@ -1,16 +1,19 @@
 //! The file format: byte layout, validation, reading and writing. The contract is `format-spec/SPEC.md`.
 
+mod estimate_view;
 mod layout;
 mod spectrum_view;
 mod views;
 
 pub(crate) use layout::{CRC_RANGE, ENTRY_LENGTH, Header, RawEntry};
 
+pub use estimate_view::{EstimateView, MAX_ESTIMATE_CONSTITUENTS, MAX_ESTIMATE_WAVELENGTHS};
 pub use layout::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FEATURE_SPECTRUM, FIELD_GROUND, KIND_COLUMN,
-    KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE,
-    KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE,
-    MOST_EXPANSION, NO_INDEX, POLARISATION_PARTS, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
+    CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FEATURE_ESTIMATE, FEATURE_SPECTRUM,
+    FIELD_ESTIMATE_SHIFT, FIELD_GROUND, KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION,
+    KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS,
+    KIND_SPECTRUM, KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX,
+    POLARISATION_PARTS, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
 };
 pub use spectrum_view::{MAX_TAPS, SpectrumView};
 pub use views::{BasisView, ColumnView, FactorsView, Payload16};
@@ -24,6 +27,7 @@ cfg_if::cfg_if! {
         mod crop;
         mod density;
         mod encoding;
+        mod estimate;
         mod head;
         mod parse;
         mod polarisation_factors;
@@ -51,6 +55,7 @@ cfg_if::cfg_if! {
             MAX_MOMENTS, Ranks, SOURCE_FIELDS, SourceBasis, SourceBasisView, SourceCore, SourceView,
             TENSOR, harmonics,
         };
+        pub use estimate::Estimate;
         pub use spectrum::Spectrum;
         pub use verify::{Problem, verify};
         pub use write::{Chunk, ColumnTable, Payload, RadianceBasis, RadianceFactors, encode, write};

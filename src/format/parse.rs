@@ -83,6 +83,10 @@ pub(crate) fn parse_head(bytes: &[u8]) -> Result<Contents> {
         let detail = "must have bit 0 where there is a spectrum chunk, and only there";
         return Err(Error::invalid("required_features", detail));
     }
+    if head.estimated != index.contains_key(&(Kind::Estimate, None, None)) {
+        let detail = "must have bit 1 where there is an estimate chunk, and only there";
+        return Err(Error::invalid("required_features", detail));
+    }
     Ok(Contents {
         head,
         directory,
@@ -234,6 +238,7 @@ fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
         visibilities,
         constituents: nk,
         absorbers: header.absorbers(),
+        estimated: header.required_features.get() & FEATURE_ESTIMATE != 0,
         extinction,
         spherical_albedo,
         xyz: xyz.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(),
@@ -247,7 +252,8 @@ fn head(header: &Header, cursor: &mut Cursor) -> Result<Head> {
 
 fn fields(codes: &[u32], parameters: &[f64], nw: usize) -> Result<Vec<Field>> {
     let field = |(f, &code): (usize, &u32)| {
-        let phase = match code & !FIELD_GROUND {
+        let estimate = (code >> FIELD_ESTIMATE_SHIFT) as usize;
+        let phase = match code & !FIELD_GROUND & ((1 << FIELD_ESTIMATE_SHIFT) - 1) {
             0 => PhaseFunction::None,
             1 => PhaseFunction::Rayleigh,
             2 => PhaseFunction::HenyeyGreenstein,
@@ -259,6 +265,7 @@ fn fields(codes: &[u32], parameters: &[f64], nw: usize) -> Result<Vec<Field>> {
         Ok(Field {
             phase,
             ground: code & FIELD_GROUND != 0,
+            estimate,
             parameter: parameters[f * nw..(f + 1) * nw].to_vec(),
         })
     };
@@ -361,7 +368,8 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         | Kind::PolarisationBasis
         | Kind::Transmittance
         | Kind::SourceBasis
-        | Kind::Spectrum => entry.altitude.is_none() && entry.visibility.is_none(),
+        | Kind::Spectrum
+        | Kind::Estimate => entry.altitude.is_none() && entry.visibility.is_none(),
     };
     let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
         && entry.visibility.is_none_or(|i| i < head.visibilities.len());

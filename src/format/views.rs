@@ -68,7 +68,7 @@ impl<'a> FactorsView<'a> {
     /// [`Error::Invalid`] if the bytes are not as many as shape and rank say.
     pub fn radiance(bytes: &'a [u8], shape: &Shape, rank: usize) -> Result<Self> {
         check_length("radiance chunk", bytes, shape.radiance_bytes(rank))?;
-        Self::divide(bytes, shape, rank, shape.elevation * shape.wavelengths)
+        Self::divide(bytes, shape, rank, shape.levels * shape.wavelengths)
     }
 
     /// Divides the bytes of a raw polarisation chunk into its tables.

@@ -7,6 +7,7 @@ use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 
 use super::assemble::assemble;
 use super::density::DensityTable;
+use super::estimate::Estimate;
 use super::head::{Head, PhaseFunction};
 use super::layout::*;
 use super::payload_bytes::{check, check_rank, push_f32, push_half, push_halves, push_scale};
@@ -132,6 +133,8 @@ pub enum Payload {
     RadianceBasis(RadianceBasis),
     /// What lies between the wavelengths.
     Spectrum(Spectrum),
+    /// Tables of the estimates that fields are relative to.
+    Estimate(Estimate),
 }
 
 /// A chunk to be written.
@@ -243,7 +246,9 @@ fn push_arrays(file: &mut Vec<u8>, head: &Head) {
             PhaseFunction::HenyeyGreenstein => 2,
         };
         let ground = if field.ground { FIELD_GROUND } else { 0 };
-        file.extend_from_slice(U32::new(phase | ground).as_bytes());
+        file.extend_from_slice(
+            U32::new(phase | ground | (field.estimate as u32) << FIELD_ESTIMATE_SHIFT).as_bytes(),
+        );
     }
     file.extend_from_slice(head.metadata.as_bytes());
     file.resize(file.len().next_multiple_of(8), 0);
@@ -262,7 +267,10 @@ fn header(head: &Head) -> Header {
         magic: MAGIC,
         version_major: U16::new(VERSION_MAJOR),
         version_minor: U16::ZERO,
-        required_features: U32::new(u32::from(head.absorbers) << FEATURE_ABSORBERS_SHIFT),
+        required_features: U32::new(
+            u32::from(head.absorbers) << FEATURE_ABSORBERS_SHIFT
+                | if head.estimated { FEATURE_ESTIMATE } else { 0 },
+        ),
         file_length: U64::ZERO,
         head_length: U64::ZERO,
         head_crc32: U32::ZERO,
@@ -300,6 +308,7 @@ fn entry(chunk: &Chunk, payload: &[u8]) -> Result<RawEntry> {
         Payload::SourceBasis(_) => (KIND_SOURCE_BASIS, 0),
         Payload::RadianceBasis(basis) => (KIND_RADIANCE_BASIS, basis.rank),
         Payload::Spectrum(_) => (KIND_SPECTRUM, 0),
+        Payload::Estimate(_) => (KIND_ESTIMATE, 0),
     };
     let index = |i: Option<usize>| {
         let Some(i) = i else {
@@ -339,6 +348,7 @@ fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
         Payload::Source(core) => core.encode(constituents, wavelengths),
         Payload::SourceBasis(basis) => basis.encode(wavelengths),
         Payload::Spectrum(spectrum) => spectrum.encode(head),
+        Payload::Estimate(estimate) => estimate.encode(constituents, wavelengths, head.planet.top),
     }
 }
 
@@ -351,7 +361,7 @@ fn encode_radiance(shape: &Shape, factors: &RadianceFactors) -> Result<Vec<u8>> 
     push_half(&mut bytes, "alpha_down", &factors.alpha_down, shape.down, r)?;
     let rows = shape.elevation;
     push_half(&mut bytes, "elevation", &factors.elevation, rows, r)?;
-    check("level", &factors.level, rows * shape.wavelengths)?;
+    check("level", &factors.level, shape.levels * shape.wavelengths)?;
     push_halves(&mut bytes, "level", &factors.level)?;
     Ok(bytes)
 }

@@ -7,7 +7,8 @@ use zerocopy::little_endian::{F32, U16};
 
 use super::opened::{Model, SPECTRUM};
 use crate::error::Result;
-use crate::format::{Head, Key, SourceBasisView, SourceView, columns};
+use crate::estimate::Estimates;
+use crate::format::{EstimateView, Head, Key, SourceBasisView, SourceView, columns};
 use crate::kernel::half::widen;
 use crate::spectrum::SpectralInterpolation;
 
@@ -103,6 +104,15 @@ impl<'a> Nodes<'a> {
         match self.kept {
             None => model.shared_interpolation().cloned(),
             Some(_) => Ok(Arc::new(SpectralInterpolation::of_nodes(self.head))),
+        }
+    }
+
+    /// The estimates at the nodes, of which alone `extinction` (`[constituent][node]`, m⁻¹) is given.
+    pub fn estimates(&self, view: &EstimateView, extinction: &[f64]) -> Estimates {
+        let planet = self.head.planet;
+        match self.kept {
+            None => Estimates::new(planet, view, extinction),
+            Some(kept) => Estimates::at_nodes(planet, view, extinction, kept),
         }
     }
 

@@ -8,8 +8,8 @@ use super::read_at::ReadAt;
 use super::store::{Bytes, Store, Traffic};
 use crate::error::{Error, Result};
 use crate::format::{
-    BasisView, ColumnView, Contents, DensityView, Entry, FactorsView, Head, Key, Kind,
-    SourceBasisView, SourceView, SpectrumView, spectrum_view,
+    BasisView, ColumnView, Contents, DensityView, Entry, EstimateView, FactorsView, Head, Key,
+    Kind, SourceBasisView, SourceView, SpectrumView, spectrum_view,
 };
 use crate::spectrum::SpectralInterpolation;
 
@@ -267,6 +267,12 @@ impl Model {
         let i = self.find(Kind::PolarisationBasis, None, None)?;
         let rank = self.contents.directory[i].rank;
         BasisView::polarisation(self.chunk(i)?, &self.head().shape(), rank)
+    }
+
+    pub(crate) fn estimate_chunk(&self) -> Result<EstimateView<'_>> {
+        let head = self.head();
+        let bytes = self.chunk(self.find(Kind::Estimate, None, None)?)?;
+        EstimateView::divide(bytes, head.constituents, head.wavelengths.len())
     }
 
     pub(crate) fn density_chunk(&self) -> Result<DensityView<'_>> {

@@ -5,12 +5,12 @@ use super::head_counts::require;
 use super::head_view::{HeadView, Rest};
 use crate::error::Result;
 use crate::format::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, FEATURE_SPECTRUM, KIND_COLUMN, KIND_POLARISATION,
-    KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SPECTRUM,
-    MAX_RANK, MOST_EXPANSION, NO_INDEX, RawEntry,
+    CHUNK_ALIGNMENT, ENCODING_RAW, FEATURE_ESTIMATE, FEATURE_SPECTRUM, KIND_COLUMN, KIND_ESTIMATE,
+    KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE,
+    KIND_SPECTRUM, MAX_RANK, MOST_EXPANSION, NO_INDEX, RawEntry,
 };
 
-const KINDS: usize = KIND_SPECTRUM as usize + 1;
+const KINDS: usize = KIND_ESTIMATE as usize + 1;
 
 pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
     let rule = |holds, detail| require(holds, "directory", detail);
@@ -50,13 +50,23 @@ pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
             "a rank is above that of its basis",
         )?;
     }
-    let mut kinds = head.directory.iter().map(|entry| entry.kind.get());
-    let declared = rest.required_features & FEATURE_SPECTRUM != 0;
-    require(
-        declared == kinds.any(|kind| kind == KIND_SPECTRUM),
-        "required_features",
-        "must have bit 0 where there is a spectrum chunk, and only there",
-    )?;
+    let kinds = head.directory.iter().map(|entry| entry.kind.get());
+    for (feature, kind, detail) in [
+        (
+            FEATURE_SPECTRUM,
+            KIND_SPECTRUM,
+            "must have bit 0 where there is a spectrum chunk, and only there",
+        ),
+        (
+            FEATURE_ESTIMATE,
+            KIND_ESTIMATE,
+            "must have bit 1 where there is an estimate chunk, and only there",
+        ),
+    ] {
+        let declared = rest.required_features & feature != 0;
+        let there = kinds.clone().any(|found| found == kind);
+        require(declared == there, "required_features", detail)?;
+    }
     rule(
         end == head.file_length,
         "the last chunk is not the end of the file",
@@ -64,7 +74,7 @@ pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
 }
 
 pub(super) fn is_known(entry: &RawEntry) -> bool {
-    (KIND_RADIANCE..=KIND_SPECTRUM).contains(&entry.kind.get())
+    (KIND_RADIANCE..=KIND_ESTIMATE).contains(&entry.kind.get())
 }
 
 fn fits_axes(head: &HeadView, entry: &RawEntry) -> bool {

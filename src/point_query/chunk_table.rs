@@ -3,8 +3,8 @@
 use super::head_view::HeadView;
 use crate::error::{Error, Result};
 use crate::format::{
-    BasisView, ColumnView, ENCODING_RAW, FactorsView, KIND_COLUMN, KIND_RADIANCE,
-    KIND_RADIANCE_BASIS, KIND_SPECTRUM, RawEntry, SpectrumView,
+    BasisView, ColumnView, ENCODING_RAW, EstimateView, FactorsView, KIND_COLUMN, KIND_ESTIMATE,
+    KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SPECTRUM, RawEntry, SpectrumView,
 };
 
 /// Most chunks of radiance, and most altitudes.
@@ -118,6 +118,26 @@ pub(super) fn spectrum_of_file<'a>(
         &head.shape,
         head.visibilities.len(),
         head.solar_range(),
+    )
+    .map(Some)
+}
+
+/// The estimates of a file, if it has them.
+pub(super) fn estimate_of_file<'a>(
+    head: &HeadView,
+    bytes: &'a [u8],
+) -> Result<Option<EstimateView<'a>>> {
+    let mut entries = head.directory.iter().enumerate();
+    let Some((i, entry)) = entries.find(|(_, entry)| entry.kind.get() == KIND_ESTIMATE) else {
+        return Ok(None);
+    };
+    let payload = payload(i, entry, bytes)?;
+    let shape = &head.shape;
+    EstimateView::new(
+        payload,
+        shape.constituents,
+        shape.wavelengths,
+        head.planet.top,
     )
     .map(Some)
 }

@@ -9,6 +9,7 @@ use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::estimate::Blocks;
 use crate::format::{ColumnView, FactorsView};
 use crate::geometry::Side;
 use crate::kernel::lanes::Lanes;
@@ -66,7 +67,12 @@ impl<'a, 'b> Query<'a, 'b> {
     fn look_around(&mut self) -> Result<()> {
         let Self { model, place, .. } = *self;
         let mut slots = self.chunks.iter_mut();
-        for (slot, (a, weight)) in self.columns.iter_mut().zip(place.altitudes.cubic.taps()) {
+        let estimated = model.estimate.is_some();
+        for (slot, (a, weight)) in self
+            .columns
+            .iter_mut()
+            .zip(place.altitudes.cubic.taps().filter(|_| !estimated))
+        {
             let column = model.chunks.column(a);
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
             *slot = Some((column, weight as f32));
@@ -98,7 +104,9 @@ impl<'a, 'b> Query<'a, 'b> {
             true => contraction::fetch_chunk(instructions, chunk, rows, &self.place.curve),
             false => contraction::fetch_chunk(instructions, chunk, rows, &self.place.chord),
         }
-        contraction::fetch_level(instructions, chunk, n, &self.place.curve[1]);
+        if !chunk.level.is_empty() {
+            contraction::fetch_level(instructions, chunk, n, &self.place.curve[1]);
+        }
     }
 
     #[inline(always)]
@@ -106,9 +114,9 @@ impl<'a, 'b> Query<'a, 'b> {
         let Self { model, place, .. } = self;
         let mut channels = [0.0; MOST_CHANNELS];
         let level = self.sum(instructions, &mut channels)?;
-        model
-            .light
-            .mix(place, &channels, &level, &self.densities(), out);
+        let (densities, estimates) = (self.densities(), self.estimates());
+        let relative = (&densities, estimates.as_ref());
+        model.light.mix(place, &channels, &level, relative, out);
         Ok(())
     }
 
@@ -144,7 +152,9 @@ impl<'a, 'b> Query<'a, 'b> {
                 }
             }
             let sun = &place.curve[1];
-            contraction::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
+            if !chunk.level.is_empty() {
+                contraction::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);
+            }
         }
         place.turn(instructions, basis, &mut components);
         contraction::project(instructions, basis, &components, channels);
@@ -158,6 +168,14 @@ impl<'a, 'b> Query<'a, 'b> {
             Side::Up => chunk.alpha_up,
             Side::Down => chunk.alpha_down,
         }
+    }
+
+    /// What the fields are relative to, if the file says.
+    #[inline(always)]
+    pub fn estimates(&self) -> Option<Blocks> {
+        let Self { model, place, .. } = self;
+        let tables = model.estimate.as_ref()?;
+        Some(model.light.estimates(tables, place))
     }
 
     /// ln n̄ of each constituent.

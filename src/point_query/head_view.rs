@@ -5,7 +5,9 @@ use zerocopy::little_endian::{F32, F64, U32};
 
 use super::head_counts::check_counts;
 use crate::error::{Error, Result};
-use crate::format::{CRC_RANGE, ENTRY_LENGTH, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR};
+use crate::format::{
+    CRC_RANGE, ENTRY_LENGTH, FEATURE_ESTIMATE, Header, MAGIC, RawEntry, Shape, VERSION_MAJOR,
+};
 use crate::geometry::Planet;
 use crate::kernel::axis::ElevationAxis;
 
@@ -69,6 +71,10 @@ impl<'a> HeadView<'a> {
                 wavelengths: nw,
                 channels: nf * nw,
                 constituents: nk,
+                levels: match header.required_features.get() & FEATURE_ESTIMATE {
+                    0 => n(header.elevation_intervals) + 3,
+                    _ => 0,
+                },
             },
             planet: Planet {
                 radius: header.planet_radius.get(),

@@ -3,6 +3,7 @@
 use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
 use crate::azimuth_fade::azimuthal;
+use crate::estimate::Sightline;
 use crate::geometry::Side;
 use crate::kernel::axis::{Ends, alpha_coordinate, chord, spline};
 #[cfg(not(feature = "std"))]
@@ -31,6 +32,19 @@ impl PointQuery<'_> {
         let [across, along] = [(x * sine - y * cosine).abs(), x * cosine + y * sine];
         // Plus zero: at the zenith the sum can be -0, of which the arc tangent is half a turn.
         let phi = (across as f32).atan2(along as f32 + 0.0);
+        let horizontal = (x * x + y * y).sqrt();
+        let shrink = if horizontal > 0.0 {
+            1.0 / horizontal
+        } else {
+            0.0
+        };
+        let line = Sightline {
+            altitude: conditions.altitude,
+            ray: [unit[2], (unit[0] * unit[0] + unit[1] * unit[1]).sqrt()],
+            side: ray.side,
+            sun: [sun_z, sun_r],
+            azimuth: along * shrink,
+        };
         let phi = head.phi_intervals as f64 * f64::from(phi) / core::f64::consts::PI;
         let axis = &head.elevation;
         let sun = axis.coordinate_between(self.suns, conditions.solar_elevation);
@@ -46,6 +60,7 @@ impl PointQuery<'_> {
             fade: azimuthal(sun_r),
             angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),
             ray,
+            line,
             albedo: conditions.albedo,
         }
     }

@@ -2,14 +2,14 @@
 
 use super::capacity::WAVELENGTH_BLOCKS;
 use super::chunk_directory;
-use super::chunk_table::{Chunks, limit, spectrum_of_file};
+use super::chunk_table::{Chunks, estimate_of_file, limit, spectrum_of_file};
 use super::contraction::{MOST_CHANNELS, MOST_RANK, WIDTH};
 use super::head_rules::checked_head;
 use super::head_view::HeadView;
 use super::neighbours::{Axis, Interpolation};
 use super::optics::Light;
 use crate::error::{Error, Result};
-use crate::format::SpectrumView;
+use crate::format::{EstimateView, SpectrumView};
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
@@ -46,6 +46,8 @@ pub struct PointQuery<'a> {
     pub(super) light: Light,
     /// What lies between the wavelengths, if the file says.
     pub(super) spectrum: Option<SpectrumView<'a>>,
+    /// What the fields are relative to, if the file says.
+    pub(super) estimate: Option<EstimateView<'a>>,
     pub(super) interpolation: Interpolation,
 }
 
@@ -67,7 +69,8 @@ impl<'a> PointQuery<'a> {
         }
         let chunks = Chunks::of_file(&head, bytes)?;
         let spectrum = spectrum_of_file(&head, bytes)?;
-        Self::assemble(head, chunks, spectrum)
+        let estimate = estimate_of_file(&head, bytes)?;
+        Self::assemble(head, chunks, spectrum, estimate)
     }
 
     /// Compares the checksums of all chunks of known kinds of the file that this was made from.
@@ -100,6 +103,7 @@ impl<'a> PointQuery<'a> {
         head: HeadView<'a>,
         chunks: Chunks<'a>,
         spectrum: Option<SpectrumView<'a>>,
+        estimate: Option<EstimateView<'a>>,
     ) -> Result<Self> {
         let shape = &head.shape;
         limit("wavelengths", shape.wavelengths, WAVELENGTH_BLOCKS * WIDTH)?;
@@ -128,6 +132,7 @@ impl<'a> PointQuery<'a> {
             head,
             chunks,
             spectrum,
+            estimate,
         })
     }
 

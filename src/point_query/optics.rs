@@ -7,7 +7,9 @@ use super::contraction::{MOST_CHANNELS, Spectrum, WIDTH};
 use super::head_view::HeadView;
 use super::query_coordinates::QueryCoordinates;
 use crate::error::{Error, Result};
-use crate::format::FIELD_GROUND;
+use crate::estimate::{Blocks, Estimator, MOST_BLOCKS, NOTHING};
+use crate::format::{EstimateView, FIELD_ESTIMATE_SHIFT, FIELD_GROUND, MAX_ESTIMATE_CONSTITUENTS};
+use crate::geometry::Planet;
 use crate::kernel::axis::Stencil;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::exp;
@@ -28,8 +30,9 @@ pub(super) struct Light {
     constituents: usize,
     absorbers: u16,
     fields: usize,
-    /// Whether a field is Henyey-Greenstein, and whether the ground reflected it.
-    kind: [(bool, bool); MOST],
+    planet: Planet,
+    /// Whether a field is Henyey-Greenstein, whether the ground reflected it, and the estimate that it is relative to.
+    kind: [(bool, bool, usize); MOST],
     /// Coefficients of the phase functions, `[field][block]`.
     phase: [[Block; 3]; MOST_PHASES],
     /// `[visibility][constituent][block]`.
@@ -63,7 +66,8 @@ impl Light {
             constituents: head.shape.constituents,
             absorbers: head.absorbers,
             fields: head.fields.len(),
-            kind: [(false, false); MOST],
+            planet: head.planet,
+            kind: [(false, false, 0); MOST],
             phase: [[Lanes::splat(1.0); 3]; MOST_PHASES],
             extinction: [zero; MOST_EXTINCTION],
             spherical_albedo: [zero; MOST_ALBEDO],
@@ -83,8 +87,9 @@ impl Light {
 
     fn read_field(&mut self, head: &HeadView, f: usize) -> Result<()> {
         let code = head.fields[f].get();
-        let (phase, ground) = (code & !FIELD_GROUND, code & FIELD_GROUND != 0);
-        self.kind[f] = (phase == 2, ground);
+        let ground = code & FIELD_GROUND != 0;
+        let phase = code & !FIELD_GROUND & ((1 << FIELD_ESTIMATE_SHIFT) - 1);
+        self.kind[f] = (phase == 2, ground, (code >> FIELD_ESTIMATE_SHIFT) as usize);
         let parameters = &head.phase_parameter[f * self.wavelengths..][..self.wavelengths];
         for (w, parameter) in parameters.iter().enumerate() {
             let coefficients = match phase {
@@ -111,7 +116,7 @@ impl Light {
         place: &QueryCoordinates,
         channels: &[f32; MOST_CHANNELS],
         level: &Spectrum,
-        columns: &[f32; MOST],
+        (columns, estimates): (&[f32; MOST], Option<&Blocks>),
         out: &mut [f32],
     ) {
         let mut densities = *columns;
@@ -128,7 +133,11 @@ impl Light {
                 let value = load(channels, f * self.wavelengths + b * WIDTH);
                 let phase = self.phase_at(place, f, b);
                 let light = if self.kind[f].1 { ground } else { one };
-                sum = sum + value * phase * light;
+                sum = sum + self.whole(f, estimates, b, value * phase * light);
+            }
+            if estimates.is_some() {
+                store(sum, b, out);
+                continue;
             }
             let [mut extinction, mut scattering] = [Lanes::splat(0.0); 2];
             for k in 0..self.constituents {
@@ -145,11 +154,38 @@ impl Light {
                 opacity = opacity * scattering / extinction.max(Lanes::splat(f32::MIN_POSITIVE));
             }
             let value = opacity * level[b].exp() * sum.max(Lanes::splat(0.0));
-            let value = value.max(Lanes::splat(0.0)).min(Lanes::splat(f32::MAX));
-            let out = &mut out[b * WIDTH..];
-            let n = out.len().min(WIDTH);
-            out[..n].copy_from_slice(&value.0[..n]);
+            store(value, b, out);
         }
+    }
+
+    /// A field, of which `value` is relative to its estimate.
+    #[inline(always)]
+    fn whole(&self, f: usize, estimates: Option<&Blocks>, b: usize, value: Block) -> Block {
+        match estimates {
+            None => value,
+            Some(estimates) => value * estimates[b][self.kind[f].2],
+        }
+    }
+
+    /// What the fields are relative to.
+    #[inline(always)]
+    pub fn estimates(&self, tables: &EstimateView, place: &QueryCoordinates) -> Blocks {
+        let mut extinction = [[0.0; WIDTH]; MAX_ESTIMATE_CONSTITUENTS * MOST_BLOCKS];
+        let n = self.constituents;
+        for k in 0..n {
+            for b in 0..self.blocks {
+                let row = self.at(&self.extinction, n, &place.visibilities.line, k, b);
+                extinction[k * self.blocks + b] = row.0;
+            }
+        }
+        let estimator = Estimator {
+            planet: self.planet,
+            tables: *tables,
+            extinction: &extinction,
+        };
+        let mut out = NOTHING;
+        estimator.along(&place.line, |block, estimates| out[block] = estimates);
+        out
     }
 
     /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by
@@ -160,6 +196,7 @@ impl Light {
         &self,
         place: &QueryCoordinates,
         channels: &[f32; MOST_CHANNELS],
+        estimates: Option<&Blocks>,
         [sums, dipoles, grounds]: [&mut [f32; N]; 3],
     ) {
         let albedo = Lanes::splat(place.albedo as f32);
@@ -168,11 +205,12 @@ impl Light {
             let ground = albedo / (Lanes::splat(1.0) - albedo * spherical);
             let [mut sum, mut dipole] = [Lanes::splat(0.0); 2];
             for f in 0..self.fields {
-                let (particles, reflected) = self.kind[f];
+                let (particles, reflected, _) = self.kind[f];
                 let mut value = load(channels, f * self.wavelengths + b * WIDTH);
                 if reflected {
                     value = value * ground;
                 }
+                value = self.whole(f, estimates, b, value);
                 sum = sum + value * self.phase_at(place, f, b);
                 if !particles {
                     dipole = dipole + value * self.phase[f * self.blocks + b][1];
@@ -211,6 +249,15 @@ impl Light {
         }
         low + table[place + n * self.blocks] * weight[1] as f32
     }
+}
+
+/// Writes a block that is finite and not negative.
+#[inline(always)]
+fn store(value: Block, block: usize, out: &mut [f32]) {
+    let value = value.max(Lanes::splat(0.0)).min(Lanes::splat(f32::MAX));
+    let out = &mut out[block * WIDTH..];
+    let n = out.len().min(WIDTH);
+    out[..n].copy_from_slice(&value.0[..n]);
 }
 
 /// Eight channels from one on; beyond the last they are zero.

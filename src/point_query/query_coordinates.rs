@@ -5,6 +5,7 @@ use super::head_view::HeadView;
 use super::neighbours::Nodes;
 use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
+use crate::estimate::Sightline;
 use crate::format::BasisView;
 use crate::geometry::Ray;
 use crate::kernel::axis::Taps;
@@ -25,6 +26,7 @@ pub(super) struct QueryCoordinates {
     /// What the azimuth counts.
     pub fade: f64,
     pub ray: Ray,
+    pub line: Sightline,
     pub angle: SunAngle,
     pub albedo: f64,
 }

@@ -103,10 +103,14 @@ impl Kernel for Polarised<'_, '_> {
         };
         let out = &mut parts.radiance[..n];
         let densities = query.densities();
-        model.light.mix(&place, &channels, &level, &densities, out);
+        let estimates = query.estimates();
+        let relative = (&densities, estimates.as_ref());
+        model.light.mix(&place, &channels, &level, relative, out);
         let mut ground = zero;
         let fields = [&mut parts.sum, &mut parts.dipole, &mut ground];
-        model.light.fields(&place, &channels, fields);
+        model
+            .light
+            .fields(&place, &channels, estimates.as_ref(), fields);
         let mut channels = [0.0; MOST_CHANNELS];
         self.scattered(instructions, &place, &mut channels)?;
         for (part, out) in parts.scattered.iter_mut().enumerate() {
@@ -115,6 +119,12 @@ impl Kernel for Polarised<'_, '_> {
             let share = if part == 1 { place.fade as f32 } else { 1.0 };
             for w in 0..n {
                 out[w] = share * (sky[w] + ground[w] * reflected[w]);
+            }
+            if let (Some(blocks), Some(tables)) = (&estimates, &model.estimate) {
+                let diffuse = tables.scatters.len() - 1;
+                for (w, value) in out[..n].iter_mut().enumerate() {
+                    *value *= blocks[w / WIDTH][diffuse].0[w % WIDTH];
+                }
             }
         }
         Ok(parts)

@@ -180,7 +180,8 @@ impl PolarisedSky {
         mut emit: impl FnMut(usize, [f32; LANES], [[f32; LANES]; 2]),
     ) {
         let tables = self.sky.tables();
-        let lookup = tables.lookup(ray, phi, self.sky.phi_intervals(), angle);
+        let line = self.sky.sightline_at(ray, phi);
+        let lookup = tables.lookup((ray, &line), phi, self.sky.phi_intervals(), angle);
         let aspect = Aspect::along(
             self.sky.cylinder(ray),
             phi,

@@ -129,7 +129,7 @@ impl Polarisation {
             let part = |s: usize| -> [f32; LANES] {
                 core::array::from_fn(|i| {
                     let scattered = mix.from_q[s] * pair.0[i] + mix.from_u[s] * pair.0[LANES + i];
-                    mix.single[s] * light.dipole[i] + scattered
+                    mix.single[s] * light.dipole[i] + scattered * light.diffuse[i]
                 })
             };
             let sums = [part(0), part(1)];

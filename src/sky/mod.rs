@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::estimate::Sightline;
 use crate::format::Head;
 use crate::geometry::{Planet, Ray, Side};
 use crate::kernel::math::{LANES, finite};
@@ -252,15 +253,32 @@ impl Sky {
 
     /// All azimuths at the angle of a ray from the horizon.
     pub(crate) fn row(&self, ray: &Ray) -> Row {
-        self.tables.row(ray)
+        self.tables.row(ray, self.sightline_at(ray, 0.0))
+    }
+
+    /// A ray at an azimuth from the sun.
+    pub(crate) fn sightline_at(&self, ray: &Ray, phi: f64) -> Sightline {
+        let (cosine, sine) = self.cylinder(ray);
+        self.sightline(ray, [sine, cosine], phi.cos())
+    }
+
+    fn sightline(&self, ray: &Ray, direction: [f64; 2], azimuth: f64) -> Sightline {
+        Sightline {
+            altitude: self.conditions.altitude,
+            ray: direction,
+            side: ray.side,
+            sun: [self.sun[2], self.sun[0].hypot(self.sun[1])],
+            azimuth,
+        }
     }
 
     /// Relative radiance in a row at the azimuth `phi` (0..=π from the sun), with the phase functions taken at `angle`.
     #[inline(always)]
     pub(crate) fn relative_in(&self, row: &Row, phi: f64, angle: SunAngle, out: &mut [f32]) {
-        let phi = azimuth(phi, self.phi_intervals);
+        let taps = azimuth(phi, self.phi_intervals);
         let store = |block, radiance| store(out, block, radiance);
-        self.tables.radiance_in(row, &phi, angle, store);
+        self.tables
+            .radiance_in(row, (&taps, phi.cos()), angle, store);
     }
 
     fn relative_at(&self, direction: [f32; 3], wavelength: f64) -> Result<f64> {
@@ -308,7 +326,10 @@ impl Sky {
             .ray_with_dip(self.conditions.altitude, self.dip, elevation, unit[2]);
         let phi = self.azimuth_from_sun(x, y);
         let angle = SunAngle::between(unit, self.sun);
-        Ok(self.tables.lookup(&ray, phi, self.phi_intervals, angle))
+        let direction = [unit[2], horizontal.sqrt() * shrink];
+        let line = self.sightline(&ray, direction, phi.cos());
+        let place = (&ray, &line);
+        Ok(self.tables.lookup(place, phi, self.phi_intervals, angle))
     }
 
     pub(crate) fn tables(&self) -> &Tables {

@@ -15,7 +15,7 @@ use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::model::{Key, Model, Nodes};
 use crate::phase_function::PhaseTable;
 use crate::sky::Sky;
-use crate::sky::tables::{Cell, Layout, SideTable, Tables};
+use crate::sky::tables::{Cell, Layout, SideTable, SkyEstimates, Tables};
 use zerocopy::little_endian::F32;
 
 impl Model {
@@ -52,7 +52,8 @@ impl Sky {
         };
         let (scale, [up, down]) = baker.sides()?;
         let tables = Tables {
-            scale: pad(&scale),
+            estimates: groups.estimates(model, nodes, &place)?,
+            scale: if head.estimated { vec![] } else { pad(&scale) },
             irradiance: pad(&solar(head)),
             extinction: place.extinction(head),
             absorbers: head.absorbers,
@@ -100,7 +101,7 @@ impl NodeWeights {
             .altitudes
             .taps()
             .map(|(a, _)| (Kind::Column, Some(a), None));
-        let basis = [(Kind::RadianceBasis, None, None)];
+        let basis = [Kind::RadianceBasis, Kind::Estimate].map(|kind| (kind, None, None));
         self.keys_of(Kind::Radiance).chain(columns).chain(basis)
     }
 
@@ -153,6 +154,8 @@ impl NodeWeights {
 /// Fields with the same phase function and parameters are one group in the tables.
 struct Groups {
     phases: Vec<PhaseTable>,
+    /// What they are relative to.
+    estimates: Vec<usize>,
     layout: Layout,
     /// Position of each channel `[field][wavelength]` in a row of the tables.
     position: Vec<(usize, usize)>,
@@ -178,15 +181,37 @@ impl Groups {
                 .iter()
                 .map(|&f| PhaseTable::new(&head.fields[f]))
                 .collect(),
+            estimates: first.iter().map(|&f| head.fields[f].estimate).collect(),
             position: group_of.iter().flat_map(place).collect(),
             layout,
         }
     }
 }
 
+impl Groups {
+    /// What the groups are relative to.
+    fn estimates(
+        &self,
+        model: &Model,
+        nodes: Nodes,
+        place: &NodeWeights,
+    ) -> Result<Option<SkyEstimates>> {
+        let head = nodes.head;
+        if !head.estimated {
+            return Ok(None);
+        }
+        let width = head.constituents * head.wavelengths.len();
+        let extinction = place.at_visibility(&head.extinction, width);
+        Ok(Some(SkyEstimates {
+            estimates: nodes.estimates(&model.estimate_chunk()?, &extinction),
+            of_group: self.estimates.clone(),
+        }))
+    }
+}
+
 fn same_phase(a: &Field, b: &Field) -> bool {
     let none = a.phase == PhaseFunction::None;
-    a.phase == b.phase && (none || a.parameter == b.parameter)
+    a.phase == b.phase && a.estimate == b.estimate && (none || a.parameter == b.parameter)
 }
 
 /// All that turns the chunks of a model into tables.
@@ -211,14 +236,18 @@ impl Baker<'_> {
         let [mut up, mut down] = [(head.up, shape.up), (head.down, shape.down)]
             .map(|(axis, n)| SideTable::zeros(axis, n, &shape, &self.groups.layout));
         for (a, altitude_weight) in self.place.altitudes.taps() {
-            let column = self.model.column_chunk(a)?.values;
-            let (above, below) = column.split_at(shape.up * shape.constituents);
-            up.add_columns(above, altitude_weight);
-            down.add_columns(below, altitude_weight);
+            if !head.estimated {
+                let column = self.model.column_chunk(a)?.values;
+                let (above, below) = column.split_at(shape.up * shape.constituents);
+                up.add_columns(above, altitude_weight);
+                down.add_columns(below, altitude_weight);
+            }
             for (v, visibility_weight) in self.place.visibilities.taps() {
                 let chunk = self.model.radiance_chunk(a, v)?;
                 let weight = (altitude_weight * visibility_weight) as f32;
-                self.add_level(&chunk, weight, &mut level);
+                if !head.estimated {
+                    self.add_level(&chunk, weight, &mut level);
+                }
                 let own = OwnFactors {
                     rank: chunk.rank,
                     stride: chunk.stride,

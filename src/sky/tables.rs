@@ -3,6 +3,7 @@
 //! Radiance is a bicubic B-spline over (angle from the horizon, azimuth) on each side of the horizon, node-major with
 //! all channels of a node contiguous, so that a query is sixteen short rows times sixteen weights.
 
+use crate::estimate::{Blocks, Estimates, NOTHING, Sightline, WIDTH};
 use crate::format::{AlphaAxis, Shape};
 use crate::geometry::{Ray, Side};
 use crate::kernel::axis::{Ends, Taps, alpha_coordinate, spline};
@@ -132,7 +133,9 @@ pub(crate) struct Tables {
     pub up: SideTable,
     pub down: SideTable,
     pub phases: Vec<PhaseTable>,
-    /// S, `[block]`.
+    /// What the fields are relative to, if not to (1 − T) · ω · S.
+    pub estimates: Option<SkyEstimates>,
+    /// S, `[block]`; empty where there are estimates.
     pub scale: Vec<[f32; LANES]>,
     /// Solar irradiance at the wavelengths, `[block]`.
     pub irradiance: Vec<[f32; LANES]>,
@@ -144,6 +147,14 @@ pub(crate) struct Tables {
     pub xyz: Vec<[[f32; LANES]; 3]>,
 }
 
+/// Estimates of a model at the visibility of a sky.
+#[derive(Clone, Debug)]
+pub(crate) struct SkyEstimates {
+    pub estimates: Estimates,
+    /// Which of them each group of fields is relative to.
+    pub of_group: Vec<usize>,
+}
+
 /// One block of wavelengths in one direction. Format specification, section 7.5.
 pub(crate) struct Polarisable {
     /// Relative radiance, sr⁻¹, finite and not negative.
@@ -152,6 +163,8 @@ pub(crate) struct Polarisable {
     pub sum: [f32; LANES],
     /// D: what Rayleigh scattering polarises of the fields.
     pub dipole: [f32; LANES],
+    /// What multiply scattered Q and U are relative to.
+    pub diffuse: [f32; LANES],
 }
 
 /// One angle from the horizon, with the azimuth left open.
@@ -159,6 +172,8 @@ pub(crate) struct Row {
     /// `[phi][cell]`.
     cells: Vec<Cell>,
     depth: [f32; MOST],
+    /// With any azimuth.
+    line: Sightline,
 }
 
 /// The place of an azimuth from the sun, 0..=π.
@@ -176,13 +191,20 @@ pub(crate) struct Lookup<'a> {
     row: [usize; 16],
     weight: [f32; 16],
     depth: [f32; MOST],
+    estimates: Blocks,
     angle: SunAngle,
 }
 
 impl Tables {
     /// Finds the coefficients for a ray with the azimuth `phi` (0..=π from the sun).
     #[inline(always)]
-    pub fn lookup(&self, ray: &Ray, phi: f64, phi_intervals: usize, angle: SunAngle) -> Lookup<'_> {
+    pub fn lookup(
+        &self,
+        (ray, line): (&Ray, &Sightline),
+        phi: f64,
+        phi_intervals: usize,
+        angle: SunAngle,
+    ) -> Lookup<'_> {
         let (side, alpha) = self.alpha(ray);
         let phi = azimuth(phi, phi_intervals);
         let stride = side.phi_coefficients * side.cells;
@@ -193,7 +215,8 @@ impl Tables {
             side,
             row: core::array::from_fn(|t| rows[t / 4] + columns[t % 4]),
             weight: core::array::from_fn(|t| alpha.weight[t / 4] * phi.weight[t % 4]),
-            depth: side.depths(&alpha, ray.length),
+            depth: self.depths(side, &alpha, ray.length),
+            estimates: self.estimate(line),
             angle,
         }
     }
@@ -214,7 +237,7 @@ impl Tables {
     }
 
     /// All azimuths at the angle of `ray` from the horizon.
-    pub fn row(&self, ray: &Ray) -> Row {
+    pub fn row(&self, ray: &Ray, line: Sightline) -> Row {
         let (side, alpha) = self.alpha(ray);
         let stride = side.phi_coefficients * side.cells;
         let mut cells = vec![Cell::ZERO; stride];
@@ -227,8 +250,41 @@ impl Tables {
         }
         Row {
             cells,
-            depth: side.depths(&alpha, ray.length),
+            depth: self.depths(side, &alpha, ray.length),
+            line,
         }
+    }
+
+    #[inline(always)]
+    fn depths(&self, side: &SideTable, alpha: &Taps, length: f64) -> [f32; MOST] {
+        match self.estimates {
+            None => side.depths(alpha, length),
+            Some(_) => [0.0; MOST],
+        }
+    }
+
+    #[inline(always)]
+    fn estimate(&self, line: &Sightline) -> Blocks {
+        match &self.estimates {
+            None => NOTHING,
+            Some(own) => own.estimates.blocks(line),
+        }
+    }
+
+    /// What the fields of a group are relative to, besides (1 − T) · ω · S.
+    #[inline(always)]
+    fn relative_to(&self, estimates: &Blocks, group: usize, block: usize) -> [f32; LANES] {
+        let Some(own) = &self.estimates else {
+            return [1.0; LANES];
+        };
+        self.part(estimates, own.of_group[group], block)
+    }
+
+    #[inline(always)]
+    fn part(&self, estimates: &Blocks, estimate: usize, block: usize) -> [f32; LANES] {
+        let lanes = estimates[block * LANES / WIDTH][estimate].0;
+        let halves = lanes.as_chunks::<LANES>().0;
+        halves[block % (WIDTH / LANES)]
     }
 
     /// As [`Tables::radiance`], for a direction in a row.
@@ -236,10 +292,14 @@ impl Tables {
     pub fn radiance_in(
         &self,
         row: &Row,
-        phi: &Taps,
+        (phi, azimuth_cosine): (&Taps, f64),
         angle: SunAngle,
         mut emit: impl FnMut(usize, [f32; LANES]),
     ) {
+        let estimates = self.estimate(&Sightline {
+            azimuth: azimuth_cosine,
+            ..row.line
+        });
         let cells = self.layout.cells();
         for block in 0..self.layout.blocks {
             let mut sum = [0.0; LANES];
@@ -249,7 +309,7 @@ impl Tables {
                     let place = index * cells + block * self.layout.quads + quad;
                     cell.add(weight, &row.cells[place]);
                 }
-                let fields = self.fields(angle, quad, block, &cell);
+                let fields = self.fields((angle, &estimates), quad, block, &cell);
                 sum = core::array::from_fn(|i| sum[i] + fields[i]);
             }
             emit(block, self.finish(&row.depth, block, sum));
@@ -275,7 +335,7 @@ impl Tables {
             let mut sum = [0.0; LANES];
             for quad in 0..self.layout.quads {
                 let [cell] = lookup.gather(self.layout.cell(block) + quad);
-                let fields = self.fields(lookup.angle, quad, block, &cell);
+                let fields = self.fields(lookup.light(), quad, block, &cell);
                 sum = core::array::from_fn(|i| sum[i] + fields[i]);
             }
             emit(block, self.finish(&lookup.depth, block, sum));
@@ -293,19 +353,26 @@ impl Tables {
     ) {
         let cells = lookup.gather::<N>(first);
         for (i, cell) in cells.iter().enumerate() {
-            let fields = self.fields(lookup.angle, 0, first + i, cell);
+            let fields = self.fields(lookup.light(), 0, first + i, cell);
             emit(first + i, self.finish(&lookup.depth, first + i, fields));
         }
     }
 
-    /// Sum of the fields of a quad, each times its phase function.
+    /// Sum of the fields of a quad, each times its phase function and what it is relative to.
     #[inline(always)]
-    fn fields(&self, angle: SunAngle, quad: usize, block: usize, cell: &Cell) -> [f32; LANES] {
+    fn fields(
+        &self,
+        (angle, estimates): (SunAngle, &Blocks),
+        quad: usize,
+        block: usize,
+        cell: &Cell,
+    ) -> [f32; LANES] {
         let mut sum = [0.0; LANES];
-        let phases = self.phases[quad * QUAD..].iter().take(QUAD);
-        for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
+        let phases = self.phases.iter().enumerate().skip(quad * QUAD).take(QUAD);
+        for ((g, phase), field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
             let phase = phase.evaluate(block, angle);
-            sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i]);
+            let whole = self.relative_to(estimates, g, block);
+            sum = core::array::from_fn(|i| sum[i] + phase[i] * field[i] * whole[i]);
         }
         sum
     }
@@ -316,16 +383,23 @@ impl Tables {
         let (mut sum, mut dipole) = ([0.0; LANES], [0.0; LANES]);
         for quad in 0..self.layout.quads {
             let [cell] = lookup.gather(self.layout.cell(block) + quad);
-            let fields = self.fields(lookup.angle, quad, block, &cell);
+            let fields = self.fields(lookup.light(), quad, block, &cell);
             sum = core::array::from_fn(|i| sum[i] + fields[i]);
-            let phases = self.phases[quad * QUAD..].iter().take(QUAD);
-            for (phase, field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
+            let phases = self.phases.iter().enumerate().skip(quad * QUAD).take(QUAD);
+            for ((g, phase), field) in phases.zip(cell.0.as_chunks::<LANES>().0) {
                 if let Some(strength) = phase.polarising(block) {
-                    dipole = core::array::from_fn(|i| dipole[i] + strength[i] * field[i]);
+                    let whole = self.relative_to(&lookup.estimates, g, block);
+                    dipole =
+                        core::array::from_fn(|i| dipole[i] + strength[i] * field[i] * whole[i]);
                 }
             }
         }
+        let diffuse = match &self.estimates {
+            None => [1.0; LANES],
+            Some(own) => self.part(&lookup.estimates, own.estimates.count() - 1, block),
+        };
         Polarisable {
+            diffuse,
             radiance: self.finish(&lookup.depth, block, sum),
             sum,
             dipole,
@@ -334,6 +408,9 @@ impl Tables {
 
     #[inline(always)]
     fn finish(&self, depth: &[f32; MOST], block: usize, sum: [f32; LANES]) -> [f32; LANES] {
+        if self.estimates.is_some() {
+            return sum.map(|sum| bound(sum, 0.0, f32::MAX));
+        }
         let opacity = self.opacity(depth, block);
         let scale = &self.scale[block];
         // Only absurd tables can make these bounds count.
@@ -387,11 +464,25 @@ impl Tables {
         let rows = [&self.scale, &self.irradiance, &self.extinction];
         let rows: usize = rows.iter().map(|r| size_of_val(r.as_slice())).sum();
         let phases: usize = self.phases.iter().map(PhaseTable::bytes).sum();
-        self.up.bytes() + self.down.bytes() + phases + rows + size_of_val(self.xyz.as_slice())
+        let estimates = self
+            .estimates
+            .as_ref()
+            .map_or(0, |own| own.estimates.bytes());
+        self.up.bytes()
+            + self.down.bytes()
+            + estimates
+            + phases
+            + rows
+            + size_of_val(self.xyz.as_slice())
     }
 }
 
 impl Lookup<'_> {
+    #[inline(always)]
+    fn light(&self) -> (SunAngle, &Blocks) {
+        (self.angle, &self.estimates)
+    }
+
     /// Which table of a pair the direction is in: the one above the horizon or the one below.
     #[inline(always)]
     pub fn is_up(&self) -> bool {

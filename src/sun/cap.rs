@@ -6,9 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use crate::conditions::Conditions;
-
-/// Angular radius of the sun, rad: 0.2667°, as in the published model.
-pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
+use crate::geometry::SOLAR_ANGULAR_RADIUS;
 
 /// Share of the radius by which draws keep off the limb, and by which their density reaches beyond the disc: 7e-7 rad.
 /// Directions in single precision that are turned to another frame and back are off by up to 4e-7 rad.

@@ -13,12 +13,12 @@ use std::sync::Arc;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
+pub use crate::geometry::SOLAR_ANGULAR_RADIUS;
 use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use crate::spectrum::SpectralInterpolation;
 use cap::Cap;
-pub use cap::SOLAR_ANGULAR_RADIUS;
 use depths::Depths;
 use quadrature::each_line;
 

@@ -1,11 +1,12 @@
-//! One chunk's axes, and what its normalised fields are multiplied by.
+//! One chunk's axes, and what its fields are multiplied by.
 
 use crate::dataset::{Axis, Grid};
-use crate::decompose::{Chunk, chunk_geometry};
-use crate::successive_orders::{NW, Spectrum};
+use crate::estimate::{ESTIMATES, OF_FIELD};
+use crate::successive_orders::{FIELDS, NW, Spectrum};
 use crate::units::Solved;
 use std::f64::consts::PI;
 use welkin::axis::{Ends, Taps, alpha_coordinate, spline};
+use welkin::estimate::{Estimates, Sightline};
 use welkin::geometry::{Planet, Side};
 
 /// A view direction under a sun, relative to the sun's azimuth (rad).
@@ -30,30 +31,22 @@ pub struct Place {
     pub elevation: Taps,
 }
 
-/// Axes and normalisation of a chunk.
+/// Axes of a chunk, and what its fields are relative to.
 pub struct Frame {
     planet: Planet,
     altitude: f64,
     grid: Grid,
-    extinction: Vec<Spectrum>,
-    /// Spline coefficients of ln n̄, `[view][constituent]`.
-    density: Vec<f32>,
-    /// Spline coefficients of ln S, `[elevation][wavelength]`.
-    level: Vec<f32>,
+    estimates: Estimates,
 }
 
 impl Frame {
     /// Of the chunk at altitude `a` of the grid.
-    pub fn new(solved: &Solved, grid: &Grid, a: usize, chunk: &Chunk) -> Self {
-        let planet = solved.gatherer().planet();
-        let geometry = chunk_geometry(&solved.medium, planet, grid, a);
+    pub fn new(solved: &Solved, estimates: &Estimates, grid: &Grid, a: usize) -> Self {
         Self {
-            planet,
+            planet: solved.gatherer().planet(),
             altitude: grid.traced_altitude(a),
             grid: grid.clone(),
-            extinction: solved.medium.parts.iter().map(|p| p.extinction).collect(),
-            density: geometry.coefficients(grid.up.0, grid.down.0),
-            level: chunk.level.clone(),
+            estimates: estimates.clone(),
         }
     }
 
@@ -80,17 +73,19 @@ impl Frame {
         }
     }
 
-    /// (1 − T)·S at every wavelength.
-    pub fn scale(&self, look: &Look, place: &Place) -> [f64; NW] {
-        let length = self.planet.ray(self.altitude, look.view).length;
-        let density: Vec<f64> = (0..self.extinction.len())
-            .map(|k| at(&place.view, &self.density, self.extinction.len(), k).exp())
-            .collect();
-        std::array::from_fn(|w| {
-            let pairs = self.extinction.iter().zip(&density);
-            let tau: f64 = pairs.map(|(e, n)| f64::from(e[w]) * n).sum();
-            -(-tau * length).exp_m1() * at(&place.elevation, &self.level, NW, w).exp()
-        })
+    /// What the fields are relative to.
+    pub fn scale(&self, look: &Look) -> [Spectrum; FIELDS] {
+        let mut estimates = [0.0; ESTIMATES * NW];
+        let line = Sightline {
+            altitude: self.altitude,
+            ray: look.view.sin_cos().into(),
+            side: self.planet.ray(self.altitude, look.view).side,
+            sun: look.sun.sin_cos().into(),
+            azimuth: look.azimuth.cos(),
+        };
+        self.estimates.along(&line, &mut estimates);
+        let (rows, _) = estimates.as_chunks::<NW>();
+        OF_FIELD.map(|q| rows[q])
     }
 
     /// Axes of the view directions (above, below), of azimuth and of solar elevation.
@@ -104,12 +99,4 @@ impl Frame {
 pub fn cosine(look: &Look) -> f32 {
     let ((sv, cv), (ss, cs)) = (look.view.sin_cos(), look.sun.sin_cos());
     (cv * cs * look.azimuth.cos() + sv * ss).clamp(-1.0, 1.0) as f32
-}
-
-/// Column `k` of a row-major table at the taps.
-fn at(taps: &Taps, table: &[f32], columns: usize, k: usize) -> f64 {
-    let pairs = taps.index.iter().zip(taps.weight);
-    pairs
-        .map(|(&i, w)| f64::from(w) * f64::from(table[i * columns + k]))
-        .sum()
 }

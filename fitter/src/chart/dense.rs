@@ -78,9 +78,10 @@ impl Slice {
                 sums.iter_mut().zip(row).for_each(|(s, x)| *s += a * b * x);
             }
         }
-        let scale = frame.scale(look, &place);
+        let scale = frame.scale(look);
         let share = chunk.phase_functions(cosine(look));
-        let field = |f: usize, w: usize| f64::from(share[f][w] * sums[f * NW + w]) * scale[w];
+        let field =
+            |f: usize, w: usize| f64::from(share[f][w] * sums[f * NW + w]) * f64::from(scale[f][w]);
         let black = |w| (0..FIELDS - 1).map(|f| field(f, w)).sum();
         [
             std::array::from_fn(black),

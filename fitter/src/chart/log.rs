@@ -1,4 +1,4 @@
-//! The log domain: ln of the normalised radiance over a black and over a white ground as sums of components. Any albedo
+//! The log domain: ln of the radiance relative to the diffuse estimate, over a black and over a white ground as sums of components. Any albedo
 //! follows from the two; positive everywhere, and small values are fitted as well as large ones. Phase functions cannot
 //! be taken out.
 
@@ -9,7 +9,7 @@ use crate::successive_orders::NW;
 use welkin::axis::Taps;
 
 const CHANNELS: usize = 2 * NW;
-/// Below this share of the typical radiance of its solar elevation, a value is raised to it: logarithms have no bottom.
+/// Below this share of the diffuse estimate a value is raised to it: logarithms have no bottom.
 const FLOOR: f32 = 1e-6;
 
 /// Factors of one chunk, of its own.
@@ -29,7 +29,8 @@ impl Logarithmic {
         let sites = chunk.sites.iter().product::<usize>();
         let value = |site: usize, c: usize| {
             let albedo = (c / NW) as f32;
-            f64::from(chunk.radiance(site, c % NW, albedo).max(FLOOR)).ln()
+            let relative = 1.0 / chunk.diffuse_share(site, c % NW, albedo);
+            f64::from(relative.max(FLOOR)).ln()
         };
         let cells = (0..sites).flat_map(|site| (0..CHANNELS).map(move |c| (site, c)));
         let [views, phis, elevations] = chunk.sites;
@@ -68,7 +69,7 @@ impl Logarithmic {
         2 * values + 4 * self.rank
     }
 
-    /// Normalised radiance, given A / (1 − A s).
+    /// Radiance relative to the diffuse estimate, given A / (1 − A s).
     pub fn radiance(&self, place: &Place, ground: &[f32; NW]) -> [f32; NW] {
         let taps: [&Taps; 3] = [&place.view, &place.phi, &place.elevation];
         let mut z = vec![1.0f32; self.rank];

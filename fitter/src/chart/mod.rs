@@ -12,7 +12,7 @@ mod unrounded_fit;
 pub use draw::{csv, svg};
 
 use crate::assess::{self, Quantiles};
-use crate::build::{Place, fit_all, radiance_file, solve_all, split, trace_all};
+use crate::build::{Place, estimates, fit_all, radiance_file, solve_all, split, trace_all};
 use crate::dataset::{Sample, Store};
 use crate::decompose::{Chunk, Fit, Options, decompose_nested};
 use crate::fitting::Fitting;
@@ -29,7 +29,7 @@ pub use point::Point;
 use std::path::Path;
 use unrounded_fit::Single;
 use welkin::Model;
-use welkin::format::encode;
+use welkin::format::{Estimate, encode};
 
 /// All nodes.
 const ALL: [usize; NW] = {
@@ -61,12 +61,16 @@ struct Bench {
     fitting: Fitting,
     store: Store,
     solved: Vec<Solved>,
+    tables: Estimate,
     chunks: Vec<Chunk>,
     places: Vec<Place>,
     frames: Vec<Frame>,
     /// Chunks of a whole model, which share the shared factors.
     sharers: usize,
 }
+
+/// The field of multiply scattered light.
+const DIFFUSE: usize = 3;
 
 /// Compares the schemes on the chunks of `plan`, and `model`, if it has them, at the same samples.
 pub fn chart(
@@ -125,17 +129,20 @@ impl Bench {
     fn new(plan: &Plan, fitting: Fitting, work: &Path) -> Result<Self> {
         let store = plan.store(work)?;
         let solved = solve_all(plan, work)?;
-        let (chunks, places) = split(trace_all(plan, &store, &solved)?);
-        let pairs = chunks.iter().zip(&places);
-        let frame = |(chunk, p): (&Chunk, &Place)| {
-            Frame::new(&solved[p.visibility], &plan.grid, p.altitude, chunk)
+        let (tables, estimates) = estimates(&solved);
+        let traced = trace_all(plan, &store, (&solved, &estimates))?;
+        let (chunks, places) = split(traced);
+        let frame = |p: &Place| {
+            let v = p.visibility;
+            Frame::new(&solved[v], &estimates[v], &plan.grid, p.altitude)
         };
         let whole = Plan::default().grid;
         Ok(Self {
             plan: plan.clone(),
             fitting,
             store,
-            frames: pairs.map(frame).collect(),
+            frames: places.iter().map(frame).collect(),
+            tables,
             sharers: whole.altitudes.len() * whole.visibilities.len(),
             solved,
             chunks,
@@ -221,7 +228,7 @@ impl Bench {
                 truth: place.truth.clone(),
             }];
             let solved = &self.solved[place.visibility..=place.visibility];
-            errors.extend(held_out(&plan, solved, chunk, &only, &fit)?);
+            errors.extend(held_out(&plan, (solved, &self.tables), &only, &fit)?);
         }
         let [own, shared] = self.sizes(rank);
         self.point(
@@ -274,7 +281,7 @@ impl Bench {
     }
 
     fn of_shared(&self, scheme: &str, name: String, fit: &Fit) -> Result<Point> {
-        let errors = held_out(&self.plan, &self.solved, &self.chunks, &self.places, fit)?;
+        let errors = held_out(&self.plan, (&self.solved, &self.tables), &self.places, fit)?;
         let rank = fit.basis.rank;
         let [own, shared] = self.sizes(rank);
         let bytes = own + shared / self.sharers as f64;
@@ -373,12 +380,11 @@ fn look(sample: &Sample) -> Look {
 /// Errors of a model file with these factors, rounded as in the file.
 fn held_out(
     plan: &Plan,
-    solved: &[Solved],
-    chunks: &[Chunk],
+    (solved, tables): (&[Solved], &Estimate),
     places: &[Place],
     fit: &Fit,
 ) -> Result<Vec<f64>> {
-    let (head, file) = radiance_file(plan, solved, chunks, places, fit)?;
+    let (head, file) = radiance_file(plan, solved, tables.clone(), places, fit)?;
     let model = Model::from_bytes(encode(&head, &file)?)?;
     let mut out = vec![];
     for place in places {
@@ -434,9 +440,9 @@ fn logarithmic_errors(
     };
     let queries: Vec<(chunk_axes::Place, [f32; NW])> = truth.iter().map(query).collect();
     let values = truth.iter().zip(&queries).map(|(sample, (place, ground))| {
-        let scale = frame.scale(&look(sample), place);
+        let scale = frame.scale(&look(sample))[DIFFUSE];
         let radiance = fit.radiance(place, ground);
-        std::array::from_fn(|w| radiance[w] * scale[w] as f32)
+        std::array::from_fn(|w| radiance[w] * scale[w])
     });
     let errors = relative(truth, values);
     let time = nanoseconds(&queries[..TIMED], |(place, ground)| {

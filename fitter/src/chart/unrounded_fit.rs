@@ -42,12 +42,10 @@ impl<'a> Single<'a> {
         for (w, ground) in share[FIELDS - 1].iter_mut().enumerate() {
             *ground *= self.chunk.interreflection(w, albedo);
         }
-        let scale = self.frame.scale(look, &place);
-        let mut radiance = self.components.radiance(&place, &share);
-        radiance
-            .iter_mut()
-            .zip(scale)
-            .for_each(|(r, s)| *r *= s as f32);
-        radiance
+        let scale = self.frame.scale(look);
+        for (share, scale) in share.iter_mut().zip(scale) {
+            share.iter_mut().zip(scale).for_each(|(s, n)| *s *= n);
+        }
+        self.components.radiance(&place, &share)
     }
 }

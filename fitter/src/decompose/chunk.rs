@@ -1,10 +1,11 @@
 //! The normalised fields of one (altitude, visibility) with what turns them into relative radiance.
 
-use super::normalise::{Level, chunk_geometry, normalise};
+use super::normalise::{SiteEstimates, levels, normalise};
 use crate::dataset::{Grid, Tensor};
 use crate::successive_orders::scattered_source::Sun;
 use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase, view_rays};
 use std::f64::consts::FRAC_PI_2;
+use welkin::estimate::Estimates;
 use welkin::geometry::Side;
 
 /// A chunk as the fit sees it.
@@ -14,6 +15,8 @@ pub struct Chunk {
     pub sites: [usize; 3],
     /// Normalised fields `[view][phi][elevation][field][wavelength]`.
     values: Vec<f32>,
+    /// What they are relative to, relative to the level of the sky.
+    estimates: SiteEstimates,
     /// Cosine of the angle to the sun, `[view][phi][elevation]`.
     cosine: Vec<f32>,
     /// Root weights of the views and of the solar elevations.
@@ -22,10 +25,11 @@ pub struct Chunk {
     asymmetry: [Spectrum; 2],
     spherical_albedo: Spectrum,
     importance: Spectrum,
-    /// Spline coefficients of ln S.
-    pub level: Vec<f32>,
     seed: u64,
 }
+
+/// The field of multiply scattered light.
+const DIFFUSE: usize = 3;
 
 /// Share of the weight that is spread evenly over the sites instead of over solid angle and solar elevation.
 const EVEN: f64 = 0.4;
@@ -44,15 +48,21 @@ fn importance(wavelengths: &[f64]) -> Spectrum {
 
 impl Chunk {
     /// From the traced tensor of altitude `a`; `seed` tells chunks apart.
-    pub fn new(tensor: &Tensor, gatherer: &Gatherer, grid: &Grid, a: usize, seed: u64) -> Self {
+    pub fn new(
+        tensor: &Tensor,
+        (gatherer, estimates): (&Gatherer, &Estimates),
+        grid: &Grid,
+        a: usize,
+        seed: u64,
+    ) -> Self {
         let [views, phis, elevations, _] = tensor.shape;
         let medium = gatherer.medium();
-        let geometry = chunk_geometry(medium, gatherer.planet(), grid, a);
-        let level = Level::new(tensor, &geometry, medium, grid.elevation_axis());
+        let estimates = SiteEstimates::new(estimates, gatherer.planet(), grid, a);
+        let whole = |site, field, w| estimates.of_field(site, field, w);
         Self {
             sites: [views, phis, elevations],
-            values: normalise(tensor, &geometry, medium, &level, 0..FIELDS * NW),
-            level: level.coefficients,
+            values: normalise(tensor, 0..FIELDS, whole),
+            estimates: estimates.relative(&levels(tensor)),
             cosine: cosines(gatherer, grid, a),
             weight: [view_weights(gatherer, grid, a), elevation_weights(grid)],
             polarising: *gatherer.polarising(),
@@ -70,13 +80,13 @@ impl Chunk {
         Self {
             sites,
             values: vec![0.0; count * FIELDS * NW],
+            estimates: SiteEstimates::ones(count),
             cosine: vec![0.0; count],
             weight: [vec![1.0; sites[0]], vec![1.0; sites[2]]],
             polarising: [0.0; NW],
             asymmetry: [[0.0; NW]; 2],
             spherical_albedo: [0.0; NW],
             importance: [1.0; NW],
-            level: vec![0.0; sites[2] * NW],
             seed: 0,
         }
     }
@@ -115,13 +125,16 @@ impl Chunk {
     /// What each field counts in the radiance, and the radiance.
     fn shares(&self, site: usize, w: usize, albedo: f32) -> ([f32; FIELDS], f32) {
         let c = self.cosine[site];
-        let share = [
+        let mut share = [
             rayleigh_phase(&[self.polarising[w]; NW], c)[0],
             one_phase(self.asymmetry[0][w], c),
             one_phase(self.asymmetry[1][w], c),
             1.0,
             self.interreflection(w, albedo),
         ];
+        for (f, share) in share.iter_mut().enumerate() {
+            *share *= self.estimates.of_field(site, f, w);
+        }
         let total: f32 = (0..FIELDS).map(|f| share[f] * self.value(site, f, w)).sum();
         (share, total.max(1e-12))
     }
@@ -151,10 +164,15 @@ impl Chunk {
         }
     }
 
-    /// One over the normalised radiance.
-    pub fn inverse_radiance(&self, site: usize, w: usize, albedo: f32) -> f32 {
+    /// The diffuse estimate over the radiance.
+    pub fn diffuse_share(&self, site: usize, w: usize, albedo: f32) -> f32 {
         // The share of multiply scattered light, whose phase function is 1.
-        self.radiance_equation(site, w, albedo).1[3]
+        self.radiance_equation(site, w, albedo).1[DIFFUSE]
+    }
+
+    /// The radiance, relative to the level of the sky.
+    pub fn brightness(&self, site: usize, w: usize, albedo: f32) -> f32 {
+        self.shares(site, w, albedo).1
     }
 
     /// Root of the weight of a node.

@@ -18,7 +18,7 @@ pub use chunk::Chunk;
 pub use collocation::Collocation;
 pub use coupled::{Options, decompose};
 pub use fit::{Fit, decompose_all, decompose_nested, refine_all, splines};
-pub use normalise::{ChunkGeometry, chunk_geometry};
+pub use normalise::SiteEstimates;
 pub use polarised::{POLARISED_CHANNELS, PolarisedChunk, polarise};
 pub use refine::{Basis, Own, relative_radiance, residual};
 pub use row_major::row_major;

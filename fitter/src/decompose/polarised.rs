@@ -3,11 +3,12 @@
 use super::chunk::Chunk;
 use super::coupled::{Options, decompose};
 use super::fit::{Fit, SHARED, assemble};
-use super::normalise::{Level, chunk_geometry, normalise};
+use super::normalise::{SiteEstimates, normalise};
 use super::tucker::{Dense, Tucker, compress_together};
 use crate::dataset::{Grid, Tensor};
 use crate::successive_orders::{FIELDS, Gatherer, NW, POLARISED};
 use std::f64::consts::PI;
+use welkin::estimate::Estimates;
 
 /// Channels of the polarisation: Q and U/sin φ over black ground, Q and U/sin φ of the light from the ground.
 pub const POLARISED_CHANNELS: usize = POLARISED * NW;
@@ -31,15 +32,13 @@ impl PolarisedChunk {
     pub fn new(
         tensor: &Tensor,
         (chunk, nodes): (&Chunk, &[usize]),
-        gatherer: &Gatherer,
+        (gatherer, estimates): (&Gatherer, &Estimates),
         grid: &Grid,
         a: usize,
     ) -> Self {
-        let medium = gatherer.medium();
-        let geometry = chunk_geometry(medium, gatherer.planet(), grid, a);
-        let level = Level::new(tensor, &geometry, medium, grid.elevation_axis());
-        let parts = FIELDS * NW..(FIELDS + POLARISED) * NW;
-        let values = normalise(tensor, &geometry, medium, &level, parts);
+        let estimates = SiteEstimates::new(estimates, gatherer.planet(), grid, a);
+        let whole = |site, _, w| estimates.diffuse(site, w);
+        let values = normalise(tensor, FIELDS..FIELDS + POLARISED, whole);
         let [views, phis, elevations, _] = tensor.shape;
         let shape = [views, phis, elevations, POLARISED_CHANNELS];
         let mut values: Vec<f64> = values.into_iter().map(f64::from).collect();
@@ -148,7 +147,7 @@ fn inverse_radiance(chunk: &Chunk, nodes: &[usize]) -> [Vec<f64>; 2] {
     for site in 0..views * phis * elevations {
         let logarithm: f64 = nodes
             .iter()
-            .map(|&w| f64::from(chunk.inverse_radiance(site, w, ALBEDO)).ln())
+            .map(|&w| f64::from(chunk.diffuse_share(site, w, ALBEDO)).ln())
             .sum();
         weights[0][site / (phis * elevations)] +=
             logarithm / (phis * elevations * nodes.len()) as f64;

@@ -12,7 +12,7 @@ pub mod moments;
 pub mod ray_points;
 pub mod scattered_source;
 mod solve;
-mod spectral_medium;
+pub mod spectral_medium;
 pub mod view_rays;
 
 /// The grid of the moments.

@@ -15,8 +15,6 @@ const FIELD_WEIGHT: f32 = 0.4;
 /// Relative errors above this count linearly and not squared: at the edge of the Earth's shadow they are large whatever
 /// the fit does, and must not cost what the rest could have.
 const OUTLIER: f32 = 0.03;
-/// Field without phase function.
-const DIFFUSE: usize = 3;
 /// Radiance below this share of its level counts less: nobody sees it, and it would cost what all see.
 const DARK: f32 = 1e-4;
 /// A linear equation: the radiance (or one field) at a site, a wavelength and an albedo, relative to what was traced.
@@ -35,7 +33,7 @@ impl Equation {
     /// All fields together are the radiance.
     pub fn radiance(chunk: &Chunk, site: usize, wavelength: usize, albedo: f32) -> Self {
         let (wavelength, share) = chunk.radiance_equation(site, wavelength, albedo);
-        let brightness = share[DIFFUSE].recip();
+        let brightness = chunk.brightness(site, wavelength, albedo);
         Self {
             wavelength,
             share,

@@ -2,21 +2,21 @@
 
 use core::f32::consts::FRAC_1_PI;
 
-use super::path_points::BATCH;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::{asin, bound, one_minus_exp_neg, sqrt};
 
 /// Height of the centroid of what is seen; 0 where nothing is.
 #[inline(always)]
-pub(crate) fn visible_rise(rise: Lanes<BATCH>) -> Lanes<BATCH> {
+pub(crate) fn visible_rise<const N: usize>(rise: Lanes<N>) -> Lanes<N> {
     match rise.0.iter().all(|&rise| rise >= 1.0) {
         true => rise,
-        false => rise.map(centroid),
+        false => rise.map(visible_height),
     }
 }
 
+/// The same of one disc.
 #[inline(always)]
-fn centroid(rise: f32) -> f32 {
+pub(crate) fn visible_height(rise: f32) -> f32 {
     let chord = bound(1.0 - rise * rise, 0.0, 1.0);
     let share = visible_share(rise).max(f32::MIN_POSITIVE);
     let partly = rise + chord * sqrt(chord) / share * (2.0 / 3.0 * FRAC_1_PI);
@@ -41,19 +41,20 @@ fn accumulated_share(x: f32) -> f32 {
 /// Mean shares of the disc that are seen from the air between two places each, over which its density falls by e to
 /// these powers.
 #[inline(always)]
-pub(crate) fn mean_shares(a: Lanes<BATCH>, b: Lanes<BATCH>, falls: Lanes<BATCH>) -> Lanes<BATCH> {
+pub(crate) fn mean_shares<const N: usize>(a: Lanes<N>, b: Lanes<N>, falls: Lanes<N>) -> Lanes<N> {
     let mut out = Lanes::splat(1.0);
     if a.min(b).0.iter().all(|&low| low >= 1.0) {
         return out;
     }
-    for i in 0..BATCH {
+    for i in 0..N {
         out.0[i] = mean_share(a.0[i], b.0[i], falls.0[i]);
     }
     out
 }
 
+/// The mean share between two places.
 #[inline(always)]
-fn mean_share(a: f32, b: f32, fall: f32) -> f32 {
+pub(crate) fn mean_share(a: f32, b: f32, fall: f32) -> f32 {
     /// Differences of smaller steps lose their digits.
     const STEP: f32 = 1e-2;
     let step = b - a;
@@ -89,10 +90,10 @@ mod tests {
     #[test]
     fn half_the_disc_has_its_centroid_at_four_thirds_over_pi() {
         assert!((visible_share(0.0) - 0.5).abs() < 1e-6);
-        assert!((centroid(0.0) - 4.0 / (3.0 * PI)).abs() < 1e-6);
+        assert!((visible_height(0.0) - 4.0 / (3.0 * PI)).abs() < 1e-6);
         assert!(visible_share(0.999_999) > 0.999 && visible_share(-0.999_999) < 1e-3);
-        assert!(centroid(-0.9985).abs() < 2e-3);
-        assert_eq!([-7.0, 1.0, 7.0].map(centroid), [0.0, 1.0, 7.0]);
+        assert!(visible_height(-0.9985).abs() < 2e-3);
+        assert_eq!([-7.0, 1.0, 7.0].map(visible_height), [0.0, 1.0, 7.0]);
     }
 
     #[test]
