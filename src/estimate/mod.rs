@@ -4,24 +4,21 @@
 //! They know what is hard to fit: the edge of the Earth's shadow, the horizon, the thinning of the air. What a model has
 //! to say beyond them is smooth.
 
-mod air;
 mod path;
+mod points;
 #[cfg(feature = "std")]
 mod prepared;
 mod sums;
 
-use crate::format::{EstimateView, MAX_ESTIMATE_WAVELENGTHS};
+use crate::format::{EstimateView, MAX_ESTIMATE_WAVELENGTHS, MAX_ESTIMATES};
 use crate::geometry::{Planet, Side};
 use crate::kernel::lanes::Lanes;
-use air::Air;
 use path::Stops;
 #[cfg(feature = "std")]
 pub use prepared::Estimates;
 
 /// Wavelengths that are computed together.
 pub(crate) const WIDTH: usize = 8;
-/// Most estimates of a file.
-pub(crate) const MOST_ESTIMATES: usize = 4;
 
 /// Most blocks of wavelengths.
 pub(crate) const MOST_BLOCKS: usize = MAX_ESTIMATE_WAVELENGTHS / WIDTH;
@@ -56,11 +53,11 @@ pub struct Sightline {
 }
 
 /// The estimates of a block of wavelengths, sr⁻¹.
-pub(crate) type Block = [Lanes<WIDTH>; MOST_ESTIMATES];
+pub(crate) type Block = [Lanes<WIDTH>; MAX_ESTIMATES];
 /// The estimates of all wavelengths.
 pub(crate) type Blocks = [Block; MOST_BLOCKS];
 /// None yet.
-pub(crate) const NOTHING: Blocks = [[Lanes([0.0; WIDTH]); MOST_ESTIMATES]; MOST_BLOCKS];
+pub(crate) const NOTHING: Blocks = [[Lanes([0.0; WIDTH]); MAX_ESTIMATES]; MOST_BLOCKS];
 
 /// All that estimates depend on.
 #[derive(Clone, Copy)]
@@ -72,11 +69,9 @@ pub(crate) struct Estimator<'a> {
 }
 
 impl Estimator<'_> {
-    /// Hands the estimates along a ray to `emit`, block by block of wavelengths.
+    /// The estimates along a ray.
     #[inline(always)]
-    pub fn along(&self, line: &Sightline, emit: impl FnMut(usize, Block)) {
-        let stops = Stops::new(&self.planet, &self.tables, line);
-        let air = Air::new(&self.planet, &self.tables, &stops);
-        sums::blocks(self, &air, emit);
+    pub fn along(&self, line: &Sightline) -> Blocks {
+        sums::along(self, &Stops::new(&self.planet, &self.tables, line))
     }
 }

@@ -2,7 +2,7 @@
 
 use zerocopy::little_endian::{F32, U32};
 
-use super::{Block, Blocks, Estimator, NOTHING, Sightline, WIDTH};
+use super::{Blocks, Estimator, Sightline, WIDTH};
 use crate::format::EstimateView;
 use crate::geometry::Planet;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
@@ -124,24 +124,13 @@ impl Estimates {
     /// All estimates along a ray.
     #[inline]
     pub(crate) fn blocks(&self, line: &Sightline) -> Blocks {
-        let mut out = NOTHING;
-        self.each_block(line, |block, estimates| out[block] = estimates);
-        out
+        let estimator = self.estimator();
+        dispatch(Along { estimator, line })
     }
 
     /// How many estimates there are; the last is of diffuse light.
     pub(crate) fn count(&self) -> usize {
         self.scatters.len()
-    }
-
-    /// Hands the estimates along a ray to `emit`, block by block of wavelengths.
-    #[inline]
-    pub(crate) fn each_block(&self, line: &Sightline, emit: impl FnMut(usize, Block)) {
-        dispatch(Along {
-            estimator: self.estimator(),
-            line,
-            emit,
-        });
     }
 
     #[inline(always)]
@@ -190,17 +179,16 @@ fn blocks(table: &[f64], wavelengths: usize) -> Vec<[f32; WIDTH]> {
 }
 
 /// [`Estimator::along`] with the instructions of the processor.
-struct Along<'a, 'b, F> {
+struct Along<'a, 'b> {
     estimator: Estimator<'a>,
     line: &'b Sightline,
-    emit: F,
 }
 
-impl<F: FnMut(usize, Block)> Kernel for Along<'_, '_, F> {
-    type Output = ();
+impl Kernel for Along<'_, '_> {
+    type Output = Blocks;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) {
-        self.estimator.along(self.line, self.emit);
+    fn run<I: Instructions>(self, _: I) -> Blocks {
+        self.estimator.along(self.line)
     }
 }

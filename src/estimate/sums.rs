@@ -1,15 +1,27 @@
-//! Sums over the panels between stops, for a block of wavelengths.
+//! Sums over the panels between stops, block by block of wavelengths.
+//!
+//! No closures in the loops: they would be compiled without the instructions of the kernel.
+#![allow(clippy::needless_range_loop)]
 
-use super::air::{Air, load};
-use super::{Block, Estimator, MOST_ESTIMATES, WIDTH};
+use zerocopy::little_endian::F32;
+
+use super::path::{MOST_STOPS, Stops};
+use super::points::{Axes, BATCH, Points};
+use super::{Block, Blocks, Estimator, MOST_BLOCKS, NOTHING, WIDTH};
+use crate::format::{EstimateView, MAX_ESTIMATES};
 use crate::kernel::lanes::Lanes;
+use crate::kernel::math::bound;
+use crate::visible_disc::mean_share;
 
-/// Of a diffuse estimate so much is added to one of sunlight, which can be nothing where the air is not quite dark.
+/// Of the diffuse estimate so much is added to those of sunlight, which can be nothing where it is not quite dark.
 const REST: f32 = 1e-3;
-
 /// Isotropic share of a phase function, per steradian.
 const PER_SPHERE: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
+/// Over which the density of the air falls by e, m: what counts more within a panel where the sun rises.
+const FALL: f32 = 8000.0;
 
+/// One number per constituent.
+type Row = Lanes<WIDTH>;
 type Spectrum = Lanes<WIDTH>;
 
 /// Light that reaches the observer from a stop: its optical depth, and what is left.
@@ -20,6 +32,11 @@ struct Ray {
 }
 
 impl Ray {
+    const START: Self = Self {
+        depth: Lanes([0.0; WIDTH]),
+        through: Lanes([1.0; WIDTH]),
+    };
+
     #[inline(always)]
     fn new(depth: Spectrum) -> Self {
         let through = (-depth).exp();
@@ -39,58 +56,254 @@ impl Ray {
     }
 }
 
-#[inline(always)]
-pub(super) fn blocks(of: &Estimator, air: &Air, mut emit: impl FnMut(usize, Block)) {
-    let blocks = of.tables.light_stride / WIDTH;
-    for block in 0..blocks {
-        emit(block, sum(of, air, block, blocks));
+/// What is at a stop.
+struct Stop {
+    /// Columns of air to the observer, m, and those since the stop before.
+    to_observer: Row,
+    panel: Row,
+    /// Columns to the sun, m.
+    to_sun: Row,
+    /// Four rows of diffuse light, and their weights.
+    light: [usize; 4],
+    weight: [f32; 4],
+    /// Mean visible share of the sun's disc since the stop before.
+    share: f32,
+}
+
+/// Walks along the stops of a ray.
+struct Walk<'a> {
+    tables: &'a EstimateView<'a>,
+    columns: Row,
+    density: Row,
+    level: usize,
+    distance: f64,
+    altitude: f32,
+    rise: f32,
+}
+
+/// A block of wavelengths on the way along a ray.
+#[derive(Clone, Copy)]
+struct Band {
+    /// Extinction of the constituents where their profile is 1, m⁻¹.
+    extinction: [Spectrum; WIDTH],
+    /// Light from the last stop: of the sun, and diffuse.
+    rays: [Ray; 2],
+    /// Columns of the constituents in such light, m.
+    lit: [[Spectrum; WIDTH]; 2],
+}
+
+impl Band {
+    const NONE: Self = Self {
+        extinction: [Lanes([0.0; WIDTH]); WIDTH],
+        rays: [Ray::START; 2],
+        lit: [[Lanes([0.0; WIDTH]); WIDTH]; 2],
+    };
+
+    /// Goes on to a stop through the panel before it.
+    #[inline(always)]
+    fn step(&mut self, stop: &Stop, light: Spectrum, scattering: usize) {
+        let (mut view, mut sun) = (Lanes::splat(0.0), Lanes::splat(0.0));
+        for k in 0..WIDTH {
+            view = view + self.extinction[k] * stop.to_observer.0[k];
+            sun = sun + self.extinction[k] * stop.to_sun.0[k];
+        }
+        let next = [Ray::new(view + sun), Ray::new(view - light)];
+        let once = self.rays[0].mean(next[0]) * stop.share;
+        let again = self.rays[1].mean(next[1]);
+        for k in 0..scattering {
+            let column = stop.panel.0[k];
+            self.lit[0][k] = self.lit[0][k] + once * column;
+            self.lit[1][k] = self.lit[1][k] + again * column;
+        }
+        self.rays = next;
+    }
+
+    /// What is scattered of it all.
+    #[inline(always)]
+    fn estimates(&self, tables: &EstimateView, block: usize) -> Block {
+        let mut out = [Lanes::splat(0.0); MAX_ESTIMATES];
+        let last = tables.scatters.len() - 1;
+        for q in 0..(last + 1).min(MAX_ESTIMATES) {
+            let scatters = tables.scatters[q].get();
+            let lit = &self.lit[usize::from(q == last)];
+            for k in 0..tables.constituents.min(WIDTH) {
+                if scatters >> k & 1 == 1 {
+                    let row = (q * tables.constituents + k) * tables.light_stride;
+                    let albedo = load(tables.albedo, row + block * WIDTH);
+                    out[q] = out[q] + self.extinction[k] * albedo * lit[k];
+                }
+            }
+        }
+        let rest = out[last] * REST;
+        for q in 0..last.min(MAX_ESTIMATES) {
+            out[q] = out[q] * PER_SPHERE + rest;
+        }
+        out
     }
 }
 
 #[inline(always)]
-fn sum(of: &Estimator, air: &Air, block: usize, blocks: usize) -> Block {
+pub(super) fn along(of: &Estimator, stops: &Stops) -> Blocks {
     let tables = &of.tables;
-    let constituents = tables.constituents;
-    let extinction = |k: usize| Lanes(of.extinction[k * blocks + block]);
-    let rays = |i: usize| {
-        let (mut view, mut sun) = (Lanes::splat(0.0), Lanes::splat(0.0));
-        for k in 0..constituents {
-            let extinction = extinction(k);
-            view = view + extinction * air.to_observer[i].0[k];
-            sun = sun + extinction * air.to_sun[i].0[k];
+    let axes = Axes::new(&of.planet, tables);
+    let blocks = (tables.light_stride / WIDTH).min(MOST_BLOCKS);
+    let mut bands = [Band::NONE; MOST_BLOCKS];
+    let bands = &mut bands[..blocks];
+    for (block, band) in bands.iter_mut().enumerate() {
+        for k in 0..tables.constituents.min(WIDTH) {
+            band.extinction[k] = Lanes(of.extinction[k * blocks + block]);
         }
-        let mut light = Lanes::splat(0.0);
-        for (row, weight) in air.light[i].iter().zip(air.weight[i]) {
-            light = light + load(tables.light, row + block * WIDTH) * weight;
-        }
-        [Ray::new(view + sun), Ray::new(view - light)]
-    };
-    let last = tables.scatters.len() - 1;
-    let mut out = [Lanes::splat(0.0); MOST_ESTIMATES];
-    let [mut sunlit, mut diffuse] = rays(0);
-    for i in 1..air.count {
-        let [far_sunlit, far_diffuse] = rays(i);
-        let once = sunlit.mean(far_sunlit) * air.share[i - 1];
-        let again = diffuse.mean(far_diffuse);
-        let panel = air.to_observer[i] - air.to_observer[i - 1];
-        let mut row = block * WIDTH;
-        for (q, scatters) in tables.scatters.iter().enumerate() {
-            let mut scattered = Lanes::splat(0.0);
-            for k in 0..constituents {
-                if scatters.get() >> k & 1 == 1 {
-                    let albedo = load(tables.albedo, row);
-                    scattered = scattered + extinction(k) * albedo * panel.0[k];
-                }
-                row += tables.light_stride;
-            }
-            let light = if q == last { again } else { once };
-            out[q] = out[q] + scattered * light;
-        }
-        (sunlit, diffuse) = (far_sunlit, far_diffuse);
     }
-    let rest = out[last] * REST;
-    for estimate in &mut out[..last] {
-        *estimate = *estimate * PER_SPHERE + rest;
+    let scattering = (32 - tables.any_scatters().leading_zeros() as usize).min(WIDTH);
+    let mut walk = Walk {
+        tables,
+        columns: Lanes::splat(0.0),
+        density: Lanes::splat(0.0),
+        level: 0,
+        distance: 0.0,
+        altitude: 0.0,
+        rise: 0.0,
+    };
+    let mut i = 0;
+    while i < stops.count.min(MOST_STOPS) {
+        let points = axes.points(stops, i);
+        let mut k = 0;
+        while k < BATCH && i < stops.count {
+            let stop = walk.step(&points, k, stops.distance[i]);
+            for (block, band) in bands.iter_mut().enumerate() {
+                let mut light = Lanes::splat(0.0);
+                for t in 0..4 {
+                    let row = load(tables.light, stop.light[t] + block * WIDTH);
+                    light = light + row * stop.weight[t];
+                }
+                band.step(&stop, light, scattering);
+            }
+            k += 1;
+            i += 1;
+        }
+    }
+    let mut out = NOTHING;
+    for (block, band) in bands.iter().enumerate() {
+        out[block] = band.estimates(tables, block);
     }
     out
+}
+
+impl Walk<'_> {
+    /// Goes on to stop `i` of a batch, at a distance from the observer.
+    #[inline(always)]
+    fn step(&mut self, points: &Points, i: usize, distance: f64) -> Stop {
+        let tables = self.tables;
+        let altitude = points.altitude.0[i];
+        self.find_level(altitude);
+        let here = density(tables, points.density.0[i]);
+        let halfway = density(tables, points.halfway.0[i]);
+        let step = (distance - self.distance) as f32;
+        let panel = (self.density + halfway * 4.0 + here) * (step * (1.0 / 6.0));
+        self.columns = self.columns + panel;
+        let fall = (altitude - self.altitude) * (1.0 / FALL);
+        let rise = points.rise.0[i];
+        let share = match (self.rise.min(rise) >= 1.0, self.rise.max(rise) <= -1.0) {
+            (true, _) => 1.0,
+            (_, true) => 0.0,
+            _ => mean_share(self.rise, rise, fall),
+        };
+        (self.density, self.distance, self.altitude) = (here, distance, altitude);
+        self.rise = rise;
+        let up = self.between(altitude);
+        let (light, weight) = self.light(points.sun.0[i], up);
+        Stop {
+            to_observer: self.columns,
+            panel,
+            to_sun: self.to_sun(points.angle.0[i], up),
+            light,
+            weight,
+            share,
+        }
+    }
+
+    /// The level below an altitude.
+    #[inline(always)]
+    fn find_level(&mut self, altitude: f32) {
+        let levels = self.tables.level;
+        while self.level > 0 && levels[self.level].get() > altitude {
+            self.level -= 1;
+        }
+        while self.level + 2 < levels.len() && levels[self.level + 1].get() <= altitude {
+            self.level += 1;
+        }
+    }
+
+    /// Where an altitude stands between its level and the next.
+    #[inline(always)]
+    fn between(&self, altitude: f32) -> f32 {
+        let levels = self.tables.level;
+        let (low, high) = (levels[self.level].get(), levels[self.level + 1].get());
+        bound((altitude - low) / (high - low), 0.0, 1.0)
+    }
+
+    /// Columns to the visible part of the sun; to the horizon where it is hidden.
+    #[inline(always)]
+    fn to_sun(&self, coordinate: f32, up: f32) -> Row {
+        let angles = self.tables.angles;
+        let (i, t) = place(coordinate, angles - 1);
+        let low = column(self.tables, self.level * angles + i, t);
+        let high = column(self.tables, (self.level + 1) * angles + i, t);
+        mix(low, high, up).exp()
+    }
+
+    /// Rows of diffuse light and their weights.
+    #[inline(always)]
+    fn light(&self, coordinate: f32, up: f32) -> ([usize; 4], [f32; 4]) {
+        let (suns, stride) = (self.tables.suns, self.tables.light_stride);
+        let (i, t) = place(coordinate, suns - 1);
+        let low = (self.level * suns + i) * stride;
+        let high = low + suns * stride;
+        (
+            [low, low + stride, high, high + stride],
+            [
+                (1.0 - up) * (1.0 - t),
+                (1.0 - up) * t,
+                up * (1.0 - t),
+                up * t,
+            ],
+        )
+    }
+}
+
+#[inline(always)]
+fn column(tables: &EstimateView, row: usize, t: f32) -> Row {
+    let low = load(tables.column, row * WIDTH);
+    mix(low, load(tables.column, (row + 1) * WIDTH), t)
+}
+
+/// Profiles of the constituents.
+#[inline(always)]
+fn density(tables: &EstimateView, coordinate: f32) -> Row {
+    let (i, t) = place(coordinate, tables.densities - 1);
+    let low = load(tables.density, i * WIDTH);
+    mix(low, load(tables.density, (i + 1) * WIDTH), t)
+}
+
+/// Index and rest of a coordinate of 0..=last.
+#[inline(always)]
+fn place(coordinate: f32, last: usize) -> (usize, f32) {
+    let u = bound(coordinate, 0.0, last as f32);
+    let i = (u as usize).min(last - 1);
+    (i, u - i as f32)
+}
+
+#[inline(always)]
+fn mix(a: Row, b: Row, t: f32) -> Row {
+    a + (b - a) * t
+}
+
+#[inline(always)]
+fn load(values: &[F32], first: usize) -> Row {
+    let row = &values[first..first + WIDTH];
+    let mut lanes = [0.0; WIDTH];
+    for i in 0..WIDTH {
+        lanes[i] = row[i].get();
+    }
+    Lanes(lanes)
 }

@@ -22,9 +22,13 @@ pub(crate) fn assemble(
     if chunks.iter().any(|(e, _)| e.kind.get() == KIND_SPECTRUM) {
         header.required_features |= U32::new(FEATURE_SPECTRUM);
     }
-    if header.required_features.get() != 0 {
-        header.version_minor = U16::new(header.version_minor.get().max(VERSION_MINOR));
-    }
+    let features = header.required_features.get();
+    let needed = match (features & FEATURE_ESTIMATE != 0, features != 0) {
+        (true, _) => VERSION_MINOR,
+        (false, true) => 1,
+        _ => 0,
+    };
+    header.version_minor = U16::new(header.version_minor.get().max(needed));
     let mut file = [header.as_bytes(), arrays].concat();
     file.resize(head_length, 0);
     let mut entries = Vec::with_capacity(count);

@@ -4,9 +4,9 @@ use zerocopy::IntoBytes;
 use zerocopy::little_endian::{F32, U32};
 
 use super::estimate_view::{EstimateCounts, EstimateView, MAX_ESTIMATE_CONSTITUENTS};
-use super::head::Head;
+use super::head::{Field, Head};
 use super::payload_bytes::{check, push_f32};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Tables of the estimates that fields are relative to, to be written: see [`EstimateView`]. Rows over constituents are 8
 /// wide, rows over wavelengths a multiple of 8.
@@ -142,5 +142,13 @@ impl Estimate {
 /// The payload of an estimate chunk in a file with this head, checked.
 pub(crate) fn view<'a>(head: &Head, bytes: &'a [u8]) -> Result<EstimateView<'a>> {
     let (constituents, wavelengths) = (head.constituents, head.wavelengths.len());
-    EstimateView::new(bytes, constituents, wavelengths, head.planet.top)
+    let view = EstimateView::new(bytes, constituents, wavelengths, head.planet.top)?;
+    let known = |field: &Field| field.estimate < view.scatters.len();
+    match head.fields.iter().all(known) {
+        true => Ok(view),
+        false => Err(Error::invalid(
+            "field",
+            "is relative to an estimate that the file does not have",
+        )),
+    }
 }

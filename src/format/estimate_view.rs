@@ -10,10 +10,11 @@ use crate::error::{Error, Result};
 pub const MAX_ESTIMATE_CONSTITUENTS: usize = 8;
 /// Most wavelengths of files with estimates.
 pub const MAX_ESTIMATE_WAVELENGTHS: usize = 64;
-/// Most levels, rings and estimates.
+/// Most levels and rings.
 const MAX_LEVELS: u32 = 24;
 const MAX_RINGS: u32 = 4;
-const MAX_ESTIMATES: u32 = 4;
+/// Most estimates.
+pub const MAX_ESTIMATES: usize = 4;
 /// Most angles and suns, and most samples of the density.
 const MAX_ANGLES: u32 = 256;
 const MAX_DENSITIES: u32 = 4096;
@@ -111,7 +112,7 @@ impl<'a> EstimateView<'a> {
         let suns = within(counts.suns, 2, MAX_ANGLES)?;
         let densities = within(counts.densities, 2, MAX_DENSITIES)?;
         let rings = within(counts.rings, 0, MAX_RINGS)?;
-        let estimates = within(counts.estimates, 1, MAX_ESTIMATES)?;
+        let estimates = within(counts.estimates, 1, MAX_ESTIMATES as u32)?;
         let stride = wavelengths.next_multiple_of(8);
         let albedos = estimates * constituents * stride;
         let rows = MAX_ESTIMATE_CONSTITUENTS * (densities + levels * angles);
@@ -138,6 +139,12 @@ impl<'a> EstimateView<'a> {
             column: take(&mut rest, MAX_ESTIMATE_CONSTITUENTS * levels * angles)?,
             light: take(&mut rest, levels * suns * stride)?,
         })
+    }
+
+    /// Constituents that scatter in any estimate, as in `scatters`.
+    #[inline(always)]
+    pub(crate) fn any_scatters(&self) -> u32 {
+        self.scatters.iter().fold(0, |any, s| any | s.get())
     }
 
     fn check(&self, top: f64) -> Result<()> {

@@ -8,7 +8,7 @@ pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
 /// The major version that this crate reads and writes.
 pub const VERSION_MAJOR: u16 = 1;
 /// The newest minor version that this crate writes, where a file needs it; other files have 0.
-pub const VERSION_MINOR: u16 = 1;
+pub const VERSION_MINOR: u16 = 2;
 /// Bit of `required_features`: the file has a spectrum.
 pub const FEATURE_SPECTRUM: u32 = 1;
 /// Bit of `required_features`: fields are relative to estimates.

@@ -2,6 +2,7 @@
 
 use core::f64::consts::FRAC_PI_2;
 
+use super::estimate_view::MAX_ESTIMATES;
 use super::head::{Field, Head, PhaseFunction};
 use super::layout::MAX_TABLE;
 use crate::error::{Error, Number, Range, Result};
@@ -17,7 +18,9 @@ impl Head {
         self.check_scalars()?;
         self.check_axes()?;
         self.check_tables()?;
-        self.fields.iter().try_for_each(check_field)
+        self.fields
+            .iter()
+            .try_for_each(|field| check_field(field, self.estimated))
     }
 
     fn check_counts(&self) -> Result<()> {
@@ -123,7 +126,9 @@ impl Head {
     }
 }
 
-fn check_field(field: &Field) -> Result<()> {
+fn check_field(field: &Field, estimated: bool) -> Result<()> {
+    let most = if estimated { MAX_ESTIMATES - 1 } else { 0 };
+    count("estimate of a field", field.estimate, 0, most)?;
     let (min, max) = match field.phase {
         PhaseFunction::None => (f64::MIN, f64::MAX),
         PhaseFunction::Rayleigh => (0.0, 1.0),

@@ -1,10 +1,13 @@
 //! Where the chunks of a file are: found in constant time, without allocation.
 
+use zerocopy::little_endian::U32;
+
 use super::head_view::HeadView;
 use crate::error::{Error, Result};
 use crate::format::{
-    BasisView, ColumnView, ENCODING_RAW, EstimateView, FactorsView, KIND_COLUMN, KIND_ESTIMATE,
-    KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SPECTRUM, RawEntry, SpectrumView,
+    BasisView, ColumnView, ENCODING_RAW, EstimateView, FIELD_ESTIMATE_SHIFT, FactorsView,
+    KIND_COLUMN, KIND_ESTIMATE, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SPECTRUM, RawEntry,
+    SpectrumView,
 };
 
 /// Most chunks of radiance, and most altitudes.
@@ -132,14 +135,17 @@ pub(super) fn estimate_of_file<'a>(
         return Ok(None);
     };
     let payload = payload(i, entry, bytes)?;
-    let shape = &head.shape;
-    EstimateView::new(
-        payload,
-        shape.constituents,
-        shape.wavelengths,
-        head.planet.top,
-    )
-    .map(Some)
+    let (shape, top) = (&head.shape, head.planet.top);
+    let view = EstimateView::new(payload, shape.constituents, shape.wavelengths, top)?;
+    let count = view.scatters.len();
+    let estimate = |code: &U32| (code.get() >> FIELD_ESTIMATE_SHIFT) as usize;
+    match head.fields.iter().all(|code| estimate(code) < count) {
+        true => Ok(Some(view)),
+        false => Err(Error::invalid(
+            "field",
+            "is relative to an estimate that the file does not have",
+        )),
+    }
 }
 
 /// Refuses what is too large for the fixed arrays of this evaluator.

@@ -8,7 +8,7 @@ use super::chunk_directory;
 use super::head_counts::require;
 use super::head_view::{HeadView, Rest};
 use crate::error::{Error, Result};
-use crate::format::{FIELD_ESTIMATE_SHIFT, FIELD_GROUND};
+use crate::format::{FIELD_ESTIMATE_SHIFT, FIELD_GROUND, MAX_ESTIMATES};
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
@@ -109,7 +109,17 @@ fn check_tables(head: &HeadView, xyz: &[F64]) -> Result<()> {
 
 fn check_fields(head: &HeadView) -> Result<()> {
     let parameters = head.phase_parameter.chunks_exact(head.shape.wavelengths);
+    let most = match head.shape.levels {
+        0 => MAX_ESTIMATES - 1,
+        _ => 0,
+    };
     for (code, parameters) in head.fields.iter().zip(parameters) {
+        let estimate = (code.get() >> FIELD_ESTIMATE_SHIFT) as usize;
+        require(
+            estimate <= most,
+            "field",
+            "is relative to an unknown estimate",
+        )?;
         let range = match code.get() & !FIELD_GROUND & ((1 << FIELD_ESTIMATE_SHIFT) - 1) {
             0 => [f64::MIN, f64::MAX],
             1 => [0.0, 1.0],

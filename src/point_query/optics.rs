@@ -7,7 +7,7 @@ use super::contraction::{MOST_CHANNELS, Spectrum, WIDTH};
 use super::head_view::HeadView;
 use super::query_coordinates::QueryCoordinates;
 use crate::error::{Error, Result};
-use crate::estimate::{Blocks, Estimator, MOST_BLOCKS, NOTHING};
+use crate::estimate::{Blocks, Estimator, MOST_BLOCKS};
 use crate::format::{EstimateView, FIELD_ESTIMATE_SHIFT, FIELD_GROUND, MAX_ESTIMATE_CONSTITUENTS};
 use crate::geometry::Planet;
 use crate::kernel::axis::Stencil;
@@ -183,9 +183,7 @@ impl Light {
             tables: *tables,
             extinction: &extinction,
         };
-        let mut out = NOTHING;
-        estimator.along(&place.line, |block, estimates| out[block] = estimates);
-        out
+        estimator.along(&place.line)
     }
 
     /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by

@@ -13,7 +13,7 @@ pub mod spectrum;
 use proptest::test_runner::{Config, RngSeed};
 use welkin::axis::ElevationAxis;
 use welkin::format::{
-    AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
+    AlphaAxis, Chunk, ColumnTable, DensityTable, Estimate, Field, Head, Payload, PhaseFunction,
     PolarisationBasis, PolarisationFactors, RadianceBasis, RadianceFactors, encode,
 };
 use welkin::geometry::Planet;
@@ -120,6 +120,7 @@ pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) ->
     let field = |phase, ground, value| Field {
         phase,
         ground,
+        estimate: 0,
         parameter: (0..nw).map(|w| value + 0.01 * w as f64).collect(),
     };
     Head {
@@ -147,6 +148,7 @@ pub fn head_with(altitudes: &[f64], visibilities: &[f64], wavelengths: usize) ->
         visibilities: visibilities.to_vec(),
         constituents: 2,
         absorbers: 0,
+        estimated: false,
         extinction,
         spherical_albedo: (0..nv * nw)
             .map(|i| 0.05 + 0.01 * (i % 40) as f64)
@@ -237,6 +239,69 @@ pub fn polarised_chunks(head: &Head, strength: f32) -> Vec<Chunk> {
         }
     }
     chunks
+}
+
+/// The same head and chunks with fields that are relative to estimates: of sunlight in the molecules, in the particles,
+/// and of diffuse light.
+pub fn estimated(mut head: Head, mut chunks: Vec<Chunk>) -> (Head, Vec<Chunk>) {
+    head.estimated = true;
+    for (field, estimate) in head.fields.iter_mut().zip([2, 0, 1, 1, 2]) {
+        field.estimate = estimate;
+    }
+    chunks.retain(|chunk| !matches!(chunk.payload, Payload::Column(_)));
+    for chunk in &mut chunks {
+        if let Payload::Radiance(factors) = &mut chunk.payload {
+            factors.level.clear();
+            factors.scale.iter_mut().for_each(|scale| *scale *= 40.0);
+        }
+    }
+    chunks.push(Chunk::new(None, None, Payload::Estimate(estimate(&head))));
+    (head, chunks)
+}
+
+/// Tables of estimates of two constituents.
+fn estimate(head: &Head) -> Estimate {
+    let nw = head.wavelengths.len();
+    let stride = nw.next_multiple_of(8);
+    let (angles, suns, densities) = (5, 7, 17);
+    let level = vec![0.0, 1.5e3, 4e3, 9e3, 20e3, 100e3];
+    let row = |values: [f64; 2]| {
+        let mut row = [0.0; 8];
+        (row[0], row[1]) = (values[0] as f32, values[1] as f32);
+        row
+    };
+    let density = |i: usize| {
+        let z = 100e3 * (i as f64 / (densities - 1) as f64).powi(2);
+        row([(-z / 8e3).exp(), (-z / 1.5e3).exp()])
+    };
+    let column = |z: f32, i: usize| {
+        let slant = 40.0 / (1.0 + 9.0 * i as f64);
+        let z = f64::from(z);
+        row([8e3, 1.5e3].map(|fall| (fall * slant).ln() - (z / fall).min(20.0)))
+    };
+    let light = |z: f32, j: usize| {
+        let dusk = -1.2 * (6 - j) as f32;
+        let at = move |w: usize| -2.5 + dusk - 0.02 * w as f32 - z / 3e4;
+        (0..stride).map(move |w| if w < nw { at(w) } else { 0.0 })
+    };
+    let albedo = |i: usize| match i % stride < nw && i / stride != 1 && i / stride != 2 {
+        true => 1.0 - 0.002 * (i % 97) as f32,
+        false => 0.0,
+    };
+    let places = |n: usize| level.iter().flat_map(move |&z| (0..n).map(move |i| (z, i)));
+    Estimate {
+        angles,
+        suns,
+        sun_lowest: -0.3,
+        sun_width: 0.08,
+        ring: vec![0.0, 5e3],
+        scatters: vec![1, 2, 3],
+        albedo: (0..3 * 2 * stride).map(albedo).collect(),
+        density: (0..densities).flat_map(density).collect(),
+        column: places(angles).flat_map(|(z, i)| column(z, i)).collect(),
+        light: places(suns).flat_map(|(z, j)| light(z, j)).collect(),
+        level: level.clone(),
+    }
 }
 
 /// Densities of two constituents that fall off with altitude, the second below 4 km only.

@@ -2,6 +2,7 @@
 //! line of the library.
 
 mod aerial;
+mod estimate;
 mod spectrum;
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -264,7 +265,9 @@ impl<'a> Oracle<'a> {
             -r * mu - ((r * mu).powi(2) - c).max(0.0).sqrt()
         };
         let row = if up { 0 } else { n.u + 3 };
+        let estimates = self.estimates(q);
         let density: Vec<f64> = (0..n.k)
+            .filter(|_| estimates.is_none())
             .map(|k| {
                 let mut sum = 0.0;
                 for &(j, aj) in &a {
@@ -283,12 +286,14 @@ impl<'a> Oracle<'a> {
         };
         (0..n.w)
             .map(|w| {
-                let depth: f64 = (0..n.k)
+                let constituents = 0..density.len();
+                let depth: f64 = constituents
+                    .clone()
                     .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
                     .sum::<f64>()
                     * d;
                 let absorbers = u32::from_le_bytes(self.file[12..16].try_into().unwrap()) >> 16;
-                let scattering: f64 = (0..n.k)
+                let scattering: f64 = constituents
                     .filter(|k| absorbers >> k & 1 == 0)
                     .map(|k| density[k] * at_visibility(self.at.extinction, n.k * n.w, k * n.w + w))
                     .sum::<f64>()
@@ -296,7 +301,9 @@ impl<'a> Oracle<'a> {
                 let mut s = 0.0;
                 for &(j, aj) in &a {
                     for &(m, bm) in &b {
-                        s += aj * bm * self.level(j, m, &e, w);
+                        if estimates.is_none() {
+                            s += aj * bm * self.level(j, m, &e, w);
+                        }
                     }
                 }
                 let spherical = at_visibility(self.at.spherical, n.w, w);
@@ -314,7 +321,10 @@ impl<'a> Oracle<'a> {
                         self.file[self.at.field + 4 * f..][..4].try_into().unwrap(),
                     );
                     let parameter = self.f64(self.at.parameter, f * n.w + w);
-                    if code >> 16 == 1 {
+                    if let Some(estimates) = &estimates {
+                        value *= estimates[(code >> 24) as usize][w];
+                    }
+                    if code >> 16 & 1 == 1 {
                         value *= ground;
                     }
                     if code & 0xffff == 1 {
@@ -322,7 +332,13 @@ impl<'a> Oracle<'a> {
                     }
                     total += value * phase(code & 0xffff, parameter, cosine);
                 }
-                let outside = -(-depth).exp_m1() * s.exp() * scattering / depth.max(1e-300);
+                let (outside, diffuse) = match &estimates {
+                    Some(estimates) => (1.0, estimates[estimates.len() - 1][w]),
+                    None => {
+                        let opacity = -(-depth).exp_m1() * scattering / depth.max(1e-300);
+                        (opacity * s.exp(), 1.0)
+                    }
+                };
                 let light = outside * total.max(0.0);
                 if !polarised {
                     return [light, 0.0, 0.0];
@@ -335,7 +351,7 @@ impl<'a> Oracle<'a> {
                             value += aj * bm * self.polarisation(j, m, up, taps, part * n.w + w);
                         }
                     }
-                    value
+                    value * diffuse
                 });
                 let q = dipole * (along[0].powi(2) - along[1].powi(2));
                 let u = dipole * 2.0 * along[0] * along[1];

@@ -111,6 +111,19 @@ pub fn valid() -> Vec<Case> {
             absorbers(),
         )
     });
+    cases.push(case(
+        "estimate",
+        "fields relative to estimates: the shadow of the Earth, the horizon, rays that dip",
+        estimated(&[0.0, 900.0, 6000.0], &[25e3, 75e3]),
+    ));
+    cases.push(Case {
+        needs: vec!["polarisation"],
+        ..case(
+            "estimate-polarised",
+            "multiply scattered Q and U relative to the estimate of diffuse light",
+            estimated(&[0.0, 9000.0], &[40e3]),
+        )
+    });
     cases.push(Case {
         needs: vec!["transmittance"],
         ..case(
@@ -341,6 +354,13 @@ fn absorbers() -> Vec<u8> {
     encode(&head, &common::polarised_chunks(&head, 0.02)).expect("a valid model")
 }
 
+fn estimated(altitudes: &[f64], visibilities: &[f64]) -> Vec<u8> {
+    let head = small(altitudes, visibilities);
+    let chunks = common::polarised_chunks(&head, 0.1);
+    let (head, chunks) = common::estimated(head, chunks);
+    encode(&head, &chunks).expect("a valid model")
+}
+
 fn polarised(strength: f32) -> Vec<u8> {
     let head = small(&[0.0, 900.0], &[25e3, 40e3, 75e3]);
     encode(&head, &common::polarised_chunks(&head, strength)).expect("a valid model")
@@ -538,8 +558,8 @@ fn unknown_kinds(raw: &[u8]) -> Vec<u8> {
         entry
     };
     chunks.insert(0, (unknown(0), &[]));
-    chunks.insert(2, (unknown(10), b"twice"));
-    chunks.insert(3, (unknown(10), b"twice"));
+    chunks.insert(2, (unknown(77), b"twice"));
+    chunks.insert(3, (unknown(77), b"twice"));
     chunks.push((unknown(u32::MAX), &[]));
     let mut bytes = raw[..directory].to_vec();
     bytes.resize(directory + 64 * chunks.len(), 0);

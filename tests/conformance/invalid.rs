@@ -4,7 +4,7 @@ use welkin::format::{ENCODING_ZSTD, Head, encode, parse, recode};
 
 use crate::common;
 use crate::files::{minimal, small};
-use crate::{invalid_chunks, invalid_head, invalid_segments, invalid_spectrum};
+use crate::{invalid_chunks, invalid_estimate, invalid_head, invalid_segments, invalid_spectrum};
 
 #[derive(Clone)]
 pub struct Case {
@@ -56,6 +56,7 @@ pub fn all() -> Vec<Case> {
     cases.extend(invalid_chunks::all());
     cases.extend(invalid_segments::all());
     cases.extend(invalid_spectrum::all());
+    cases.extend(invalid_estimate::all());
     cases
 }
 

@@ -90,7 +90,7 @@ fn declared() -> Vec<Case> {
     let unknown = case(
         "spectrum-and-more",
         "beside the bit of the spectrum one that nobody knows",
-        bits(&good, 3),
+        bits(&good, 5),
     );
     vec![
         case(
