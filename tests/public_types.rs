@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use welkin::axis::*;
+use welkin::estimate::*;
 use welkin::format::*;
 use welkin::geometry::*;
 use welkin::output::Target;
@@ -56,6 +57,9 @@ all_shared! {
     ElevationAxis,
     Ends,
     Entry,
+    Estimate,
+    EstimateView<'static>,
+    Estimates,
     Error,
     FactorsView<'static>,
     Field,
@@ -91,6 +95,7 @@ all_shared! {
     Selection,
     Shape,
     Side,
+    Sightline,
     Sky,
     SkySampler,
     SourceBasis,

@@ -69,7 +69,9 @@ fn bit_and_chunk_come_together() {
     for (good, bits, class) in [
         (&plain, FEATURE_SPECTRUM, "value"),
         (&file, 0, "value"),
-        (&file, 3, "feature"),
+        (&file, 5, "feature"),
+        (&file, 3, "value"),
+        (&plain, 2, "value"),
         (&plain, 1 << 31, "feature"),
     ] {
         let mut bytes = good.clone();

@@ -201,7 +201,7 @@ fn share(i: usize, count: usize) -> f64 {
 #[cfg(all(test, feature = "default-model"))]
 mod tests {
     use super::*;
-    use crate::aerial_perspective::visible_disc::mean_shares;
+    use crate::visible_disc::mean_shares;
     use crate::{Conditions, Model};
 
     /// D of section 7.7, which is the transmittance towards one point, and the irradiance of the disc. Up to 760 nm they

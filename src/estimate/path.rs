@@ -1,7 +1,7 @@
 //! Where along a ray light is looked at: where it crosses the levels, where it is nearest to the ground, and where it
 //! enters and leaves the shadow of the Earth.
 
-use super::Sightline;
+use super::sightline::Sightline;
 use crate::format::EstimateView;
 use crate::geometry::{Planet, Side};
 #[cfg(not(feature = "std"))]

@@ -2,7 +2,9 @@
 
 use zerocopy::little_endian::{F32, U32};
 
-use super::{Blocks, Estimator, Sightline, WIDTH};
+use super::blocks::{Blocks, WIDTH};
+use super::sightline::Sightline;
+use super::sums::Estimator;
 use crate::format::EstimateView;
 use crate::geometry::Planet;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
@@ -126,6 +128,11 @@ impl Estimates {
     pub(crate) fn blocks(&self, line: &Sightline) -> Blocks {
         let estimator = self.estimator();
         dispatch(Along { estimator, line })
+    }
+
+    /// How many blocks of wavelengths there are.
+    pub(crate) fn block_count(&self) -> usize {
+        self.stride / WIDTH
     }
 
     /// How many estimates there are; the last is of diffuse light.

@@ -5,10 +5,12 @@
 
 use zerocopy::little_endian::F32;
 
+use super::blocks::{Block, Blocks, MOST_BLOCKS, NOTHING, WIDTH};
 use super::path::{MOST_STOPS, Stops};
 use super::points::{Axes, BATCH, Points};
-use super::{Block, Blocks, Estimator, MOST_BLOCKS, NOTHING, WIDTH};
+use super::sightline::Sightline;
 use crate::format::{EstimateView, MAX_ESTIMATES};
+use crate::geometry::Planet;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::bound;
 use crate::visible_disc::mean_share;
@@ -142,8 +144,25 @@ impl Band {
     }
 }
 
+/// All that estimates depend on.
+#[derive(Clone, Copy)]
+pub(crate) struct Estimator<'a> {
+    pub planet: Planet,
+    pub tables: EstimateView<'a>,
+    /// Extinction where the profile is 1, m⁻¹, `[constituent][block]`.
+    pub extinction: &'a [[f32; WIDTH]],
+}
+
+impl Estimator<'_> {
+    /// The estimates along a ray.
+    #[inline(always)]
+    pub fn along(&self, line: &Sightline) -> Blocks {
+        along(self, &Stops::new(&self.planet, &self.tables, line))
+    }
+}
+
 #[inline(always)]
-pub(super) fn along(of: &Estimator, stops: &Stops) -> Blocks {
+fn along(of: &Estimator, stops: &Stops) -> Blocks {
     let tables = &of.tables;
     let axes = Axes::new(&of.planet, tables);
     let blocks = (tables.light_stride / WIDTH).min(MOST_BLOCKS);

@@ -32,7 +32,7 @@ pub(super) struct Light {
     fields: usize,
     planet: Planet,
     /// Whether a field is Henyey-Greenstein, whether the ground reflected it, and the estimate that it is relative to.
-    kind: [(bool, bool, usize); MOST],
+    kind: [(bool, bool, u8); MOST],
     /// Coefficients of the phase functions, `[field][block]`.
     phase: [[Block; 3]; MOST_PHASES],
     /// `[visibility][constituent][block]`.
@@ -89,7 +89,7 @@ impl Light {
         let code = head.fields[f].get();
         let ground = code & FIELD_GROUND != 0;
         let phase = code & !FIELD_GROUND & ((1 << FIELD_ESTIMATE_SHIFT) - 1);
-        self.kind[f] = (phase == 2, ground, (code >> FIELD_ESTIMATE_SHIFT) as usize);
+        self.kind[f] = (phase == 2, ground, (code >> FIELD_ESTIMATE_SHIFT) as u8);
         let parameters = &head.phase_parameter[f * self.wavelengths..][..self.wavelengths];
         for (w, parameter) in parameters.iter().enumerate() {
             let coefficients = match phase {
@@ -163,7 +163,7 @@ impl Light {
     fn whole(&self, f: usize, estimates: Option<&Blocks>, b: usize, value: Block) -> Block {
         match estimates {
             None => value,
-            Some(estimates) => value * estimates[b][self.kind[f].2],
+            Some(estimates) => value * estimates[b][usize::from(self.kind[f].2)],
         }
     }
 

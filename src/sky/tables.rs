@@ -3,7 +3,7 @@
 //! Radiance is a bicubic B-spline over (angle from the horizon, azimuth) on each side of the horizon, node-major with
 //! all channels of a node contiguous, so that a query is sixteen short rows times sixteen weights.
 
-use crate::estimate::{Blocks, Estimates, NOTHING, Sightline, WIDTH};
+use crate::estimate::{Around, Blocks, Estimates, NOTHING, Sightline, WIDTH};
 use crate::format::{AlphaAxis, Shape};
 use crate::geometry::{Ray, Side};
 use crate::kernel::axis::{Ends, Taps, alpha_coordinate, spline};
@@ -174,6 +174,8 @@ pub(crate) struct Row {
     depth: [f32; MOST],
     /// With any azimuth.
     line: Sightline,
+    /// The estimates at all azimuths, where the sun is high.
+    around: Option<Around>,
 }
 
 /// The place of an azimuth from the sun, 0..=π.
@@ -252,6 +254,10 @@ impl Tables {
             cells,
             depth: self.depths(side, &alpha, ray.length),
             line,
+            around: self
+                .estimates
+                .as_ref()
+                .and_then(|own| Around::new(&own.estimates, line)),
         }
     }
 
@@ -296,10 +302,13 @@ impl Tables {
         angle: SunAngle,
         mut emit: impl FnMut(usize, [f32; LANES]),
     ) {
-        let estimates = self.estimate(&Sightline {
-            azimuth: azimuth_cosine,
-            ..row.line
-        });
+        let estimates = match &row.around {
+            Some(around) => around.at(azimuth_cosine),
+            None => self.estimate(&Sightline {
+                azimuth: azimuth_cosine,
+                ..row.line
+            }),
+        };
         let cells = self.layout.cells();
         for block in 0..self.layout.blocks {
             let mut sum = [0.0; LANES];

@@ -1,6 +1,6 @@
 //! The normalised fields of one (altitude, visibility) with what turns them into relative radiance.
 
-use super::normalise::{SiteEstimates, levels, normalise};
+use super::normalise::{RelativeEstimates, SiteEstimates, levels, normalise};
 use crate::dataset::{Grid, Tensor};
 use crate::successive_orders::scattered_source::Sun;
 use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase, view_rays};
@@ -16,7 +16,7 @@ pub struct Chunk {
     /// Normalised fields `[view][phi][elevation][field][wavelength]`.
     values: Vec<f32>,
     /// What they are relative to, relative to the level of the sky.
-    estimates: SiteEstimates,
+    estimates: RelativeEstimates,
     /// Cosine of the angle to the sun, `[view][phi][elevation]`.
     cosine: Vec<f32>,
     /// Root weights of the views and of the solar elevations.
@@ -80,7 +80,7 @@ impl Chunk {
         Self {
             sites,
             values: vec![0.0; count * FIELDS * NW],
-            estimates: SiteEstimates::ones(count),
+            estimates: RelativeEstimates::ones(count),
             cosine: vec![0.0; count],
             weight: [vec![1.0; sites[0]], vec![1.0; sites[2]]],
             polarising: [0.0; NW],

@@ -3,19 +3,26 @@
 use crate::dataset::{Grid, Tensor};
 use crate::estimate::{ESTIMATES, OF_FIELD};
 use crate::successive_orders::{FIELDS, NW};
+use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
 use welkin::estimate::{Estimates, Sightline};
 use welkin::geometry::Planet;
 
 /// The estimates at the sites of a chunk, `[view][phi][elevation][estimate][wavelength]`.
-#[derive(Clone)]
 pub struct SiteEstimates(Vec<f32>);
+
+/// The same relative to the level of the sky; in half precision, as they are many and only weigh.
+#[derive(Clone)]
+pub struct RelativeEstimates(Vec<f16>);
 
 /// Numbers per site.
 const WIDTH: usize = ESTIMATES * NW;
 /// Smaller ones count as this: nothing is seen there.
 const LEAST: f32 = 1e-30;
+/// What half precision holds.
+const FAINTEST: f32 = 1e-7;
+const BRIGHTEST: f32 = 6e4;
 
 impl SiteEstimates {
     /// At altitude `a` of the grid.
@@ -44,12 +51,6 @@ impl SiteEstimates {
         Self(rows.map(|n| n.max(LEAST)).collect())
     }
 
-    /// Of sites at which everything is relative to 1.
-    #[cfg(test)]
-    pub fn ones(sites: usize) -> Self {
-        Self(vec![1.0; sites * WIDTH])
-    }
-
     /// What a field is relative to.
     pub fn of_field(&self, site: usize, field: usize, wavelength: usize) -> f32 {
         self.0[site * WIDTH + OF_FIELD[field] * NW + wavelength]
@@ -60,16 +61,30 @@ impl SiteEstimates {
         self.0[site * WIDTH + (ESTIMATES - 1) * NW + wavelength]
     }
 
-    /// Divides all numbers of an elevation and wavelength by those of `levels`, `[elevation][wavelength]`.
-    pub fn relative(mut self, levels: &[f32]) -> Self {
+    /// Relative to `levels`, `[elevation][wavelength]`.
+    pub fn relative(&self, levels: &[f32]) -> RelativeEstimates {
         let elevations = levels.len() / NW;
-        for (site, cell) in self.0.chunks_exact_mut(WIDTH).enumerate() {
+        let cells = self.0.chunks_exact(WIDTH).enumerate();
+        let relative = cells.flat_map(|(site, cell)| {
             let level = &levels[site % elevations * NW..][..NW];
-            for row in cell.chunks_exact_mut(NW) {
-                row.iter_mut().zip(level).for_each(|(n, l)| *n /= l);
-            }
-        }
-        self
+            let pairs = cell.iter().zip(level.iter().cycle());
+            pairs.map(|(n, l)| f16::from_f32((n / l).clamp(FAINTEST, BRIGHTEST)))
+        });
+        RelativeEstimates(relative.collect())
+    }
+}
+
+impl RelativeEstimates {
+    /// Of sites at which everything is relative to 1.
+    #[cfg(test)]
+    pub fn ones(sites: usize) -> Self {
+        Self(vec![f16::ONE; sites * WIDTH])
+    }
+
+    /// What a field is relative to.
+    #[inline]
+    pub fn of_field(&self, site: usize, field: usize, wavelength: usize) -> f32 {
+        self.0[site * WIDTH + OF_FIELD[field] * NW + wavelength].to_f32()
     }
 }
 
