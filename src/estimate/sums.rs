@@ -157,16 +157,25 @@ impl Estimator<'_> {
     /// The estimates along a ray.
     #[inline(always)]
     pub fn along(&self, line: &Sightline) -> Blocks {
-        along(self, &Stops::new(&self.planet, &self.tables, line))
+        let stops = Stops::new(&self.planet, &self.tables, line);
+        let mut out = NOTHING;
+        // Arrays as large as they must be: to clear more would take as long as a stop.
+        match self.tables.light_stride / WIDTH {
+            1 => along::<1>(self, &stops, &mut out),
+            2 => along::<2>(self, &stops, &mut out),
+            3 => along::<3>(self, &stops, &mut out),
+            _ => along::<MOST_BLOCKS>(self, &stops, &mut out),
+        }
+        out
     }
 }
 
 #[inline(always)]
-fn along(of: &Estimator, stops: &Stops) -> Blocks {
+fn along<const N: usize>(of: &Estimator, stops: &Stops, out: &mut Blocks) {
     let tables = &of.tables;
     let axes = Axes::new(&of.planet, tables);
-    let blocks = (tables.light_stride / WIDTH).min(MOST_BLOCKS);
-    let mut bands = [Band::NONE; MOST_BLOCKS];
+    let blocks = (tables.light_stride / WIDTH).min(N);
+    let mut bands = [Band::NONE; N];
     let bands = &mut bands[..blocks];
     for (block, band) in bands.iter_mut().enumerate() {
         for k in 0..tables.constituents.min(WIDTH) {
@@ -201,11 +210,9 @@ fn along(of: &Estimator, stops: &Stops) -> Blocks {
             i += 1;
         }
     }
-    let mut out = NOTHING;
     for (block, band) in bands.iter().enumerate() {
         out[block] = band.estimates(tables, block);
     }
-    out
 }
 
 impl Walk<'_> {
