@@ -24,6 +24,7 @@ proptest! {
         wavelength in 320.0..760.0f64,
         bytes in prop::sample::select(vec![
             common::model_bytes(), common::wide_bytes(), common::long_bytes(),
+            common::estimated_bytes(), common::estimated_bytes(),
         ]),
     ) {
         let oracle = Oracle::new(&bytes);

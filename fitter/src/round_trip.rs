@@ -158,7 +158,7 @@ mod tests {
         let grid = grid();
         let chunk = chunk(&grid, own, basis, noise);
         let shared = PackedBasis::new(&grid, basis);
-        let packed = shared.radiance_chunk(&grid, &chunk, own);
+        let packed = shared.radiance_chunk(&grid, own);
         check(&grid, &chunk, (own, basis), (&packed, &shared.radiance()))
     }
 

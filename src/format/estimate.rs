@@ -134,8 +134,11 @@ impl Estimate {
         for table in [&self.albedo, &self.density, &self.column, &self.light] {
             push_f32(&mut bytes, table);
         }
-        EstimateView::new(&bytes, constituents, wavelengths, top)?;
-        Ok(bytes)
+        let view = EstimateView::new(&bytes, constituents, wavelengths, top)?;
+        match view.is_padded(wavelengths) {
+            true => Ok(bytes),
+            false => Err(Error::invalid("estimate chunk", "its padding must be zero")),
+        }
     }
 }
 

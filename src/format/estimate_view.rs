@@ -141,6 +141,23 @@ impl<'a> EstimateView<'a> {
         })
     }
 
+    /// Whether what is beyond the constituents and these wavelengths is zero, every bit of it.
+    #[cfg(feature = "std")]
+    pub(super) fn is_padded(&self, wavelengths: usize) -> bool {
+        let zero = |table: &[F32], stride: usize, width: usize| {
+            let mut rows = table.chunks_exact(stride);
+            rows.all(|row| row[width..].iter().all(|v| v.get().to_bits() == 0))
+        };
+        let spectral = [self.albedo, self.light];
+        let rows = [self.density, self.column];
+        spectral
+            .iter()
+            .all(|t| zero(t, self.light_stride, wavelengths))
+            && rows
+                .iter()
+                .all(|t| zero(t, MAX_ESTIMATE_CONSTITUENTS, self.constituents))
+    }
+
     /// Constituents that scatter in any estimate, as in `scatters`.
     #[inline(always)]
     pub(crate) fn any_scatters(&self) -> u32 {

@@ -3,14 +3,12 @@
 use super::density::RESERVED as DENSITY_RESERVED;
 use super::encoding::{check_chunk, decode};
 use super::estimate::view as estimate_view;
-use super::estimate_view::{EstimateView, MAX_ESTIMATE_CONSTITUENTS};
 use super::head::{Entry, Head, Kind};
 use super::layout::ENTRY_LENGTH;
 use super::parse::{Contents, parse};
 use super::source_function::{RESERVED as SOURCE_RESERVED, SourceBasisView, SourceView};
 use super::views::{BasisView, FactorsView, Payload16};
 use crate::error::Error;
-use zerocopy::little_endian::F32;
 
 /// A rule of the format specification that a file breaks.
 ///
@@ -152,7 +150,7 @@ fn check_padding(head: &Head, entry: &Entry, payload: &[u8]) -> Result<(), Error
         Kind::PolarisationBasis => {
             basis_is_padded(&BasisView::polarisation(payload, &shape, rank)?)
         }
-        Kind::Estimate => estimate_is_padded(&estimate_view(head, payload)?, shape.wavelengths),
+        Kind::Estimate => estimate_view(head, payload)?.is_padded(shape.wavelengths),
         _ => true,
     };
     if zero {
@@ -174,21 +172,6 @@ fn basis_is_padded(view: &BasisView) -> bool {
     is_zero(view.phi, view.stride, view.rank)
         && is_zero(channel, view.channel_stride, view.channels)
         && is_zero(rest, view.channel_stride, 0)
-}
-
-fn estimate_is_padded(view: &EstimateView, wavelengths: usize) -> bool {
-    let zero = |table: &[F32], stride: usize, width: usize| {
-        let mut rows = table.chunks_exact(stride);
-        rows.all(|row| row[width..].iter().all(|v| v.get().to_bits() == 0))
-    };
-    let spectral = [view.albedo, view.light];
-    let rows = [view.density, view.column];
-    spectral
-        .iter()
-        .all(|t| zero(t, view.light_stride, wavelengths))
-        && rows
-            .iter()
-            .all(|t| zero(t, MAX_ESTIMATE_CONSTITUENTS, view.constituents))
 }
 
 /// Whether the columns of a matrix from `width` on are zero.

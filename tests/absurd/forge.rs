@@ -55,22 +55,25 @@ pub fn edits() -> impl Strategy<Value = Vec<Edit>> {
 }
 
 /// A file with everything.
-pub fn whole() -> (Head, Vec<Chunk>) {
+pub fn whole(estimated: bool) -> (Head, Vec<Chunk>) {
     let mut head = common::head_with(&[0.0, 2000.0], &[20e3, 60e3], 6);
     head.elevation.intervals = 4;
     let mut chunks = common::polarised_chunks(&head, 0.02);
     chunks.extend(common::aerial::chunks(&head, 0.3));
-    (head, chunks)
+    match estimated {
+        true => common::estimated(head, chunks),
+        false => (head, chunks),
+    }
 }
 
 /// Numbers of the head, then tables of the chunks; each edit is made to every chunk that has the table.
 const HEAD_TABLES: usize = 14;
-const CHUNK_TABLES: usize = 24;
+const CHUNK_TABLES: usize = 30;
 pub const TABLES: usize = HEAD_TABLES + CHUNK_TABLES;
 
-/// The file with the edits; `None` where the writer refuses them.
-pub fn forge(edits: &[Edit]) -> Option<Vec<u8>> {
-    let (mut head, mut chunks) = whole();
+/// The file with the edits, and with fields relative to estimates or not; `None` where the writer refuses them.
+pub fn forge(edits: &[Edit], estimated: bool) -> Option<Vec<u8>> {
+    let (mut head, mut chunks) = whole(estimated);
     for edit in edits {
         match edit.table.checked_sub(HEAD_TABLES) {
             None => edit_head(&mut head, edit),
@@ -107,6 +110,12 @@ fn edit_head(head: &mut Head, edit: &Edit) {
 fn of_chunk(chunk: &mut Chunk, table: usize) -> Option<&mut [f32]> {
     let values = match (&mut chunk.payload, table) {
         (Payload::Column(column), 0) => &mut column.values,
+        (Payload::Estimate(estimate), 24) => &mut estimate.albedo,
+        (Payload::Estimate(estimate), 25) => &mut estimate.density,
+        (Payload::Estimate(estimate), 26) => &mut estimate.column,
+        (Payload::Estimate(estimate), 27) => &mut estimate.light,
+        (Payload::Estimate(estimate), 28) => &mut estimate.ring,
+        (Payload::Estimate(estimate), 29) => &mut estimate.level[1..2],
         (Payload::Radiance(factors), 1) => &mut factors.scale,
         (Payload::Radiance(factors), 2) => &mut factors.alpha_up,
         (Payload::Radiance(factors), 3) => &mut factors.alpha_down,
@@ -141,6 +150,7 @@ fn of_chunk(chunk: &mut Chunk, table: usize) -> Option<&mut [f32]> {
 fn put(values: &mut [f32], edit: &Edit) {
     match &edit.place {
         None => values.fill(edit.value as f32),
+        Some(_) if values.is_empty() => {}
         Some(place) => values[place.index(values.len())] = edit.value as f32,
     }
 }

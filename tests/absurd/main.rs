@@ -11,17 +11,25 @@ use forge::{Edit, TABLES, edits, forge};
 use proptest::prelude::*;
 use welkin::format::verify;
 
-/// Asks a forged file everything; how many answers there were, and how many refusals.
+/// Asks forged files everything; how many answers there were, and how many refusals.
 fn ask(edits: &[Edit]) -> Option<Asker> {
-    let bytes = forge(edits)?;
-    assert!(verify(&bytes).is_empty(), "what the writer takes conforms");
     let mut asker = Asker {
         answers: 0,
         refusals: 0,
     };
+    let files = [false, true].map(|estimated| forge(edits, estimated));
+    let files: Vec<Vec<u8>> = files.into_iter().flatten().collect();
+    let any = !files.is_empty();
+    files
+        .into_iter()
+        .for_each(|bytes| ask_file(bytes, &mut asker));
+    any.then_some(asker)
+}
+
+fn ask_file(bytes: Vec<u8>, asker: &mut Asker) {
+    assert!(verify(&bytes).is_empty(), "what the writer takes conforms");
     // A few hundred kilobytes for the life of the test.
     asker.everything(Box::leak(bytes.into_boxed_slice()));
-    Some(asker)
 }
 
 #[test]

@@ -368,6 +368,14 @@ pub fn model_bytes() -> Vec<u8> {
     encode(&head, &chunks(&head)).expect("the synthetic model is valid")
 }
 
+/// [`model_bytes`] with fields relative to estimates, and with polarisation.
+pub fn estimated_bytes() -> Vec<u8> {
+    let head = head(&[0.0, 120.0, 1000.0, 2000.0], &[20e3, 59.4e3, 131.8e3]);
+    let chunks = polarised_chunks(&head, 0.1);
+    let (head, chunks) = estimated(head, chunks);
+    encode(&head, &chunks).expect("the synthetic model is valid")
+}
+
 /// [`model_bytes`] with polarisation.
 pub fn polarised_bytes(strength: f32) -> Vec<u8> {
     let head = head(&[0.0, 120.0, 1000.0, 2000.0], &[20e3, 59.4e3, 131.8e3]);
