@@ -20,7 +20,8 @@ static void forge(unsigned char *bytes, size_t length)
     for (i = 0; i < count; i++) {
         unsigned char *entry = bytes + head - (count - i) * WELKIN__ENTRY;
         uint64_t offset = welkin__u64(entry + 8), stored = welkin__u64(entry + 16);
-        if (welkin__u32(entry) == WELKIN__SPECTRUM) features = WELKIN__HAS_SPECTRUM;
+        if (welkin__u32(entry) == WELKIN__SPECTRUM) features |= WELKIN__HAS_SPECTRUM;
+        if (welkin__u32(entry) == WELKIN__ESTIMATE) features |= WELKIN__HAS_ESTIMATES;
         if (offset < head || offset > length || stored > length - offset) continue;
         welkin__put_u32(entry + 36, ~welkin__crc(0xFFFFFFFFu, bytes + offset, (size_t)stored));
     }

@@ -57,6 +57,14 @@ typedef struct welkin_spectrum {
     const unsigned char *wavelength, *first_term, *term_weight, *term_extinction, *tap_node, *tap_weight, *extinction;
 } welkin_spectrum;
 
+/* What the fields are relative to: where the tables of the estimate chunk are; private. */
+typedef struct welkin_estimate {
+    welkin_error error; /* why it cannot be used: WELKIN_ERROR_MISSING in a file without one */
+    uint32_t levels, angles, suns, densities, rings, estimates;
+    double sun_lowest, sun_width;
+    const unsigned char *level, *ring, *scatters, *albedo, *density, *column, *light;
+} welkin_estimate;
+
 /* A checked file. The public members are for reading only. */
 typedef struct welkin_file {
     uint32_t wavelengths, altitudes, visibilities, fields, constituents;
@@ -68,12 +76,13 @@ typedef struct welkin_file {
     const unsigned char *bytes;
     size_t length;
     uint32_t up_intervals, down_intervals, phi_intervals, elevation_intervals;
-    uint32_t solar_samples, chunk_count;
+    uint32_t features, solar_samples, chunk_count;
     double up_exponent, down_exponent, elevation_centre, elevation_width;
     size_t wavelength_at, altitude_at, visibility_at, extinction_at, albedo_at, phase_at, xyz_at;
     size_t solar_range_at, solar_at, field_at, metadata_at, directory_at;
     uint32_t rank, polarisation_rank; /* of the bases, 0 if absent */
     welkin_spectrum spectrum;
+    welkin_estimate estimate;
     int unpacked;
 } welkin_file;
 
@@ -96,12 +105,22 @@ typedef struct welkin_table {
     float *dense;                 /* [up + down][phi][channels], or null */
 } welkin_table;
 
+/* What the estimates of a direction are made of; private. Rows of wavelengths are a multiple of 8 long, those of
+ * constituents 8. */
+typedef struct welkin_estimate_tables {
+    uint32_t row; /* floats per row of wavelengths */
+    double level[24], ring[4], sun_start, sun_scale;
+    float *extinction, *scattering;  /* [constituent][wavelength], [estimate][constituent][wavelength] */
+    float *density, *column, *light; /* [density][8], [level][angle][8], [level][sun][wavelength] */
+} welkin_estimate_tables;
+
 /* A sky under fixed conditions; private. May be shared by threads. */
 typedef struct welkin_sky {
     const welkin_file *file;
     double altitude, dip, sun[3], cos_azimuth, sin_azimuth, fade;
     float *column, *extinction, *level, *bounce, *phase;
     welkin_table radiance, polarisation;
+    welkin_estimate_tables estimate;
     unsigned flags;
 } welkin_sky;
 
@@ -130,8 +149,8 @@ typedef struct welkin_aerial_perspective {
 /* The name of an error's class. */
 WELKIN_API const char *welkin_error_name(welkin_error error);
 
-/* Checks the head of a file, and its spectrum if it has one: what is wrong with that is the error of questions that
- * need it. The bytes must stay as they are while the file or skies of it are in use. */
+/* Checks the head of a file, and its spectrum and estimates if it has them: what is wrong with those is the error of
+ * questions that need them. The bytes must stay as they are while the file or skies of it are in use. */
 WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length);
 
 /* Decodes a zstd frame of `length` bytes into `out`, and returns how many bytes it wrote; anything but `capacity` is a
@@ -232,9 +251,19 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
 #define WELKIN__ENTRY 64u
 #define WELKIN__NONE 65535u
 #define WELKIN__HALF_PI 1.57079632679489661923
-#define WELKIN__HAS_SPECTRUM 1u /* bit of required_features */
+#define WELKIN__PI (2 * WELKIN__HALF_PI)
+#define WELKIN__SUN_RADIUS 0.004654793
+#define WELKIN__HAS_SPECTRUM 1u  /* bits of required_features */
+#define WELKIN__HAS_ESTIMATES 2u
 #define WELKIN__ABSORBERS_SHIFT 16 /* from this bit on: which constituents absorb and do not scatter */
 #define WELKIN__CELL_TERMS 64u /* at most */
+
+/* Of files with estimates, at most; but there are always 8 columns of constituents. */
+#define WELKIN__ESTIMATE_LEVELS 24u
+#define WELKIN__ESTIMATE_RINGS 4u
+#define WELKIN__ESTIMATES 4u
+#define WELKIN__ESTIMATE_CONSTITUENTS 8u
+#define WELKIN__ESTIMATE_WAVELENGTHS 64u
 
 enum {
     WELKIN__RADIANCE = 1,
@@ -246,7 +275,8 @@ enum {
     WELKIN__POLARISATION_BASIS = 7,
     WELKIN__SOURCE_BASIS = 8,
     WELKIN__SPECTRUM = 9,
-    WELKIN__KINDS = 10
+    WELKIN__ESTIMATE = 10,
+    WELKIN__KINDS = 11
 };
 
 /* ---- bytes ---- */
@@ -328,19 +358,23 @@ static int welkin__within(double value, double low, double high) { return value 
 static welkin_error welkin__check_start(const unsigned char *p, size_t length)
 {
     static const unsigned char magic[8] = {0x89, 0x57, 0x4C, 0x4B, 0x0D, 0x0A, 0x1A, 0x0A};
-    uint32_t constituents;
+    uint32_t constituents, known;
     if (length < sizeof magic || memcmp(p, magic, sizeof magic) != 0) return WELKIN_ERROR_MAGIC;
     if (length < WELKIN__HEADER) return WELKIN_ERROR_LENGTH;
     if (welkin__u16(p + 8) != 1) return WELKIN_ERROR_VERSION;
     constituents = welkin__u16(p + 48) < 16 ? (1u << welkin__u16(p + 48)) - 1 : 0xFFFFu;
-    if ((welkin__u32(p + 12) & ~(WELKIN__HAS_SPECTRUM | constituents << WELKIN__ABSORBERS_SHIFT)) != 0) return WELKIN_ERROR_FEATURE;
+    known = WELKIN__HAS_SPECTRUM | WELKIN__HAS_ESTIMATES | constituents << WELKIN__ABSORBERS_SHIFT;
+    if ((welkin__u32(p + 12) & ~known) != 0) return WELKIN_ERROR_FEATURE;
     if (welkin__u64(p + 16) != length) return WELKIN_ERROR_LENGTH;
     return WELKIN_OK;
 }
 
+static int welkin__has_estimates(const welkin_file *f) { return (f->features & WELKIN__HAS_ESTIMATES) != 0; }
+
 static void welkin__read_header(welkin_file *file)
 {
     const unsigned char *p = file->bytes;
+    file->features = welkin__u32(p + 12);
     file->chunk_count = welkin__u32(p + 36);
     file->wavelengths = welkin__u16(p + 40);
     file->altitudes = welkin__u16(p + 42);
@@ -370,11 +404,14 @@ static int welkin__counts_are_good(const welkin_file *f)
     if (f->altitudes < 1 || f->altitudes > 1024 || f->visibilities < 1 || f->visibilities > 1024) return 0;
     if (f->fields < 1 || f->fields > WELKIN_MAX_FIELDS) return 0;
     if (f->constituents < 1 || f->constituents > WELKIN_MAX_CONSTITUENTS) return 0;
-    if (welkin__u32(f->bytes + 12) >> WELKIN__ABSORBERS_SHIFT == (1u << f->constituents) - 1) return 0; /* none scatters */
+    if (f->features >> WELKIN__ABSORBERS_SHIFT == (1u << f->constituents) - 1) return 0; /* none scatters */
     if (f->up_intervals < 1 || f->up_intervals > 1024 || f->down_intervals < 1 || f->down_intervals > 1024) return 0;
     if (f->phi_intervals < 1 || f->phi_intervals > 1024) return 0;
     if (f->elevation_intervals < 1 || f->elevation_intervals > 1024) return 0;
     if (f->solar_samples < 2 || f->solar_samples > 16384) return 0;
+    if (welkin__has_estimates(f) &&
+        (f->constituents > WELKIN__ESTIMATE_CONSTITUENTS || f->wavelengths > WELKIN__ESTIMATE_WAVELENGTHS))
+        return 0;
     sky = (uint64_t)(f->up_intervals + f->down_intervals + 6) * (f->phi_intervals + 1) * f->fields * f->wavelengths;
     return sky <= 1u << 24;
 }
@@ -495,12 +532,14 @@ static double welkin__parameter(const welkin_file *f, uint32_t field, uint32_t w
     return welkin__f64(f->bytes + f->phase_at + 8 * ((size_t)field * f->wavelengths + wavelength));
 }
 
+/* Which estimate a field is relative to is looked at with the estimates. */
 static int welkin__fields_are_good(const welkin_file *f)
 {
     uint32_t i, w;
     for (i = 0; i < f->fields; i++) {
         uint32_t field = welkin__field(f, i), phase = field & 0xFFFFu;
-        if (phase > 2 || field >> 17 != 0) return 0;
+        if (phase > 2 || (field >> 17 & 0x7Fu) != 0) return 0;
+        if (field >> 24 >= (welkin__has_estimates(f) ? WELKIN__ESTIMATES : 1u)) return 0;
         for (w = 0; w < f->wavelengths; w++)
             if (!welkin__parameter_is_good(phase, welkin__parameter(f, i, w))) return 0;
     }
@@ -604,7 +643,7 @@ static uint64_t welkin__payload_length(const welkin_file *f, uint32_t kind, uint
     uint64_t q = welkin__ceil16(rank), elevations = f->elevation_intervals + 3;
     uint64_t factors = 4 * q + 2 * q * (welkin__alpha_rows(f) + elevations), phi = 2 * q * (f->phi_intervals + 1);
     switch (kind) {
-    case WELKIN__RADIANCE: return factors + 2 * elevations * f->wavelengths;
+    case WELKIN__RADIANCE: return factors + (welkin__has_estimates(f) ? 0 : 2 * elevations * f->wavelengths);
     case WELKIN__COLUMN: return 4 * (uint64_t)welkin__alpha_rows(f) * f->constituents;
     case WELKIN__BASIS: return phi + 2 * q * welkin__ceil16(f->fields * f->wavelengths);
     case WELKIN__POLARISATION: return factors;
@@ -847,7 +886,117 @@ static welkin_error welkin__read_spectrum(const welkin_file *f, welkin_spectrum 
     return welkin__place_spectrum(f, p, examples, s);
 }
 
+/* ---- estimates ---- */
+
+/* Floats of a row of wavelengths. */
+static uint32_t welkin__estimate_row(const welkin_file *f) { return (f->wavelengths + 7u) & ~7u; }
+
+/* Bytes of a payload with these counts. */
+static uint64_t welkin__estimate_length(const welkin_file *f, const welkin_estimate *t)
+{
+    uint64_t levels = t->levels, row = welkin__estimate_row(f);
+    uint64_t tables = t->estimates * f->constituents * row + 8 * (uint64_t)t->densities + levels * (8 * (uint64_t)t->angles + t->suns * row);
+    return 32 + 4 * (levels + t->rings + t->estimates + tables);
+}
+
+static int welkin__estimate_counts_are_good(const welkin_estimate *t)
+{
+    if (t->levels < 2 || t->levels > WELKIN__ESTIMATE_LEVELS || t->rings > WELKIN__ESTIMATE_RINGS) return 0;
+    if (t->angles < 2 || t->angles > 256 || t->suns < 2 || t->suns > 256 || t->densities < 2 || t->densities > 4096) return 0;
+    return t->estimates >= 1 && t->estimates <= WELKIN__ESTIMATES;
+}
+
+/* The first columns of rows; the others are padding. */
+static int welkin__columns_are_within(const unsigned char *p, size_t rows, size_t row, size_t columns, double low,
+                                      double high)
+{
+    size_t i;
+    for (i = 0; i < rows; i++)
+        if (!welkin__f32s_are_within(p + 4 * i * row, columns, low, high)) return 0;
+    return 1;
+}
+
+static int welkin__levels_are_good(const welkin_file *f, const welkin_estimate *t)
+{
+    uint32_t i;
+    if (welkin__f32(t->level) != 0 || welkin__f32(t->level + 4 * (size_t)(t->levels - 1)) != (float)f->top_altitude) return 0;
+    for (i = 1; i < t->levels; i++)
+        if (!((double)welkin__f32(t->level + 4 * (size_t)i) - (double)welkin__f32(t->level + 4 * (size_t)(i - 1)) >= 0.001)) return 0;
+    return welkin__f32s_are_within(t->ring, t->rings, 0, f->top_altitude);
+}
+
+static int welkin__estimate_tables_are_good(const welkin_file *f, const welkin_estimate *t)
+{
+    size_t nk = f->constituents, nw = f->wavelengths, row = welkin__estimate_row(f);
+    uint32_t i;
+    for (i = 0; i < t->estimates; i++)
+        if (welkin__u32(t->scatters + 4 * (size_t)i) >> nk != 0) return 0;
+    return welkin__columns_are_within(t->albedo, t->estimates * nk, row, nw, 0, 1) &&
+           welkin__columns_are_within(t->density, t->densities, 8, nk, 0, 1e6) &&
+           welkin__columns_are_within(t->column, (size_t)t->levels * t->angles, 8, nk, -80, 80) &&
+           welkin__columns_are_within(t->light, (size_t)t->levels * t->suns, row, nw, -80, 80);
+}
+
+/* Sets where the tables are, and checks them; the counts are in their ranges and the length is right. */
+static welkin_error welkin__place_estimate(const welkin_file *f, const unsigned char *p, size_t length,
+                                           welkin_estimate *t)
+{
+    size_t row = welkin__estimate_row(f);
+    t->level = p + 32;
+    t->ring = t->level + 4 * (size_t)t->levels;
+    t->scatters = t->ring + 4 * (size_t)t->rings;
+    t->albedo = t->scatters + 4 * (size_t)t->estimates;
+    t->density = t->albedo + 4 * t->estimates * f->constituents * row;
+    t->column = t->density + 32 * (size_t)t->densities;
+    t->light = t->column + 32 * (size_t)t->levels * t->angles;
+    t->sun_lowest = (double)welkin__f32(p + 24);
+    t->sun_width = (double)welkin__f32(p + 28);
+    if (!welkin__within(t->sun_lowest, -1, 0) || !welkin__within(t->sun_width, 1e-3, 1e3)) return WELKIN_ERROR_VALUE;
+    if (!welkin__f32s_are_finite(t->albedo, (length - (size_t)(t->albedo - p)) / 4)) return WELKIN_ERROR_VALUE; /* also padding */
+    return welkin__levels_are_good(f, t) && welkin__estimate_tables_are_good(f, t) ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+static welkin_error welkin__read_estimate(const welkin_file *f, welkin_estimate *t)
+{
+    welkin__entry entry;
+    const unsigned char *p;
+    welkin_error error = welkin__find(f, WELKIN__ESTIMATE, WELKIN__NONE, WELKIN__NONE, &entry);
+    if (!error) error = welkin__payload(f, &entry, &p);
+    if (error) return error;
+    if (entry.raw < 32) return WELKIN_ERROR_VALUE;
+    t->levels = welkin__u32(p);
+    t->angles = welkin__u32(p + 4);
+    t->suns = welkin__u32(p + 8);
+    t->densities = welkin__u32(p + 12);
+    t->rings = welkin__u32(p + 16);
+    t->estimates = welkin__u32(p + 20);
+    if (!welkin__estimate_counts_are_good(t) || entry.raw != welkin__estimate_length(f, t)) return WELKIN_ERROR_VALUE;
+    return welkin__place_estimate(f, p, (size_t)entry.raw, t);
+}
+
+/* The estimate that a field is relative to; in its range even if a mapped file changed. */
+static uint32_t welkin__field_estimate(const welkin_file *f, uint32_t index)
+{
+    uint32_t estimate = welkin__field(f, index) >> 24;
+    return estimate < f->estimate.estimates ? estimate : 0;
+}
+
+static int welkin__fields_have_estimates(const welkin_file *f)
+{
+    uint32_t i;
+    if (f->estimate.error) return 1; /* not known */
+    for (i = 0; i < f->fields; i++)
+        if (welkin__field(f, i) >> 24 >= f->estimate.estimates) return 0;
+    return 1;
+}
+
 /* ---- opening ---- */
+
+/* Whether a file has this feature if and only if it has the chunk of the feature. */
+static int welkin__is_declared(const welkin_file *f, uint32_t feature, welkin_error chunk)
+{
+    return (chunk != WELKIN_ERROR_MISSING) == ((f->features & feature) != 0);
+}
 
 static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t length, int unpacked)
 {
@@ -869,7 +1018,9 @@ static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t le
     welkin__find_ranks(file);
     if (!welkin__entries_are_good(file) || welkin__has_duplicates(file)) return WELKIN_ERROR_VALUE;
     file->spectrum.error = welkin__read_spectrum(file, &file->spectrum);
-    if ((file->spectrum.error != WELKIN_ERROR_MISSING) != ((welkin__u32(file->bytes + 12) & WELKIN__HAS_SPECTRUM) != 0))
+    file->estimate.error = welkin__read_estimate(file, &file->estimate);
+    if (!welkin__is_declared(file, WELKIN__HAS_SPECTRUM, file->spectrum.error) ||
+        !welkin__is_declared(file, WELKIN__HAS_ESTIMATES, file->estimate.error) || !welkin__fields_have_estimates(file))
         return WELKIN_ERROR_VALUE;
     file->metadata = (const char *)(file->bytes + file->metadata_at);
     return WELKIN_OK;
@@ -1224,7 +1375,7 @@ static welkin_error welkin__find_scene(const welkin_file *f, double altitude, do
     welkin__stencil b = welkin__cubic(f->bytes + f->visibility_at, f->visibilities, visibility, WELKIN__INVERSE);
     memset(scene, 0, sizeof *scene);
     if (welkin__find(f, WELKIN__BASIS, WELKIN__NONE, WELKIN__NONE, &scene->basis)) return WELKIN_ERROR_MISSING;
-    if (welkin__find_columns(f, &a, scene)) return WELKIN_ERROR_MISSING;
+    if (!welkin__has_estimates(f) && welkin__find_columns(f, &a, scene)) return WELKIN_ERROR_MISSING;
     if (welkin__find_cells(f, &a, &b, WELKIN__RADIANCE, scene->radiance, &scene->radiances)) return WELKIN_ERROR_MISSING;
     if (!(flags & WELKIN_POLARISED)) return WELKIN_OK;
     if (welkin__find(f, WELKIN__POLARISATION_BASIS, WELKIN__NONE, WELKIN__NONE, &scene->polarisation_basis)) return WELKIN_ERROR_MISSING;
@@ -1238,10 +1389,25 @@ static size_t welkin__table_floats(const welkin_file *f, uint32_t rank, uint32_t
     return row * (alpha + phi + c) + dense;
 }
 
+/* Of the tables of estimates; none if those cannot be used. */
+static size_t welkin__estimate_floats(const welkin_file *f)
+{
+    const welkin_estimate *t = &f->estimate;
+    size_t row = welkin__estimate_row(f), levels = t->levels;
+    if (t->error) return 0;
+    return (1 + (size_t)t->estimates) * f->constituents * row + 8 * (size_t)t->densities + levels * (8 * (size_t)t->angles + t->suns * row);
+}
+
+/* Of the mean densities, which files with estimates do without. */
+static size_t welkin__column_floats(const welkin_file *f)
+{
+    return welkin__has_estimates(f) ? 0 : (size_t)welkin__alpha_rows(f) * f->constituents;
+}
+
 WELKIN_API size_t welkin_scratch_floats(const welkin_file *f, unsigned flags)
 {
     size_t nw = f->wavelengths;
-    size_t floats = (size_t)welkin__alpha_rows(f) * f->constituents + f->constituents * nw + 2 * nw + 4 * f->fields * nw;
+    size_t floats = welkin__column_floats(f) + f->constituents * nw + 2 * nw + 4 * f->fields * nw + welkin__estimate_floats(f);
     floats += welkin__table_floats(f, f->rank, f->fields * f->wavelengths, flags);
     if (flags & WELKIN_POLARISED) floats += welkin__table_floats(f, f->polarisation_rank, 4 * f->wavelengths, flags);
     return floats;
@@ -1269,15 +1435,28 @@ static void welkin__carve_table(const welkin_file *f, welkin_table *t, uint32_t 
     t->dense = flags & WELKIN_DENSE ? welkin__carve(scratch, alpha * phi * t->channels) : NULL;
 }
 
+static void welkin__carve_estimate(const welkin_file *f, welkin_estimate_tables *t, float **scratch)
+{
+    const welkin_estimate *e = &f->estimate;
+    size_t row = welkin__estimate_row(f), air = f->constituents * row, levels = e->levels;
+    t->row = (uint32_t)row;
+    t->extinction = welkin__carve(scratch, air);
+    t->scattering = welkin__carve(scratch, e->estimates * air);
+    t->density = welkin__carve(scratch, 8 * (size_t)e->densities);
+    t->column = welkin__carve(scratch, 8 * levels * e->angles);
+    t->light = welkin__carve(scratch, levels * e->suns * row);
+}
+
 static void welkin__carve_sky(welkin_sky *sky, float *scratch)
 {
     const welkin_file *f = sky->file;
     size_t nw = f->wavelengths;
-    sky->column = welkin__carve(&scratch, (size_t)welkin__alpha_rows(f) * f->constituents);
+    sky->column = welkin__carve(&scratch, welkin__column_floats(f));
     sky->extinction = welkin__carve(&scratch, f->constituents * nw);
     sky->level = welkin__carve(&scratch, nw);
     sky->bounce = welkin__carve(&scratch, nw);
     sky->phase = welkin__carve(&scratch, 4 * f->fields * nw);
+    if (welkin__has_estimates(f)) welkin__carve_estimate(f, &sky->estimate, &scratch);
     welkin__carve_table(f, &sky->radiance, f->rank, f->fields * f->wavelengths, sky->flags, &scratch);
     if (sky->flags & WELKIN_POLARISED)
         welkin__carve_table(f, &sky->polarisation, f->polarisation_rank, 4 * f->wavelengths, sky->flags, &scratch);
@@ -1330,6 +1509,47 @@ static void welkin__prepare_phases(welkin_sky *sky)
         uint32_t phase = welkin__field(f, i) & 0xFFFFu;
         for (w = 0; w < f->wavelengths; w++) welkin__prepare_phase(phase, welkin__parameter(f, i, w), sky->phase + 4 * i * nw + w, nw);
     }
+}
+
+/* Copies the first columns of rows; the others stay 0. */
+static void welkin__copy_columns(const unsigned char *p, size_t rows, size_t row, size_t columns, float *out)
+{
+    size_t i, c;
+    for (i = 0; i < rows; i++)
+        for (c = 0; c < columns; c++) out[i * row + c] = welkin__f32(p + 4 * (i * row + c));
+}
+
+static double welkin__sun_scale(const welkin_estimate *e, double sine) { return asinh(sine / e->sun_width); }
+
+static void welkin__prepare_scattering(const welkin_file *f, welkin_estimate_tables *t)
+{
+    const welkin_estimate *e = &f->estimate;
+    size_t nk = f->constituents, row = t->row, q, k, w;
+    for (q = 0; q < e->estimates; q++)
+        for (k = 0; k < nk; k++)
+            for (w = 0; w < f->wavelengths && (welkin__u32(e->scatters + 4 * q) >> k & 1u) != 0; w++) {
+                size_t i = (q * nk + k) * row + w;
+                t->scattering[i] = welkin__f32(e->albedo + 4 * i) * t->extinction[k * row + w];
+            }
+}
+
+static void welkin__prepare_estimate(welkin_sky *sky)
+{
+    const welkin_file *f = sky->file;
+    const welkin_estimate *e = &f->estimate;
+    welkin_estimate_tables *t = &sky->estimate;
+    size_t nk = f->constituents, nw = f->wavelengths, k, w;
+    uint32_t i;
+    for (i = 0; i < e->levels; i++) t->level[i] = (double)welkin__f32(e->level + 4 * (size_t)i);
+    for (i = 0; i < e->rings; i++) t->ring[i] = (double)welkin__f32(e->ring + 4 * (size_t)i);
+    t->sun_start = welkin__sun_scale(e, e->sun_lowest);
+    t->sun_scale = (e->suns - 1) / (welkin__sun_scale(e, 1) - t->sun_start);
+    for (k = 0; k < nk; k++)
+        for (w = 0; w < nw; w++) t->extinction[k * t->row + w] = sky->extinction[k * nw + w];
+    welkin__prepare_scattering(f, t);
+    welkin__copy_columns(e->density, e->densities, 8, nk, t->density);
+    welkin__copy_columns(e->column, (size_t)e->levels * e->angles, 8, nk, t->column);
+    welkin__copy_columns(e->light, (size_t)e->levels * e->suns, t->row, nw, t->light);
 }
 
 static welkin_error welkin__prepare_columns(welkin_sky *sky, const welkin__scene *scene)
@@ -1460,7 +1680,8 @@ static welkin_error welkin__prepare_radiance(welkin_sky *sky, const welkin__scen
     double level[WELKIN_MAX_WAVELENGTHS] = {0};
     uint32_t w;
     welkin_error error = welkin__read_basis(f, &scene->basis, f->fields * f->wavelengths, &sky->radiance);
-    if (!error) error = welkin__add_cells(f, &sky->radiance, scene->radiance, scene->radiances, elevation, level);
+    if (!error)
+        error = welkin__add_cells(f, &sky->radiance, scene->radiance, scene->radiances, elevation, welkin__has_estimates(f) ? NULL : level);
     if (error) return error;
     for (w = 0; w < f->wavelengths; w++) sky->level[w] = welkin__narrow(exp(level[w]));
     welkin__fade(f, &sky->radiance, sky->fade);
@@ -1515,12 +1736,14 @@ WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file,
     sky->flags = flags;
     if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
     error = welkin__find_scene(file, c.altitude, c.visibility, flags, &scene);
+    if (!error && welkin__has_estimates(file)) error = file->estimate.error;
     if (error) return error;
     if (scratch_floats < welkin_scratch_floats(file, flags)) return WELKIN_ERROR_SCRATCH;
     welkin__carve_sky(sky, scratch);
     welkin__prepare_geometry(sky, &c);
     welkin__prepare_head_tables(sky, c.visibility, c.albedo);
     welkin__prepare_phases(sky);
+    if (welkin__has_estimates(file)) welkin__prepare_estimate(sky);
     elevation = welkin__elevation_spline(file, c.solar_elevation);
     error = welkin__prepare_columns(sky, &scene);
     if (!error) error = welkin__prepare_radiance(sky, &scene, &elevation);
@@ -1641,7 +1864,7 @@ static float welkin__absorbed(float depth)
 static void welkin__envelope(const welkin_sky *sky, const welkin__view *view, float *out)
 {
     const welkin_file *f = sky->file;
-    uint32_t absorbers = welkin__u32(f->bytes + 12) >> WELKIN__ABSORBERS_SHIFT;
+    uint32_t absorbers = f->features >> WELKIN__ABSORBERS_SHIFT;
     double length = welkin__ray_length(sky, view), mean;
     float scattering[WELKIN_MAX_WAVELENGTHS];
     uint32_t k, w, i;
@@ -1722,8 +1945,365 @@ static void welkin__apply_henyey_greenstein(const float *p, size_t nw, const wel
     }
 }
 
-/* Sum of the fields times phase functions and ground; and of what polarises, if asked. */
-static void welkin__sum_fields(const welkin_sky *sky, const welkin__view *view, float *sum, float *polarising)
+/* ---- what estimates say about a direction ---- */
+
+/* Columns above this (m) are as dark, and their sums over constituents, times an extinction, stay finite. */
+#define WELKIN__MAX_COLUMN 1e30
+
+/* A place along the ray where the estimates are computed. */
+typedef struct welkin__stop {
+    double distance, altitude, sun; /* sun: of its centre above the geometric horizon, in radii of the disc */
+    double column[WELKIN__ESTIMATE_CONSTITUENTS]; /* to the observer */
+    float density[WELKIN__ESTIMATE_CONSTITUENTS];
+    float depth[WELKIN__ESTIMATE_WAVELENGTHS], sunlit[WELKIN__ESTIMATE_WAVELENGTHS]; /* p and its exp(-p) */
+    float dimming[WELKIN__ESTIMATE_WAVELENGTHS], diffuse[WELKIN__ESTIMATE_WAVELENGTHS]; /* q and its exp(-q) */
+} welkin__stop;
+
+/* The ray of a direction. */
+typedef struct welkin__ray {
+    double fall, towards, length; /* towards: cosine of the angle between ray and sun */
+    uint32_t count;
+    double distance[2 + 2 * WELKIN__ESTIMATE_LEVELS + 2 * WELKIN__ESTIMATE_RINGS];
+} welkin__ray;
+
+static void welkin__add_stop(welkin__ray *ray, double distance)
+{
+    uint32_t i = ray->count;
+    if (!(distance > 0 && distance < ray->length)) return;
+    for (; i > 0 && ray->distance[i - 1] > distance; i--) ray->distance[i] = ray->distance[i - 1];
+    ray->distance[i] = distance;
+    ray->count++;
+}
+
+/* Roots of a x^2 + 2 b x + c, a > 0, without cancellation; 0 for none. */
+static int welkin__roots(double a, double b, double c, double roots[2])
+{
+    double square = b * b - a * c, sum;
+    if (!(square >= 0)) return 0;
+    sum = b > 0 ? -b - sqrt(square) : -b + sqrt(square);
+    roots[0] = sum / a;
+    roots[1] = sum != 0 ? c / sum : 0;
+    return 1;
+}
+
+static void welkin__add_ring(const welkin_sky *sky, const welkin__view *view, double altitude, welkin__ray *ray)
+{
+    double start = sky->file->planet_radius + sky->altitude, edge = sky->file->planet_radius + altitude;
+    double sine = sky->sun[2], across = start * sqrt(sky->sun[0] * sky->sun[0] + sky->sun[1] * sky->sun[1]), roots[2];
+    const double *v = view->v, *s = sky->sun;
+    double x = v[1] * s[2] - v[2] * s[1], y = v[2] * s[0] - v[0] * s[2], z = v[0] * s[1] - v[1] * s[0], square = x * x + y * y + z * z;
+    int i;
+    if (!(square >= 1e-9)) return;
+    if (!welkin__roots(square, start * (v[2] - sine * ray->towards), (across - edge) * (across + edge), roots)) return;
+    for (i = 0; i < 2; i++)
+        if (start * sine + roots[i] * ray->towards < 0) welkin__add_stop(ray, roots[i]);
+}
+
+static void welkin__find_stops(const welkin_sky *sky, const welkin__view *view, welkin__ray *ray)
+{
+    const welkin_file *f = sky->file;
+    double radius = f->planet_radius, h = sky->altitude, roots[2];
+    uint32_t i;
+    ray->fall = (radius + h) * view->v[2];
+    ray->towards = view->v[0] * sky->sun[0] + view->v[1] * sky->sun[1] + view->v[2] * sky->sun[2];
+    ray->length = welkin__ray_length(sky, view);
+    ray->distance[0] = 0;
+    ray->count = 1;
+    for (i = 1; i < f->estimate.levels; i++) {
+        double z = sky->estimate.level[i];
+        if (!welkin__roots(1, ray->fall, (h - z) * (2 * radius + h + z), roots)) continue;
+        welkin__add_stop(ray, roots[0]);
+        welkin__add_stop(ray, roots[1]);
+    }
+    if (view->up) welkin__add_stop(ray, -ray->fall);
+    for (i = 0; i < f->estimate.rings; i++) welkin__add_ring(sky, view, sky->estimate.ring[i], ray);
+    ray->distance[ray->count++] = ray->length;
+}
+
+/* A place on an axis of n nodes: the share of the node behind `node`. */
+typedef struct welkin__place {
+    uint32_t node;
+    double share;
+} welkin__place;
+
+static welkin__place welkin__place_at(double coordinate, uint32_t n)
+{
+    welkin__place place;
+    if (!(coordinate > 0)) coordinate = 0;
+    if (coordinate > (double)(n - 1)) coordinate = (double)(n - 1);
+    place.node = (uint32_t)coordinate;
+    if (place.node > n - 2) place.node = n - 2;
+    place.share = coordinate - (double)place.node;
+    return place;
+}
+
+static welkin__place welkin__level_place(const welkin_sky *sky, double altitude)
+{
+    const double *level = sky->estimate.level;
+    uint32_t i = 0;
+    welkin__place place;
+    while (i + 2 < sky->file->estimate.levels && level[i + 1] <= altitude) i++;
+    place = welkin__place_at((altitude - level[i]) / (level[i + 1] - level[i]), 2);
+    place.node = i;
+    return place;
+}
+
+/* A point of the ray, |P| = radius + altitude: altitude, and the square of the distance from the horizon. */
+static double welkin__altitude_at(const welkin_sky *sky, const welkin__ray *ray, double distance, double *horizon)
+{
+    double radius = sky->file->planet_radius;
+    *horizon = fmax(0, sky->altitude * (2 * radius + sky->altitude) + distance * (distance + 2 * ray->fall));
+    return *horizon / (radius + sqrt(radius * radius + *horizon));
+}
+
+static void welkin__densities(const welkin_sky *sky, double altitude, float *density)
+{
+    uint32_t n = sky->file->estimate.densities, k;
+    welkin__place place = welkin__place_at((n - 1) * sqrt(altitude / sky->file->top_altitude), n);
+    const float *row = sky->estimate.density + 8 * (size_t)place.node;
+    float share = (float)place.share;
+    for (k = 0; k < 8; k++) density[k] = (1 - share) * row[k] + share * row[8 + k];
+}
+
+/* Visible share of the sun's disc. */
+static double welkin__disc(double x)
+{
+    if (x <= -1) return 0;
+    return x >= 1 ? 1 : 0.5 + (x * sqrt(1 - x * x) + asin(x)) / WELKIN__PI;
+}
+
+/* Its integral over x, within -1..=1. */
+static double welkin__disc_integral(double x)
+{
+    double square = fmax(0, 1 - x * x), root = sqrt(square);
+    return x / 2 + (root - square * root / 3 + x * asin(x)) / WELKIN__PI;
+}
+
+/* Height of the visible part's centroid above the horizon. */
+static double welkin__disc_height(double x)
+{
+    double square = 1 - x * x;
+    if (x >= 1) return x;
+    return x <= -0.999 ? 0 : fmax(0, x + 2 / (3 * WELKIN__PI) * square * sqrt(square) / welkin__disc(x));
+}
+
+/* Share of a panel's air before a share of its length, where the panel climbs by `climb` scale heights. */
+static double welkin__air_before(double t, double climb)
+{
+    double steep = fmax(fabs(climb), 0.001);
+    t = fmin(fmax(t, 0), 1);
+    return climb > 0 ? expm1(-steep * t) / expm1(-steep) : 1 - expm1(-steep * (1 - t)) / expm1(-steep);
+}
+
+/* Share of a panel's air that the sun shines on. */
+static double welkin__visible_share(const welkin__stop *from, const welkin__stop *to)
+{
+    double a = from->sun, b = to->sun, climb = (to->altitude - from->altitude) / 8000, pa, pb, mean;
+    double a1 = fmin(fmax(a, -1), 1), b1 = fmin(fmax(b, -1), 1);
+    if ((a >= 1 && b >= 1) || (a <= -1 && b <= -1)) return a > 0 ? 1 : 0;
+    if (fabs(b - a) < 0.01) return welkin__disc((a + b) / 2);
+    pa = welkin__air_before((a1 - a) / (b - a), climb);
+    pb = welkin__air_before((b1 - a) / (b - a), climb);
+    mean = fabs(b1 - a1) < 0.01 ? welkin__disc((a1 + b1) / 2) : (welkin__disc_integral(b1) - welkin__disc_integral(a1)) / (b1 - a1);
+    return fmin(fmax((a >= 1 ? pa : 0) + (pb - pa) * mean + (b >= 1 ? 1 - pb : 0), 0), 1);
+}
+
+/* exp(-x), as if each x were within -88..=87 or infinite, without branches that keep it from being vectorised. */
+static void welkin__decay(const float *values, uint32_t count, float *out)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        float x = values[i] < 87.0f ? values[i] : 87.0f, n, r, power, p;
+        x = x > -88.0f ? x : -88.0f;
+        n = (float)((int)(x * 1.44269504f + 128.5f) - 128);
+        r = n * 0.693359375f - x; /* as in welkin__absorbed */
+        r -= n * 2.12194440e-4f;
+        power = welkin__float((uint32_t)(127 - (int)n) << 23);
+        p = 1.0f / 5040;
+        p = p * r + 1.0f / 720;
+        p = p * r + 1.0f / 120;
+        p = p * r + 1.0f / 24;
+        p = p * r + 1.0f / 6;
+        p = p * r + 0.5f;
+        p = p * r + 1.0f;
+        p = p * r + 1.0f;
+        out[i] = values[i] < 87.0f ? power * p : 0.0f;
+    }
+}
+
+/* Means of exp(-x) between p and q, where it is at_p and at_q. */
+static void welkin__mean_decay(const float *p, const float *q, const float *at_p, const float *at_q, uint32_t count,
+                               float *out)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        float x = q[i] - p[i], series, ratio;
+        int alike = fabsf(x) < 0.25f;
+        series = 1.0f / 120 - x * (1.0f / 720);
+        series = 1.0f / 24 - x * series;
+        series = 1.0f / 6 - x * series;
+        series = 0.5f - x * series;
+        series = at_p[i] * (1.0f - x * series);
+        ratio = (at_p[i] - at_q[i]) / (alike ? 1.0f : x);
+        out[i] = alike ? series : ratio;
+    }
+}
+
+/* Sums over constituents of a table's rows times columns, eight wavelengths at a time. */
+static void welkin__sum_columns(const welkin_sky *sky, const float *table, const double *column, float *out)
+{
+    float c[WELKIN__ESTIMATE_CONSTITUENTS], sum[8];
+    size_t row = sky->estimate.row, nk = sky->file->constituents, k, w;
+    int i;
+    for (k = 0; k < nk; k++) c[k] = welkin__narrow(column[k]);
+    for (w = 0; w + 8 <= row; w += 8) {
+        for (i = 0; i < 8; i++) sum[i] = 0;
+        for (k = 0; k < nk; k++)
+            for (i = 0; i < 8; i++) sum[i] += table[k * row + w + (size_t)i] * c[k];
+        for (i = 0; i < 8; i++) out[w + (size_t)i] = sum[i];
+    }
+}
+
+/* Columns from a stop to the sun. */
+static void welkin__columns_to_sun(const welkin_sky *sky, const welkin__place *level, double height, double dip,
+                                   double *column)
+{
+    uint32_t n = sky->file->estimate.angles, k;
+    double angle = welkin__disc_height(height) * WELKIN__SUN_RADIUS / (WELKIN__HALF_PI + dip);
+    welkin__place place = welkin__place_at((n - 1) * sqrt(angle), n);
+    const float *low = sky->estimate.column + 8 * ((size_t)level->node * n + place.node), *high = low + 8 * (size_t)n;
+    for (k = 0; k < sky->file->constituents; k++) {
+        double below = (1 - place.share) * (double)low[k] + place.share * (double)low[8 + k];
+        double above = (1 - place.share) * (double)high[k] + place.share * (double)high[8 + k];
+        column[k] = exp((1 - level->share) * below + level->share * above);
+    }
+}
+
+/* ln of the diffuse light at a stop. */
+static void welkin__diffuse_light(const welkin_sky *sky, const welkin__place *level, double sine, float *light)
+{
+    const welkin_estimate_tables *t = &sky->estimate;
+    uint32_t n = sky->file->estimate.suns, w;
+    welkin__place place = welkin__place_at((asinh(sine / sky->file->estimate.sun_width) - t->sun_start) * t->sun_scale, n);
+    const float *low = t->light + ((size_t)level->node * n + place.node) * t->row, *high = low + (size_t)n * t->row;
+    float weight[4];
+    weight[0] = (float)((1 - level->share) * (1 - place.share));
+    weight[1] = (float)((1 - level->share) * place.share);
+    weight[2] = (float)(level->share * (1 - place.share));
+    weight[3] = (float)(level->share * place.share);
+    for (w = 0; w < t->row; w++) light[w] = 0;
+    welkin__add_rows(light, low, low + t->row, high, high + t->row, weight, t->row);
+}
+
+/* Depths of a stop, whose distance, altitude and columns are known. */
+static void welkin__light_stop(const welkin_sky *sky, const welkin__ray *ray, double horizon, welkin__stop *stop)
+{
+    double radius = sky->file->planet_radius, dip = atan(sqrt(horizon) / radius), columns[WELKIN__ESTIMATE_CONSTITUENTS];
+    double sine = ((radius + sky->altitude) * sky->sun[2] + stop->distance * ray->towards) / (radius + stop->altitude);
+    float light[WELKIN__ESTIMATE_WAVELENGTHS];
+    welkin__place level = welkin__level_place(sky, stop->altitude);
+    uint32_t k, w, row = sky->estimate.row;
+    sine = fmin(fmax(sine, -1), 1);
+    stop->sun = (asin(sine) + dip) / WELKIN__SUN_RADIUS;
+    welkin__columns_to_sun(sky, &level, stop->sun, dip, columns);
+    welkin__diffuse_light(sky, &level, sine, light);
+    for (k = 0; k < sky->file->constituents; k++) columns[k] = fmin(columns[k] + stop->column[k], WELKIN__MAX_COLUMN);
+    welkin__sum_columns(sky, sky->estimate.extinction, columns, stop->depth);
+    welkin__sum_columns(sky, sky->estimate.extinction, stop->column, stop->dimming);
+    for (w = 0; w < row; w++) stop->dimming[w] -= light[w];
+    welkin__decay(stop->depth, row, stop->sunlit);
+    welkin__decay(stop->dimming, row, stop->diffuse);
+}
+
+/* Adds the columns of the panel before the stop, which has its density. */
+static void welkin__add_panel_columns(const welkin_sky *sky, const welkin__ray *ray, const welkin__stop *before,
+                                      welkin__stop *stop, double *panel)
+{
+    float middle[WELKIN__ESTIMATE_CONSTITUENTS];
+    double horizon;
+    uint32_t k;
+    welkin__densities(sky, welkin__altitude_at(sky, ray, (before->distance + stop->distance) / 2, &horizon), middle);
+    for (k = 0; k < sky->file->constituents; k++) {
+        double sum = (double)before->density[k] + 4 * (double)middle[k] + (double)stop->density[k];
+        panel[k] = (stop->distance - before->distance) / 6 * sum;
+        stop->column[k] = before->column[k] + panel[k];
+    }
+}
+
+/* Adds the light of a panel to one estimate. */
+static void welkin__add_light(const welkin_sky *sky, uint32_t index, const double *panel, const float *mean, float *sum)
+{
+    float scattered[WELKIN__ESTIMATE_WAVELENGTHS];
+    uint32_t row = sky->estimate.row, w;
+    welkin__sum_columns(sky, sky->estimate.scattering + (size_t)index * sky->file->constituents * row, panel, scattered);
+    for (w = 0; w < row; w++) sum[w] += mean[w] * scattered[w];
+}
+
+static void welkin__add_panel(const welkin_sky *sky, const welkin__stop *from, const welkin__stop *to,
+                              const double *panel, float (*estimates)[WELKIN__ESTIMATE_WAVELENGTHS])
+{
+    uint32_t last = sky->file->estimate.estimates - 1, row = sky->estimate.row, q, w;
+    float mean[WELKIN__ESTIMATE_WAVELENGTHS], share = last > 0 ? (float)welkin__visible_share(from, to) : 0;
+    welkin__mean_decay(from->dimming, to->dimming, from->diffuse, to->diffuse, row, mean);
+    welkin__add_light(sky, last, panel, mean, estimates[last]);
+    if (!(share > 0)) return;
+    welkin__mean_decay(from->depth, to->depth, from->sunlit, to->sunlit, row, mean);
+    for (w = 0; w < row; w++) mean[w] *= share;
+    for (q = 0; q < last; q++) welkin__add_light(sky, q, panel, mean, estimates[q]);
+}
+
+/* The estimates of a direction. An observer on the ground who looks down has one panel without air. */
+static void welkin__estimate(const welkin_sky *sky, const welkin__view *view,
+                             float (*estimates)[WELKIN__ESTIMATE_WAVELENGTHS])
+{
+    uint32_t last = sky->file->estimate.estimates - 1, row = sky->estimate.row, i, q, w;
+    double panel[WELKIN__ESTIMATE_CONSTITUENTS], horizon;
+    welkin__stop stops[2];
+    welkin__ray ray;
+    welkin__find_stops(sky, view, &ray);
+    for (q = 0; q <= last; q++)
+        for (w = 0; w < row; w++) estimates[q][w] = 0;
+    for (i = 0; i < ray.count; i++) {
+        welkin__stop *stop = &stops[i & 1u], *before = &stops[(i & 1u) ^ 1u];
+        stop->distance = ray.distance[i];
+        stop->altitude = welkin__altitude_at(sky, &ray, stop->distance, &horizon);
+        welkin__densities(sky, stop->altitude, stop->density);
+        if (i > 0)
+            welkin__add_panel_columns(sky, &ray, before, stop, panel);
+        else
+            memset(stop->column, 0, sizeof stop->column);
+        welkin__light_stop(sky, &ray, horizon, stop);
+        if (i > 0) welkin__add_panel(sky, before, stop, panel, estimates);
+    }
+    for (q = 0; q < last; q++)
+        for (w = 0; w < row; w++) estimates[q][w] = estimates[q][w] * (float)(0.25 / WELKIN__PI) + 0.001f * estimates[last][w];
+}
+
+/* What makes light of the channels: (1 - T) w S for all, or an estimate for each field. */
+typedef struct welkin__light {
+    float envelope[WELKIN_MAX_WAVELENGTHS]; /* 1 with estimates */
+    float estimate[WELKIN__ESTIMATES][WELKIN__ESTIMATE_WAVELENGTHS];
+    const float *diffuse; /* the last estimate, or null */
+} welkin__light;
+
+static void welkin__find_light(const welkin_sky *sky, const welkin__view *view, welkin__light *light)
+{
+    uint32_t w;
+    light->diffuse = NULL;
+    if (!welkin__has_estimates(sky->file)) {
+        welkin__envelope(sky, view, light->envelope);
+        return;
+    }
+    for (w = 0; w < sky->file->wavelengths; w++) light->envelope[w] = 1;
+    welkin__estimate(sky, view, light->estimate);
+    light->diffuse = light->estimate[sky->file->estimate.estimates - 1];
+}
+
+/* ---- radiance ---- */
+
+/* Sum of the fields times estimates, phase functions and ground; and of what polarises, if asked. */
+static void welkin__sum_fields(const welkin_sky *sky, const welkin__view *view, const welkin__light *light, float *sum,
+                               float *polarising)
 {
     const welkin_file *f = sky->file;
     float channels[WELKIN_MAX_FIELDS * WELKIN_MAX_WAVELENGTHS];
@@ -1734,6 +2314,9 @@ static void welkin__sum_fields(const welkin_sky *sky, const welkin__view *view, 
         const float *p = sky->phase + 4 * i * nw;
         float *field = channels + i * nw;
         uint32_t code = welkin__field(f, i), phase = code & 0xFFFFu;
+        const float *estimate = light->estimate[welkin__field_estimate(f, i)];
+        if (light->diffuse)
+            for (w = 0; w < nw; w++) field[w] *= estimate[w];
         if (code >> 16 & 1u)
             for (w = 0; w < nw; w++) field[w] *= sky->bounce[w];
         if (polarising && phase == 1)
@@ -1758,15 +2341,16 @@ static welkin_error welkin__finish(uint32_t nw, const float *envelope, const flo
 
 WELKIN_API welkin_error welkin_radiance(const welkin_sky *sky, const double direction[3], float *radiance)
 {
-    float envelope[WELKIN_MAX_WAVELENGTHS], sum[WELKIN_MAX_WAVELENGTHS];
+    float sum[WELKIN_MAX_WAVELENGTHS];
+    welkin__light light;
     welkin__view view;
     uint32_t w;
     welkin_error error = welkin__look(sky, direction, &view);
     if (error) return error;
     for (w = 0; w < sky->file->wavelengths; w++) sum[w] = 0;
-    welkin__envelope(sky, &view, envelope);
-    welkin__sum_fields(sky, &view, sum, NULL);
-    return welkin__finish(sky->file->wavelengths, envelope, sum, radiance);
+    welkin__find_light(sky, &view, &light);
+    welkin__sum_fields(sky, &view, &light, sum, NULL);
+    return welkin__finish(sky->file->wavelengths, light.envelope, sum, radiance);
 }
 
 /* ---- polarisation ---- */
@@ -1784,24 +2368,27 @@ static welkin_error welkin__limit_polarisation(float radiance, double q, double 
 WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direction[3], float *radiance, float *q,
                                       float *u)
 {
-    float envelope[WELKIN_MAX_WAVELENGTHS], sum[WELKIN_MAX_WAVELENGTHS] = {0}, polarising[WELKIN_MAX_WAVELENGTHS] = {0};
-    float multiple[4 * WELKIN_MAX_WAVELENGTHS];
+    float sum[WELKIN_MAX_WAVELENGTHS] = {0}, polarising[WELKIN_MAX_WAVELENGTHS] = {0}, multiple[4 * WELKIN_MAX_WAVELENGTHS];
+    welkin__light light;
     double p1, p2, level = sky->sun[0] * sky->cos_azimuth + sky->sun[1] * sky->sin_azimuth;
     welkin__view view;
     uint32_t nw = sky->file->wavelengths, w;
     welkin_error error = sky->flags & WELKIN_POLARISED ? welkin__look(sky, direction, &view) : WELKIN_ERROR_MISSING;
     if (error) return error;
-    welkin__envelope(sky, &view, envelope);
-    welkin__sum_fields(sky, &view, sum, polarising);
-    error = welkin__finish(nw, envelope, sum, radiance);
+    welkin__find_light(sky, &view, &light);
+    welkin__sum_fields(sky, &view, &light, sum, polarising);
+    error = welkin__finish(nw, light.envelope, sum, radiance);
     if (error) return error;
     welkin__sum(sky->file, &sky->polarisation, &view, multiple);
     p1 = view.level * sky->sun[2] - view.v[2] * level * view.cos_phi;
     p2 = level * view.sin_phi;
     for (w = 0; w < nw && !error; w++) {
-        double d = (double)polarising[w], bounce = (double)sky->bounce[w], size = (double)envelope[w];
-        double q_sum = d * (p2 * p2 - p1 * p1) + (double)multiple[w] + bounce * (double)multiple[2 * nw + w];
-        double u_sum = -2 * d * p1 * p2 + sky->fade * view.sin_phi * ((double)multiple[nw + w] + bounce * (double)multiple[3 * nw + w]);
+        double d = (double)polarising[w], bounce = (double)sky->bounce[w], size = (double)light.envelope[w];
+        double diffuse = light.diffuse ? (double)light.diffuse[w] : 1;
+        double q_more = diffuse * ((double)multiple[w] + bounce * (double)multiple[2 * nw + w]);
+        double u_more = diffuse * ((double)multiple[nw + w] + bounce * (double)multiple[3 * nw + w]);
+        double q_sum = d * (p2 * p2 - p1 * p1) + q_more;
+        double u_sum = -2 * d * p1 * p2 + sky->fade * view.sin_phi * u_more;
         error = welkin__limit_polarisation(radiance[w], size * q_sum, size * u_sum, &q[w], &u[w]);
     }
     return error;
@@ -2223,8 +2810,6 @@ WELKIN_API welkin_error welkin_transmittance_at(const welkin_transmittance_profi
 
 /* ---- light that segments scatter ---- */
 
-#define WELKIN__SUN_RADIUS 0.004654793
-#define WELKIN__PI (2 * WELKIN__HALF_PI)
 #define WELKIN__MAX_MOMENTS 32
 #define WELKIN__MAX_COMPONENTS 64
 #define WELKIN__MAX_HARMONICS 325 /* of degree 24 */

@@ -2,6 +2,7 @@
 
 import struct
 import zlib
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,6 +11,15 @@ from welkin_sky import _head
 RADIUS, TOP = 6.378e6, 1e5
 EDGES = np.array([0.0, 1e3, 3e3, 8e3, 16e3, 32e3, TOP])
 SOURCE_LEVEL = 0.01
+
+
+@dataclass(frozen=True)
+class Chunk:
+    kind: int
+    payload: bytes
+    visibility: int = _head.NONE
+    altitude: int = _head.NONE
+    rank: int = 0
 
 
 def profile():
@@ -47,34 +57,36 @@ def aerial_file(phase, extinction, scattering, spectrum=None, features=None):
     extinction: m⁻¹, a number or one for each node
     """
     chunks = [
-        (_head.TRANSMITTANCE, _head.NONE, transmittance_chunk()),
-        (_head.SOURCE, 0, source_chunk(phase, scattering)),
-        (_head.SOURCE_BASIS, _head.NONE, source_basis_chunk()),
+        Chunk(_head.TRANSMITTANCE, transmittance_chunk()),
+        Chunk(_head.SOURCE, source_chunk(phase, scattering), visibility=0),
+        Chunk(_head.SOURCE_BASIS, source_basis_chunk()),
     ]
     if spectrum is not None:
-        chunks.append((_head.SPECTRUM, _head.NONE, spectrum))
+        chunks.append(Chunk(_head.SPECTRUM, spectrum))
     features = int(spectrum is not None) if features is None else features
     return small_file(chunks, np.broadcast_to(extinction, 2), features)
 
 
-def small_file(chunks, extinction, features=0):
-    """The bytes of a file with chunks (kind, visibility, payload); extinction (2,) in m⁻¹."""
-    arrays = np.array([400, 700, 0, 2e4, 5e4, *extinction, 0, 0, 0, 0], "<f8")
+def small_file(chunks, extinction, features=0, fields=(0,)):
+    """The bytes of a file with chunks; extinction (2,) in m⁻¹, the codes of the fields."""
+    arrays = np.array([400, 700, 0, 2e4, 5e4, *extinction, 0, 0, *[0, 0] * len(fields)], "<f8")
     # Before the extinction stand the wavelengths, two altitudes and the visibility.
     body = arrays.tobytes() + np.array([1.0] * 6 + [400.0, 300.0], "<f8").tobytes()
-    body += np.array([1.0, 1.0], "<f4").tobytes() + struct.pack("<I", 0) + b"{}\0\0"
+    body += np.array([1.0, 1.0], "<f4").tobytes() + np.array(fields, "<u4").tobytes() + b"{}"
+    body += bytes(-len(body) % 8)
     head_length = 128 + len(body) + 64 * len(chunks)
     directory, data = b"", b""
-    for kind, visibility, payload in chunks:
+    for chunk in chunks:
         data += bytes(-(head_length + len(data)) % 64)
-        size = len(payload)
-        entry = (kind, 0xFFFF, visibility, head_length + len(data), size, size, 0)
-        directory += struct.pack("<IHHQQQIIIIffQ", *entry, zlib.crc32(payload), 0, 0, 0.0, 0.0, 0)
-        data += payload
-    counts = (2, 2, 1, 1, 1, 1, 1, 1, 1, 2)
+        size, crc = len(chunk.payload), zlib.crc32(chunk.payload)
+        place = (chunk.kind, chunk.altitude, chunk.visibility, head_length + len(data))
+        directory += struct.pack("<IHHQQQIIIIffQ", *place, size, size, 0, crc, chunk.rank, 0, 0.0, 0.0, 0)
+        data += chunk.payload
+    counts = (2, 2, 1, len(fields), 1, 1, 1, 1, 1, 2)
     floats = (RADIUS, TOP, 3.0, 2.5, -np.pi / 2, np.pi / 2, 0.0, 0.06)
     length = head_length + len(data)
-    front = struct.pack("<8sHHIQQ", _head.MAGIC, 1, min(features, 1), features, length, head_length)
+    minor = 2 if features & _head.HAS_ESTIMATES else min(features, 1)
+    front = struct.pack("<8sHHIQQ", _head.MAGIC, 1, minor, features, length, head_length)
     rest = struct.pack("<I10HI8d", len(chunks), *counts, 2, *floats) + body + directory
     crc = zlib.crc32(front + bytes(4) + rest)
     return front + struct.pack("<I", crc) + rest + data

@@ -143,7 +143,7 @@ class Spectrum(unittest.TestCase):
         for spectrum, features, refusal in (
             (spectrum_chunk(), 0, welkin_sky.InvalidValueError),
             (None, 1, welkin_sky.InvalidValueError),
-            (spectrum_chunk(), 3, welkin_sky.FeatureError),
+            (spectrum_chunk(), 4 | 1, welkin_sky.FeatureError),
         ):
             with self.assertRaises(refusal):
                 open_file(spectrum, features)

@@ -6,12 +6,11 @@ import numpy as np
 
 from . import _head
 from ._axes import linear_weights, node_weights
-from ._geometry import azimuthal_fade, elevation_of, horizon_dip, sun_across, sun_vector
+from ._geometry import SOLAR_RADIUS, azimuthal_fade, elevation_of, horizon_dip, sun_across, sun_vector
 from ._head import PHASE_RAYLEIGH, check_phase, require, require_increasing, require_within
 from ._phase import Angle, phase_function, rayleigh_share
 from ._transmittance import altitude_on_line, path_integrals, profile_at
 
-SOLAR_RADIUS = 0.004654793
 TENSOR = 4
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _head
 from ._aerial_perspective import decode_source, decode_source_basis
+from ._estimate import decode_estimate
 from ._head import NONE, Cursor, require, require_within, round_up
 from ._spectrum import decode_spectrum
 from ._zstd import decompress
@@ -22,6 +23,7 @@ _NAMES = {
     _head.POLARISATION_BASIS: "polarisation basis",
     _head.SOURCE_BASIS: "source basis",
     _head.SPECTRUM: "spectrum",
+    _head.ESTIMATE: "estimate",
 }
 
 
@@ -109,6 +111,7 @@ def _decode(payload, entry, head):
         _head.SOURCE: decode_source,
         _head.SOURCE_BASIS: decode_source_basis,
         _head.SPECTRUM: decode_spectrum,
+        _head.ESTIMATE: decode_estimate,
     }
     return decoders[entry.kind](Payload(payload), entry, head)
 
@@ -141,7 +144,7 @@ def _directional(payload, entry, head):
     down = payload.take("<f2", counts["nd"] + 3, q)[:, :rank]
     elevation = payload.take("<f2", counts["ne"] + 3, q)[:, :rank]
     level = None
-    if entry.kind == _head.RADIANCE:
+    if entry.kind == _head.RADIANCE and not head.has_estimates:
         level = payload.take("<f2", counts["ne"] + 3, counts["nw"])
     payload.end()
     return Directional(scale, up, down, elevation, level)

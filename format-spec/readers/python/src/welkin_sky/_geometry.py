@@ -6,6 +6,9 @@ import numpy as np
 
 from .errors import DirectionError
 
+SOLAR_RADIUS = 0.004654793
+"""Angular radius of the sun's disc, rad."""
+
 
 def unit_vectors(directions):
     """Normalises directions (…, 3) of any length: (N, 3). Raises DirectionError."""

@@ -24,13 +24,14 @@ MAX_COEFFICIENTS = 1 << 24
 MAX_RANK = 4096
 MAX_EXPANSION = 256
 
-HAS_SPECTRUM = 1
-"""Bit of required_features."""
+HAS_SPECTRUM, HAS_ESTIMATES = 1, 2
+"""Bits of required_features."""
 ABSORBERS_SHIFT = 16
 """From this bit of required_features on: which constituents absorb and do not scatter."""
 
 RADIANCE, COLUMN, RADIANCE_BASIS, TRANSMITTANCE = 1, 2, 3, 4
 SOURCE, POLARISATION, POLARISATION_BASIS, SOURCE_BASIS, SPECTRUM = 5, 6, 7, 8, 9
+ESTIMATE = 10
 
 # Which kinds belong to an altitude, to a visibility, and have a rank.
 WITH_ALTITUDE = {RADIANCE, COLUMN, POLARISATION}
@@ -39,6 +40,9 @@ WITH_RANK = {RADIANCE, RADIANCE_BASIS, POLARISATION, POLARISATION_BASIS}
 
 PHASE_NONE, PHASE_RAYLEIGH, PHASE_HENYEY_GREENSTEIN = 0, 1, 2
 GROUND_BIT = 1 << 16
+ESTIMATE_SHIFT = 24
+"""From this bit of the code of a field on: the estimate that it is relative to."""
+MAX_ESTIMATES = 4
 
 _HEADER = struct.Struct("<8sHHIQQII10HI8d")
 _ENTRY = struct.Struct("<IHHQQQIIIIffQ")
@@ -123,6 +127,16 @@ class Head:
     metadata_text: str
     chunks: dict
 
+    @property
+    def has_estimates(self):
+        """Whether the fields are relative to estimates."""
+        return self.chunk(ESTIMATE) is not None
+
+    @property
+    def field_estimate(self):
+        """The estimate that each field is relative to, 0 in a file without: (nf,)."""
+        return (self.field >> ESTIMATE_SHIFT).astype(np.intp)
+
     def chunk(self, kind, altitude=NONE, visibility=NONE):
         """The entry of a chunk, or None."""
         return self.chunks.get((kind, altitude, visibility))
@@ -147,9 +161,11 @@ def read_head(source):
     _check_header_values(header, counts)
     arrays = _read_arrays(head[:arrays_length], counts, metadata_length)
     _check_arrays(header, arrays)
-    chunks = _read_directory(head[arrays_length:], head_length, len(source), counts)
-    has_spectrum = (SPECTRUM, NONE, NONE) in chunks
-    require(has_spectrum == bool(header["features"] & HAS_SPECTRUM), "spectrum and feature bit differ")
+    has_estimates = bool(header["features"] & HAS_ESTIMATES)
+    chunks = _read_directory(head[arrays_length:], head_length, len(source), counts, has_estimates)
+    for kind, bit in ((SPECTRUM, HAS_SPECTRUM), (ESTIMATE, HAS_ESTIMATES)):
+        present = (kind, NONE, NONE) in chunks
+        require(present == bool(header["features"] & bit), f"chunk of kind {kind} and feature bit differ")
     names = ("planet_radius", "top_altitude", "alpha_up_exponent", "alpha_down_exponent")
     names += ("elevation_min", "elevation_max", "elevation_centre", "elevation_width")
     scatters = (header["features"] >> ABSORBERS_SHIFT + np.arange(counts["nk"])) & 1 == 0
@@ -171,7 +187,7 @@ def _read_header(source):
     if header["major"] != 1:
         raise VersionError(f"version {header['major']}.{header['minor']} is not 1.x")
     constituents = (1 << min(header["nk"], 16)) - 1
-    if header["features"] & ~(HAS_SPECTRUM | constituents << ABSORBERS_SHIFT):
+    if header["features"] & ~(HAS_SPECTRUM | HAS_ESTIMATES | constituents << ABSORBERS_SHIFT):
         raise FeatureError(f"unknown required features {header['features']:#x}")
     if header["file_length"] != len(source):
         raise LengthError(f"the file has {len(source)} bytes, not {header['file_length']}")
@@ -266,15 +282,20 @@ def _check_arrays(header, arrays):
     require_within(arrays["spherical_albedo"], 0.0, 1.0, "spherical_albedo")
     require(np.all(arrays["spherical_albedo"] < 1.0), "spherical_albedo of 1")
     require_within(arrays["xyz"], -1e30, 1e30, "xyz")
-    _check_fields(arrays["field"], arrays["phase_parameter"])
+    # How many there are is told by their chunk, which is not read at open.
+    estimates = MAX_ESTIMATES if header["features"] & HAS_ESTIMATES else 1
+    _check_fields(arrays["field"], arrays["phase_parameter"], estimates)
     _check_solar(arrays)
 
 
-def _check_fields(fields, parameters):
+def _check_fields(fields, parameters, estimates):
     require(np.all(np.isfinite(parameters)), "phase_parameter is not finite")
     for field, parameter in zip(fields, parameters):
-        require(int(field) >> 17 == 0, "unknown bits of a field")
-        check_phase(int(field) & 0xFFFF, parameter)
+        field = int(field)
+        unknown = (1 << ESTIMATE_SHIFT) - 2 * GROUND_BIT
+        require(field & unknown == 0, "unknown bits of a field")
+        require(field >> ESTIMATE_SHIFT < estimates, "a field is relative to an unknown estimate")
+        check_phase(field & 0xFFFF, parameter)
 
 
 def check_phase(code, parameter):
@@ -304,7 +325,7 @@ def _check_span(start, step, samples, axis):
     require(start + (samples - 1) * step >= axis[-1], "the solar spectrum ends too early")
 
 
-def _read_directory(data, head_length, file_length, counts):
+def _read_directory(data, head_length, file_length, counts, has_estimates):
     """Entries of known kinds by (kind, altitude, visibility)."""
     chunks = {}
     end = head_length
@@ -313,9 +334,9 @@ def _read_directory(data, head_length, file_length, counts):
         require(entry.offset == round_up(end, 64), "a chunk is out of its place")
         end = entry.offset + entry.stored_length
         require(end <= file_length, "a chunk reaches beyond the file")
-        if not RADIANCE <= entry.kind <= SPECTRUM:
+        if not RADIANCE <= entry.kind <= ESTIMATE:
             continue
-        _check_entry(entry, counts)
+        _check_entry(entry, counts, has_estimates)
         key = (entry.kind, entry.altitude, entry.visibility)
         require(key not in chunks, "two chunks for the same conditions")
         chunks[key] = entry
@@ -324,7 +345,7 @@ def _read_directory(data, head_length, file_length, counts):
     return chunks
 
 
-def _check_entry(entry, counts):
+def _check_entry(entry, counts, has_estimates):
     _check_index(entry.altitude, entry.kind in WITH_ALTITUDE, counts["na"], "altitude")
     _check_index(entry.visibility, entry.kind in WITH_VISIBILITY, counts["nv"], "visibility")
     if entry.kind in WITH_RANK:
@@ -337,7 +358,7 @@ def _check_entry(entry, counts):
     require(entry.raw_length <= MAX_EXPANSION * entry.stored_length, "a chunk expands too much")
     if entry.encoding == 0:
         require(entry.raw_length == entry.stored_length, "lengths of a raw chunk differ")
-    expected = payload_length(entry.kind, entry.rank, counts)
+    expected = payload_length(entry.kind, entry.rank, counts, has_estimates)
     require(expected in (None, entry.raw_length), "raw_length is not what the shape gives")
 
 
@@ -357,13 +378,14 @@ def _check_ranks(chunks):
                 require(entry.rank <= basis.rank, "rank of a chunk above that of its basis")
 
 
-def payload_length(kind, rank, counts):
+def payload_length(kind, rank, counts, has_estimates):
     """Bytes of a payload (section 6), or None where they follow from counts in the payload."""
     nw, nf, np_, ne = (counts[name] for name in ("nw", "nf", "np", "ne"))
     alphas = counts["nu"] + 3 + counts["nd"] + 3
     q = round_up(rank, 16)
     if kind == RADIANCE:
-        return 4 * q + 2 * q * (alphas + ne + 3) + 2 * (ne + 3) * nw
+        level = 0 if has_estimates else 2 * (ne + 3) * nw
+        return 4 * q + 2 * q * (alphas + ne + 3) + level
     if kind == COLUMN:
         return 4 * alphas * counts["nk"]
     if kind == RADIANCE_BASIS:

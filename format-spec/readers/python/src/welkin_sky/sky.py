@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _head
 from ._axes import faded_rows, free_spline, linear_weights, mirrored_spline, node_weights
+from ._estimate import Estimates
 from ._geometry import Observer, azimuth_from_sun, azimuthal_fade, elevation_of, sun_across
 from ._geometry import sun_vector, unit_vectors
 from ._head import GROUND_BIT, PHASE_RAYLEIGH
@@ -64,9 +65,13 @@ class Sky:
         self._altitudes, self._visibilities = self._stencils()
         self._elevation = self._elevation_coordinate()
         self._fade = azimuthal_fade(np.cos(conditions.solar_elevation))
-        self._factors, self._level, self._column = self._load_radiance()
+        self._require_radiance()
+        self._factors, level = self._combine(_head.RADIANCE, _head.RADIANCE_BASIS)
+        self._level = np.exp(level)
         inverse = linear_weights(-1.0 / head.visibility, [-1.0 / conditions.visibility])[0]
         self._extinction = np.tensordot(inverse, head.extinction, 1)
+        self._estimates = self._load_estimates() if head.has_estimates else None
+        self._column = None if head.has_estimates else self._load_column()
         albedo = conditions.albedo
         self._bounce = albedo / (1.0 - albedo * (inverse @ head.spherical_albedo))
 
@@ -126,6 +131,8 @@ class Sky:
         units = unit_vectors(directions)
         counts = self._head.counts
         widest = max(self._factors.channel.shape[0], counts["nf"] * counts["nw"], columns)
+        if self._estimates is not None:
+            widest = max(widest, self._estimates.width)
         step = max(1, _BLOCK_NUMBERS // widest)
         # At least one block, which gives the shape for no directions at all.
         starts = range(0, max(1, len(units)), step)
@@ -141,21 +148,30 @@ class Sky:
 
     def _relative(self, units):
         view = _View(self, units)
-        return self._radiance_of_view(view, self._fields(view))
+        base, _ = self._bases(view)
+        return self._radiance_of_view(view, self._fields(view, base))
 
     def _radiance_of_view(self, view, fields):
         total = 0.0
         for code, parameter, factor, weight in self._each_field(fields):
             total = total + factor * weight * phase_function(code, parameter, view.angle)
-        return self._lead(view) * np.maximum(0.0, total)
+        return np.maximum(0.0, total)
 
-    def _fields(self, view):
-        """F_f: (N, nf, nw)."""
+    def _bases(self, view):
+        """What the fields, (N, nf or 1, nw), and Q and U of diffuse light, (N, nw), are relative to."""
+        if self._estimates is None:
+            lead = self._lead(view)
+            return lead[:, None], lead
+        estimates = self._estimates.along(view)
+        return estimates[:, self._head.field_estimate], estimates[:, -1]
+
+    def _fields(self, view, base):
+        """F_f times what they are relative to: (N, nf, nw)."""
         counts = self._head.counts
-        return self._factors.at(view).reshape(-1, counts["nf"], counts["nw"])
+        return base * self._factors.at(view).reshape(-1, counts["nf"], counts["nw"])
 
     def _each_field(self, fields):
-        """Phase code, parameter (nw,), F (N, nw) and weight of each field."""
+        """Phase code, parameter (nw,), values (N, nw) and weight of each field."""
         for f, field in enumerate(self._head.field):
             weight = self._bounce if field & GROUND_BIT else 1.0
             code = int(field) & 0xFFFF
@@ -174,7 +190,8 @@ class Sky:
 
     def _stokes(self, units):
         view = _View(self, units)
-        fields = self._fields(view)
+        base, diffuse_base = self._bases(view)
+        fields = self._fields(view, base)
         radiance = self._radiance_of_view(view, fields)
         dipole = 0.0
         for code, parameter, factor, weight in self._each_field(fields):
@@ -182,11 +199,10 @@ class Sky:
                 dipole = dipole + 0.75 * rayleigh_share(parameter) * factor * weight
         p1, p2 = view.sun_across
         m = self._polarisation.at(view).reshape(-1, 4, self._head.counts["nw"])
-        lead = self._lead(view)
-        q = dipole * (p2**2 - p1**2) + m[:, 0] + self._bounce * m[:, 2]
-        side = self._fade * np.sin(view.phi)[:, None]
+        q = dipole * (p2**2 - p1**2) + diffuse_base * (m[:, 0] + self._bounce * m[:, 2])
+        side = self._fade * np.sin(view.phi)[:, None] * diffuse_base
         u = -2.0 * dipole * p1 * p2 + side * (m[:, 1] + self._bounce * m[:, 3])
-        return bounded_stokes(radiance, lead * q, lead * u)
+        return bounded_stokes(radiance, q, u)
 
     def _stencils(self):
         """Weights other than zero of the nodes: altitudes and visibilities, {index: weight}."""
@@ -207,15 +223,20 @@ class Sky:
         share = (warp(self.conditions.solar_elevation) - low) / (high - low)
         return np.array([head.counts["ne"] * share])
 
-    def _load_radiance(self):
-        """Factors, S (nw,) and ln of mean profiles (nu+3 + nd+3, nk), at the conditions."""
+    def _require_radiance(self):
         self._require_pairs(_head.RADIANCE, _head.RADIANCE_BASIS)
-        for j in self._altitudes:
-            self._chunks.require_present(_head.COLUMN, j)
-        factors, level = self._combine(_head.RADIANCE, _head.RADIANCE_BASIS)
+        if not self._head.has_estimates:
+            for j in self._altitudes:
+                self._chunks.require_present(_head.COLUMN, j)
+
+    def _load_column(self):
+        """ln of mean profiles at the conditions: (nu+3 + nd+3, nk)."""
         columns = {j: self._chunks.get(_head.COLUMN, j) for j in self._altitudes}
-        column = sum(a * columns[j].astype(np.float64) for j, a in self._altitudes.items())
-        return factors, np.exp(level), column
+        return sum(a * columns[j].astype(np.float64) for j, a in self._altitudes.items())
+
+    def _load_estimates(self):
+        tables = self._chunks.get(_head.ESTIMATE)
+        return Estimates(tables, self._observer, self._sun, self._extinction)
 
     def _require_polarisation(self):
         self._require_pairs(_head.POLARISATION, _head.POLARISATION_BASIS)
