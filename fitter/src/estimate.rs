@@ -19,6 +19,8 @@ const LEVELS: [f64; 10] = [0.0, 1e3, 2e3, 3e3, 5e3, 8e3, 12e3, 17e3, 24e3, 35e3]
 /// Altitudes of sun rays that graze the Earth, m: from the edge of the shadow to where they are hardly dimmed.
 const RINGS: [f32; 4] = [0.0, 3e3, 8e3, 16e3];
 const ANGLES: usize = 32;
+/// Angles from the horizon are dense below this, rad.
+const BEND: f64 = 0.1;
 const SUNS: usize = 36;
 const SUN_LOWEST: f64 = -0.31;
 const SUN_WIDTH: f64 = 0.08;
@@ -115,8 +117,8 @@ fn columns(medium: &Medium, altitude: f64) -> Vec<f32> {
     let integrator = ColumnIntegrator::new(&medium.atmosphere);
     let dip = planet.dip(altitude);
     let at = |i: usize| {
-        let share = (i as f64 / (ANGLES - 1) as f64).powi(2);
-        let elevation = share * (FRAC_PI_2 + dip) - dip;
+        let (x, range) = (i as f64 / (ANGLES - 1) as f64, FRAC_PI_2 + dip);
+        let elevation = x * BEND * range / (range + BEND - x * range) - dip;
         let length = planet.ray(altitude, elevation.max(-dip + 1e-12)).length;
         let columns = integrator.along(altitude, elevation.sin(), length);
         row(|k| columns[k].max(THIN).ln() as f32, medium.parts.len())

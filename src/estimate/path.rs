@@ -1,5 +1,6 @@
 //! Where along a ray light is looked at: where it crosses the levels, where it is nearest to the ground, and where it
-//! enters and leaves the shadow of the Earth.
+//! enters and leaves the shadow of the Earth. Stops come and go at the ends of a ray or out of others, so that nothing
+//! jumps.
 
 use super::sightline::Sightline;
 use crate::format::EstimateView;
@@ -7,7 +8,7 @@ use crate::geometry::{Planet, Side};
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 
-/// Most stops: all levels down and up, the nearest point, both ends, and two for each ring.
+/// Most stops: all levels down and up, both nearest points, both ends, and two for each ring.
 pub(super) const MOST_STOPS: usize = 64;
 
 /// The stops of a ray, outwards from the observer.
@@ -92,36 +93,34 @@ impl Stops {
         }
     }
 
-    /// Stops on the cylinders behind the Earth, in order with the others.
+    /// Stops on cylinders around the axis of the Earth's shadow, and where the ray is nearest to that axis, so that
+    /// those of a cylinder that it touches come out of a stop: in order with the others.
     #[inline(always)]
     fn rings(&mut self, planet: &Planet, tables: &EstimateView, radius: f64) {
         let [place, along] = self.sunwards;
         let end = self.distance[self.count - 1];
         let steep = (1.0 - along) * (1.0 + along);
-        // On the side of the sun, or along its light, there is no edge to cross.
-        if steep < 1e-9 || (place >= 0.0 && place + end * along >= 0.0) {
+        if steep < 1e-9 || tables.ring.is_empty() {
             return;
         }
-        let slope = (self.start - place * along) / steep;
+        let nearest = (place * along - self.start) / steep;
+        self.insert(nearest, end);
         let middle = (radius - place) * (radius + place);
         for ring in tables.ring {
             let ring = planet.radius + f64::from(ring.get());
-            let square = slope * slope - (middle - ring * ring) / steep;
-            if square <= 0.0 {
-                continue;
-            }
-            let half = square.sqrt();
-            for distance in [-slope - half, half - slope] {
-                if distance > 0.0 && distance < end && place + distance * along < 0.0 {
-                    self.insert(distance);
-                }
+            let square = nearest * nearest - (middle - ring * ring) / steep;
+            if square > 0.0 {
+                let half = square.sqrt();
+                self.insert(nearest - half, end);
+                self.insert(nearest + half, end);
             }
         }
     }
 
+    /// A stop before the end.
     #[inline(always)]
-    fn insert(&mut self, distance: f64) {
-        if self.count == MOST_STOPS {
+    fn insert(&mut self, distance: f64, end: f64) {
+        if !(distance > 0.0 && distance < end) || self.count == MOST_STOPS {
             return;
         }
         let mut i = self.count;

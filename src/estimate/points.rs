@@ -12,7 +12,7 @@ use crate::visible_disc::visible_rise;
 /// Points that are computed together.
 pub(super) const BATCH: usize = 8;
 /// Angular radius of the sun, rad.
-const SUN: f32 = SOLAR_ANGULAR_RADIUS as f32;
+pub(super) const SUN: f32 = SOLAR_ANGULAR_RADIUS as f32;
 
 pub(super) type Numbers = Lanes<BATCH>;
 
@@ -22,10 +22,13 @@ pub(super) struct Points {
     pub altitude: Numbers,
     /// How high the sun stands above the geometric horizon, in radii of its disc.
     pub rise: Numbers,
-    /// Coordinates on the axes of density, of density halfway from the stop before, of angles and of suns.
+    /// The same of what is seen of it.
+    pub seen: Numbers,
+    /// Dip of the horizon, rad.
+    pub dip: Numbers,
+    /// Coordinates on the axes of density, of density halfway from the stop before, and of suns.
     pub density: Numbers,
     pub halfway: Numbers,
-    pub angle: Numbers,
     pub sun: Numbers,
 }
 
@@ -37,7 +40,6 @@ pub(super) struct Axes {
     radius: f32,
     per_top: f32,
     last_density: f32,
-    last_angle: f32,
     per_sun_width: f32,
     /// Coordinates per arsinh, and the lowest arsinh.
     suns: [f32; 2],
@@ -54,7 +56,6 @@ impl Axes {
             radius: planet.radius as f32,
             per_top: 1.0 / planet.top as f32,
             last_density: (tables.densities - 1) as f32,
-            last_angle: (tables.angles - 1) as f32,
             per_sun_width,
             suns: [(tables.suns - 1) as f32 / (ends[1] - ends[0]), ends[0]],
         }
@@ -82,22 +83,27 @@ impl Axes {
         }
         let [low, high] = [-1.0, 1.0].map(Numbers::splat);
         let sine = sine.max(low).min(high);
-        let radius = Numbers::splat(self.radius);
-        let dip = (altitude * (radius * 2.0 + altitude)).sqrt() / (radius + altitude);
-        let dip = dip.asin();
+        let dip = self.dip(altitude);
         let rise = (sine.asin() + dip) * (1.0 / SUN);
-        let range = dip + core::f32::consts::FRAC_PI_2;
-        let angle = visible_rise(rise) * SUN / range;
         let [scale, lowest] = self.suns;
         let sun = (sine * self.per_sun_width).map(arsinh);
         Points {
             altitude,
             rise,
+            seen: visible_rise(rise).max(Numbers::splat(0.0)),
+            dip,
             density: (altitude * self.per_top).sqrt() * self.last_density,
             halfway: (halfway * self.per_top).sqrt() * self.last_density,
-            angle: angle.max(Numbers::splat(0.0)).sqrt() * self.last_angle,
             sun: (sun - Numbers::splat(lowest)) * scale,
         }
+    }
+
+    /// Dip of the horizon, rad.
+    #[inline(always)]
+    pub fn dip(&self, altitude: Numbers) -> Numbers {
+        let radius = Numbers::splat(self.radius);
+        let sine = (altitude * (radius * 2.0 + altitude)).sqrt() / (radius + altitude);
+        sine.asin()
     }
 
     /// Altitude at a distance from the observer, m.

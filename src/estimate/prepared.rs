@@ -7,7 +7,7 @@ use super::sightline::Sightline;
 use super::sums::Estimator;
 use crate::format::EstimateView;
 use crate::geometry::Planet;
-use crate::kernel::simd::{Instructions, Kernel, dispatch};
+use crate::kernel::simd::{Instructions, Kernel, Portable, dispatch};
 
 /// The estimates of a model at one visibility.
 ///
@@ -185,7 +185,7 @@ fn blocks(table: &[f64], wavelengths: usize) -> Vec<[f32; WIDTH]> {
     rows.flat_map(|row| row.chunks(WIDTH).map(block)).collect()
 }
 
-/// [`Estimator::along`] with the instructions of the processor.
+/// [`Estimator::along`] with the instructions of the processor, but not fused: the same bits on all of them.
 struct Along<'a, 'b> {
     estimator: Estimator<'a>,
     line: &'b Sightline,
@@ -196,6 +196,6 @@ impl Kernel for Along<'_, '_> {
 
     #[inline(always)]
     fn run<I: Instructions>(self, _: I) -> Blocks {
-        self.estimator.along(self.line)
+        self.estimator.along(Portable, self.line)
     }
 }

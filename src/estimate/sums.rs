@@ -7,12 +7,13 @@ use zerocopy::little_endian::F32;
 
 use super::blocks::{Block, Blocks, MOST_BLOCKS, NOTHING, WIDTH};
 use super::path::{MOST_STOPS, Stops};
-use super::points::{Axes, BATCH, Points};
+use super::points::{Axes, BATCH, Numbers, Points, SUN};
 use super::sightline::Sightline;
-use crate::format::{EstimateView, MAX_ESTIMATES};
+use crate::format::{EstimateView, MAX_ESTIMATES, MAX_LEVELS};
 use crate::geometry::Planet;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::bound;
+use crate::kernel::simd::Instructions;
 use crate::visible_disc::mean_share;
 
 /// Of the diffuse estimate so much is added to those of sunlight, which can be nothing where it is not quite dark.
@@ -21,6 +22,11 @@ const REST: f32 = 1e-3;
 const PER_SPHERE: f32 = 0.25 * core::f32::consts::FRAC_1_PI;
 /// Over which the density of the air falls by e, m: what counts more within a panel where the sun rises.
 const FALL: f32 = 8000.0;
+
+/// Most levels.
+const MOST_LEVELS: usize = MAX_LEVELS.next_multiple_of(BATCH);
+/// Angles from the horizon are dense below this, rad.
+const BEND: f32 = 0.1;
 
 /// One number per constituent.
 type Row = Lanes<WIDTH>;
@@ -75,6 +81,8 @@ struct Stop {
 /// Walks along the stops of a ray.
 struct Walk<'a> {
     tables: &'a EstimateView<'a>,
+    /// Dip of the horizon at the levels, rad.
+    dips: [f32; MOST_LEVELS],
     columns: Row,
     density: Row,
     level: usize,
@@ -103,19 +111,25 @@ impl Band {
 
     /// Goes on to a stop through the panel before it.
     #[inline(always)]
-    fn step(&mut self, stop: &Stop, light: Spectrum, scattering: usize) {
+    fn step<I: Instructions>(
+        &mut self,
+        instructions: I,
+        stop: &Stop,
+        light: Spectrum,
+        scattering: usize,
+    ) {
         let (mut view, mut sun) = (Lanes::splat(0.0), Lanes::splat(0.0));
         for k in 0..WIDTH {
-            view = view + self.extinction[k] * stop.to_observer.0[k];
-            sun = sun + self.extinction[k] * stop.to_sun.0[k];
+            view = instructions.add_product(view, self.extinction[k], stop.to_observer.0[k]);
+            sun = instructions.add_product(sun, self.extinction[k], stop.to_sun.0[k]);
         }
         let next = [Ray::new(view + sun), Ray::new(view - light)];
         let once = self.rays[0].mean(next[0]) * stop.share;
         let again = self.rays[1].mean(next[1]);
         for k in 0..scattering {
             let column = stop.panel.0[k];
-            self.lit[0][k] = self.lit[0][k] + once * column;
-            self.lit[1][k] = self.lit[1][k] + again * column;
+            self.lit[0][k] = instructions.add_product(self.lit[0][k], once, column);
+            self.lit[1][k] = instructions.add_product(self.lit[1][k], again, column);
         }
         self.rays = next;
     }
@@ -154,24 +168,29 @@ pub(crate) struct Estimator<'a> {
 }
 
 impl Estimator<'_> {
-    /// The estimates along a ray.
+    /// The estimates along a ray; fused where `instructions` are.
     #[inline(always)]
-    pub fn along(&self, line: &Sightline) -> Blocks {
+    pub fn along<I: Instructions>(&self, instructions: I, line: &Sightline) -> Blocks {
         let stops = Stops::new(&self.planet, &self.tables, line);
         let mut out = NOTHING;
         // Arrays as large as they must be: to clear more would take as long as a stop.
         match self.tables.light_stride / WIDTH {
-            1 => along::<1>(self, &stops, &mut out),
-            2 => along::<2>(self, &stops, &mut out),
-            3 => along::<3>(self, &stops, &mut out),
-            _ => along::<MOST_BLOCKS>(self, &stops, &mut out),
+            1 => along::<1, I>(instructions, self, &stops, &mut out),
+            2 => along::<2, I>(instructions, self, &stops, &mut out),
+            3 => along::<3, I>(instructions, self, &stops, &mut out),
+            _ => along::<MOST_BLOCKS, I>(instructions, self, &stops, &mut out),
         }
         out
     }
 }
 
 #[inline(always)]
-fn along<const N: usize>(of: &Estimator, stops: &Stops, out: &mut Blocks) {
+fn along<const N: usize, I: Instructions>(
+    instructions: I,
+    of: &Estimator,
+    stops: &Stops,
+    out: &mut Blocks,
+) {
     let tables = &of.tables;
     let axes = Axes::new(&of.planet, tables);
     let blocks = (tables.light_stride / WIDTH).min(N);
@@ -185,6 +204,7 @@ fn along<const N: usize>(of: &Estimator, stops: &Stops, out: &mut Blocks) {
     let scattering = (32 - tables.any_scatters().leading_zeros() as usize).min(WIDTH);
     let mut walk = Walk {
         tables,
+        dips: dips(&axes, tables),
         columns: Lanes::splat(0.0),
         density: Lanes::splat(0.0),
         level: 0,
@@ -202,9 +222,9 @@ fn along<const N: usize>(of: &Estimator, stops: &Stops, out: &mut Blocks) {
                 let mut light = Lanes::splat(0.0);
                 for t in 0..4 {
                     let row = load(tables.light, stop.light[t] + block * WIDTH);
-                    light = light + row * stop.weight[t];
+                    light = instructions.add_product(light, row, stop.weight[t]);
                 }
-                band.step(&stop, light, scattering);
+                band.step(instructions, &stop, light, scattering);
             }
             k += 1;
             i += 1;
@@ -213,6 +233,21 @@ fn along<const N: usize>(of: &Estimator, stops: &Stops, out: &mut Blocks) {
     for (block, band) in bands.iter().enumerate() {
         out[block] = band.estimates(tables, block);
     }
+}
+
+#[inline(always)]
+fn dips(axes: &Axes, tables: &EstimateView) -> [f32; MOST_LEVELS] {
+    let mut out = [0.0; MOST_LEVELS];
+    let (batches, _) = out.as_chunks_mut::<BATCH>();
+    let levels = tables.level.chunks(BATCH);
+    for (batch, levels) in batches.iter_mut().zip(levels) {
+        let mut altitude = Numbers::splat(0.0);
+        for i in 0..levels.len() {
+            altitude.0[i] = levels[i].get();
+        }
+        *batch = axes.dip(altitude).0;
+    }
+    out
 }
 
 impl Walk<'_> {
@@ -241,7 +276,7 @@ impl Walk<'_> {
         Stop {
             to_observer: self.columns,
             panel,
-            to_sun: self.to_sun(points.angle.0[i], up),
+            to_sun: self.to_sun(points.seen.0[i], points.dip.0[i], up),
             light,
             weight,
             share,
@@ -268,14 +303,26 @@ impl Walk<'_> {
         bound((altitude - low) / (high - low), 0.0, 1.0)
     }
 
-    /// Columns to the visible part of the sun; to the horizon where it is hidden.
+    /// Columns to what is seen of the sun, at a height in radii of its disc above a horizon with a dip.
     #[inline(always)]
-    fn to_sun(&self, coordinate: f32, up: f32) -> Row {
-        let angles = self.tables.angles;
-        let (i, t) = place(coordinate, angles - 1);
-        let low = column(self.tables, self.level * angles + i, t);
-        let high = column(self.tables, (self.level + 1) * angles + i, t);
-        mix(low, high, up).exp()
+    fn to_sun(&self, seen: f32, dip: f32, up: f32) -> Row {
+        let low = self.column(self.level, seen, dip);
+        mix(low, self.column(self.level + 1, seen, dip), up).exp()
+    }
+
+    /// The logarithms at a level: at the same elevation, but on the horizon where the sun is there.
+    #[inline(always)]
+    fn column(&self, level: usize, seen: f32, dip: f32) -> Row {
+        let tables = self.tables;
+        let own = self.dips[level];
+        let angle = seen * SUN + (own - dip) * (seen / (seen + 1.0));
+        let angle = if angle > 0.0 { angle } else { 0.0 };
+        let range = core::f32::consts::FRAC_PI_2 + own;
+        let share = angle * (range + BEND) / (range * (angle + BEND));
+        let (i, t) = place(share * (tables.angles - 1) as f32, tables.angles - 1);
+        let row = (level * tables.angles + i) * WIDTH;
+        let low = load(tables.column, row);
+        mix(low, load(tables.column, row + WIDTH), t)
     }
 
     /// Rows of diffuse light and their weights.
@@ -295,12 +342,6 @@ impl Walk<'_> {
             ],
         )
     }
-}
-
-#[inline(always)]
-fn column(tables: &EstimateView, row: usize, t: f32) -> Row {
-    let low = load(tables.column, row * WIDTH);
-    mix(low, load(tables.column, (row + 1) * WIDTH), t)
 }
 
 /// Profiles of the constituents.

@@ -10,16 +10,15 @@ use crate::error::{Error, Result};
 pub const MAX_ESTIMATE_CONSTITUENTS: usize = 8;
 /// Most wavelengths of files with estimates.
 pub const MAX_ESTIMATE_WAVELENGTHS: usize = 64;
-/// Most levels and rings.
-const MAX_LEVELS: u32 = 24;
+/// Most levels.
+pub const MAX_LEVELS: usize = 24;
+/// Most rings.
 const MAX_RINGS: u32 = 4;
 /// Most estimates.
 pub const MAX_ESTIMATES: usize = 4;
 /// Most angles and suns, and most samples of the density.
 const MAX_ANGLES: u32 = 256;
 const MAX_DENSITIES: u32 = 4096;
-/// Most bytes of the payload.
-const MAX_BYTES: usize = 1 << 24;
 /// Largest density, and largest logarithms.
 const DENSEST: f32 = 1e6;
 const LARGEST: f32 = 80.0;
@@ -91,7 +90,7 @@ impl<'a> EstimateView<'a> {
     /// [`Error::Invalid`] if they break the specification.
     pub fn new(bytes: &'a [u8], constituents: usize, wavelengths: usize, top: f64) -> Result<Self> {
         let view = Self::divide(bytes, constituents, wavelengths)?;
-        view.check(top)?;
+        view.check(wavelengths, top)?;
         Ok(view)
     }
 
@@ -107,7 +106,7 @@ impl<'a> EstimateView<'a> {
         )?;
         let mut rest = bytes;
         let counts = take::<EstimateCounts>(&mut rest, 1)?[0];
-        let levels = within(counts.levels, 2, MAX_LEVELS)?;
+        let levels = within(counts.levels, 2, MAX_LEVELS as u32)?;
         let angles = within(counts.angles, 2, MAX_ANGLES)?;
         let suns = within(counts.suns, 2, MAX_ANGLES)?;
         let densities = within(counts.densities, 2, MAX_DENSITIES)?;
@@ -118,10 +117,6 @@ impl<'a> EstimateView<'a> {
         let rows = MAX_ESTIMATE_CONSTITUENTS * (densities + levels * angles);
         let numbers = levels + rings + estimates + albedos + rows + levels * suns * stride;
         let expected = size_of::<EstimateCounts>() + 4 * numbers;
-        require(
-            expected <= MAX_BYTES,
-            "an estimate chunk has at most 16 MiB",
-        )?;
         check_length("estimate chunk", bytes, expected)?;
         Ok(Self {
             constituents,
@@ -164,7 +159,7 @@ impl<'a> EstimateView<'a> {
         self.scatters.iter().fold(0, |any, s| any | s.get())
     }
 
-    fn check(&self, top: f64) -> Result<()> {
+    fn check(&self, wavelengths: usize, top: f64) -> Result<()> {
         let level = |l: usize| f64::from(self.level[l].get());
         let last = self.level.len() - 1;
         let rising = (0..last).all(|l| level(l) + 1e-3 <= level(l + 1));
@@ -172,7 +167,7 @@ impl<'a> EstimateView<'a> {
             level(0) == 0.0 && rising && level(last) == f64::from(top as f32),
             "levels must increase from 0 to the top of the atmosphere",
         )?;
-        let ring = |z: &F32| (0.0..=top).contains(&f64::from(z.get()));
+        let ring = |z: &F32| (0.0..=top as f32).contains(&z.get());
         require(
             self.ring.iter().all(ring),
             "rings must be between the ground and the top of the atmosphere",
@@ -186,17 +181,25 @@ impl<'a> EstimateView<'a> {
             (-1.0..=0.0).contains(&self.sun_lowest) && (1e-3..=1e3).contains(&self.sun_width),
             "the axis of solar elevations starts between -1 and 0 and has a width of 1e-3 to 1e3",
         )?;
-        let all = |values: &[F32], low: f32, high: f32| {
-            values.iter().all(|v| (low..=high).contains(&v.get()))
-        };
+        let (stride, width) = (self.light_stride, MAX_ESTIMATE_CONSTITUENTS);
+        let (nw, nk) = (wavelengths, self.constituents);
         require(
-            all(self.albedo, 0.0, 1.0)
-                && all(self.density, 0.0, DENSEST)
-                && all(self.column, -LARGEST, LARGEST)
-                && all(self.light, -LARGEST, LARGEST),
+            within_rows(self.albedo, [stride, nw], [0.0, 1.0])
+                && within_rows(self.density, [width, nk], [0.0, DENSEST])
+                && within_rows(self.column, [width, nk], [-LARGEST, LARGEST])
+                && within_rows(self.light, [stride, nw], [-LARGEST, LARGEST]),
             "albedos must be 0 to 1, densities 0 to 1e6, logarithms within 80",
         )
     }
+}
+
+/// Whether the first numbers of each row are in a range and the others, which are padding, finite.
+fn within_rows(table: &[F32], [stride, width]: [usize; 2], [low, high]: [f32; 2]) -> bool {
+    table.chunks_exact(stride).all(|row| {
+        let (counted, padding) = row.split_at(width);
+        counted.iter().all(|v| (low..=high).contains(&v.get()))
+            && padding.iter().all(|v| v.get().is_finite())
+    })
 }
 
 fn require(holds: bool, detail: &'static str) -> Result<()> {

@@ -114,7 +114,7 @@ impl<'a, 'b> Query<'a, 'b> {
         let Self { model, place, .. } = self;
         let mut channels = [0.0; MOST_CHANNELS];
         let level = self.sum(instructions, &mut channels)?;
-        let (densities, estimates) = (self.densities(), self.estimates());
+        let (densities, estimates) = (self.densities(), self.estimates(instructions));
         let relative = (&densities, estimates.as_ref());
         model.light.mix(place, &channels, &level, relative, out);
         Ok(())
@@ -172,10 +172,10 @@ impl<'a, 'b> Query<'a, 'b> {
 
     /// What the fields are relative to, if the file says.
     #[inline(always)]
-    pub fn estimates(&self) -> Option<Blocks> {
+    pub fn estimates<I: Instructions>(&self, instructions: I) -> Option<Blocks> {
         let Self { model, place, .. } = self;
         let tables = model.estimate.as_ref()?;
-        Some(model.light.estimates(tables, place))
+        Some(model.light.estimates(instructions, tables, place))
     }
 
     /// ln n̄ of each constituent.

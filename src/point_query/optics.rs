@@ -13,6 +13,7 @@ use crate::geometry::Planet;
 use crate::kernel::axis::Stencil;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::exp;
+use crate::kernel::simd::Instructions;
 use crate::phase_function::{henyey_greenstein, rayleigh};
 
 /// Most fields and constituents.
@@ -169,7 +170,12 @@ impl Light {
 
     /// What the fields are relative to.
     #[inline(always)]
-    pub fn estimates(&self, tables: &EstimateView, place: &QueryCoordinates) -> Blocks {
+    pub fn estimates<I: Instructions>(
+        &self,
+        instructions: I,
+        tables: &EstimateView,
+        place: &QueryCoordinates,
+    ) -> Blocks {
         let mut extinction = [[0.0; WIDTH]; MAX_ESTIMATE_CONSTITUENTS * MOST_BLOCKS];
         let n = self.constituents;
         for k in 0..n {
@@ -183,7 +189,7 @@ impl Light {
             tables: *tables,
             extinction: &extinction,
         };
-        estimator.along(&place.line)
+        estimator.along(instructions, &place.line)
     }
 
     /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by

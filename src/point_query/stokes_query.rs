@@ -103,7 +103,7 @@ impl Kernel for Polarised<'_, '_> {
         };
         let out = &mut parts.radiance[..n];
         let densities = query.densities();
-        let estimates = query.estimates();
+        let estimates = query.estimates(instructions);
         let relative = (&densities, estimates.as_ref());
         model.light.mix(&place, &channels, &level, relative, out);
         let mut ground = zero;

@@ -156,13 +156,13 @@ impl Oracle<'_> {
         let (along, place) = (dot(view, sun), r * sun[2]);
         let across = cross(view, sun);
         let steep = dot(across, across);
-        if steep >= 1e-9 {
+        if steep >= 1e-9 && t.rings > 0 {
+            at.push((place * along - r * mu) / steep);
             for i in 0..t.rings {
                 let ring = radius + self.f32(t.ring, i);
                 let slope = (r * mu - place * along) / steep;
                 let root = (slope * slope - (r * r - place * place - ring * ring) / steep).sqrt();
-                let behind = |d: &f64| place + d * along < 0.0;
-                at.extend([-slope - root, root - slope].into_iter().filter(behind));
+                at.extend([-slope - root, root - slope]);
             }
         }
         at.retain(|d| (0.0..=end).contains(d));
@@ -187,14 +187,18 @@ impl Oracle<'_> {
         let angle = height(rise) * SUN / (FRAC_PI_2 + dip);
         let (i, f) = place((t.angles - 1) as f64 * angle.sqrt(), t.angles);
         let table = |at: usize, row: usize, stride: usize, c: usize| self.f32(at, row * stride + c);
-        let bilinear = |at: usize, width: usize, stride: usize, i: usize, f: f64, c: usize| {
-            let level = |l: usize| {
-                (1.0 - f) * table(at, l * width + i, stride, c)
-                    + f * table(at, l * width + i + 1, stride, c)
+        let root = ((altitude.sqrt() - levels[l].sqrt())
+            / (levels[l + 1].sqrt() - levels[l].sqrt()))
+        .min(1.0);
+        let bilinear =
+            |at: usize, [width, stride]: [usize; 2], up: f64, (i, f): (usize, f64), c: usize| {
+                let level = |l: usize| {
+                    (1.0 - f) * table(at, l * width + i, stride, c)
+                        + f * table(at, l * width + i + 1, stride, c)
+                };
+                (1.0 - up) * level(l) + up * level(l + 1)
             };
-            (1.0 - up) * level(l) + up * level(l + 1)
-        };
-        let column = |k: usize| bilinear(t.column, t.angles, 8, i, f, k).exp();
+        let column = |k: usize| bilinear(t.column, [t.angles, 8], root, (i, f), k).exp();
         let [lowest, width] = t.axis;
         let g = |m: f64| (m / width).asinh();
         let u = (t.suns - 1) as f64 * (g(sine) - g(lowest)) / (g(1.0) - g(lowest));
@@ -205,7 +209,7 @@ impl Oracle<'_> {
             rise,
             to_sun: (0..self.n.k).map(column).collect(),
             light: (0..self.n.w)
-                .map(|w| bilinear(t.light, t.suns, t.stride, j, h, w))
+                .map(|w| bilinear(t.light, [t.suns, t.stride], up, (j, h), w))
                 .collect(),
         }
     }
