@@ -75,6 +75,25 @@ fn they_are_positive_and_nothing_jumps() {
     assert!(worst < 1e-2, "{worst}");
 }
 
+/// Where a ray comes to touch a cylinder around the shadow, it gets two stops more.
+#[test]
+fn nothing_jumps_where_stops_appear() {
+    let estimates = estimates();
+    let mut before: Option<Vec<f32>> = None;
+    for i in 0..4000 {
+        let azimuth = (102.39 + 1e-5 * f64::from(i)).to_radians();
+        let place = (6000.0, 0.05f64.to_radians(), -1f64.to_radians(), azimuth);
+        let mut row = vec![0.0; estimates.len()];
+        estimates.along(&line(place), &mut row);
+        if let Some(before) = before {
+            for (a, b) in row.iter().zip(&before) {
+                assert!((a / b - 1.0).abs() < 2e-3, "{i}: {a} {b}");
+            }
+        }
+        before = Some(row);
+    }
+}
+
 #[test]
 fn an_observer_on_the_ground_sees_nothing_below() {
     let estimates = estimates();

@@ -6,10 +6,9 @@ use welkin::axis::{ElevationAxis, Ends, alpha_angle, coefficients};
 use welkin::geometry::{Planet, Side};
 
 /// Observer altitudes, m: densest about the inversion at 2 km and where the aerosol ends, at 12 km.
-pub const ALTITUDES: [f64; 24] = [
-    0.0, 30.0, 120.0, 310.0, 645.0, 960.0, 1150.0, 1365.0, 1650.0, 1875.0, 2100.0, 2350.0, 2600.0,
-    3000.0, 3650.0, 4600.0, 5700.0, 7000.0, 8400.0, 10_050.0, 11_500.0, 12_300.0, 13_300.0,
-    15_000.0,
+pub const ALTITUDES: [f64; 20] = [
+    0.0, 120.0, 645.0, 1150.0, 1650.0, 2100.0, 2600.0, 3650.0, 5700.0, 8400.0, 11_500.0, 13_300.0,
+    15_500.0, 18_500.0, 23_000.0, 30_000.0, 40_000.0, 55_000.0, 75_000.0, 99_000.0,
 ];
 
 /// Visibilities, m: those of the paper's Table 2 and one more where the air changes fastest.
@@ -86,11 +85,11 @@ impl Default for Grid {
                 ends: Ends::Mirrored,
             },
             elevation: ElevationAxis {
-                min: (-4.2f64).to_radians(),
+                min: (-12f64).to_radians(),
                 max: FRAC_PI_2,
                 centre: (-1.0f64).to_radians(),
                 width: 4f64.to_radians(),
-                intervals: 44,
+                intervals: 52,
             },
         }
     }
@@ -106,8 +105,8 @@ impl Grid {
         ensure!(rising(&self.altitudes), "altitudes must increase");
         ensure!(rising(&self.visibilities), "visibilities must increase");
         ensure!(
-            self.altitudes[0] >= 0.0 && self.altitudes.iter().all(|&h| h <= 50_000.0),
-            "altitudes must lie in 0..50 km"
+            self.altitudes[0] >= 0.0 && self.altitudes.iter().all(|&h| h < 100_000.0),
+            "altitudes must lie in 0..100 km"
         );
         Ok(())
     }

@@ -7,7 +7,7 @@ use crate::successive_orders::{
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use welkin::Conditions;
 use welkin::geometry::Side;
 
@@ -33,7 +33,8 @@ pub struct Sample {
 /// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns
 /// and albedos.
 ///
-/// Half of the solar elevations are uniform in −4.2..90°, the others in −4.2..12°. Sun-major.
+/// A third of the solar elevations are uniform in −12..90°, a third in −12..12°, a third in −6..0.5°, where the edge of the
+/// Earth's shadow is seen. Sun-major.
 pub fn truth(
     gatherer: &Gatherer,
     light: &LightField,
@@ -65,14 +66,10 @@ fn uniform(rng: &mut Pcg64Mcg) -> f64 {
 
 fn skies(altitude: f64, count: usize, seed: u64) -> Vec<Sample> {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
-    let lowest = (-4.2f64).to_radians();
     (0..count)
         .map(|k| {
-            let highest = if k % 2 == 0 {
-                FRAC_PI_2
-            } else {
-                12f64.to_radians()
-            };
+            let range: [f64; 2] = [[-12.0, 90.0], [-12.0, 12.0], [-6.0, 0.5]][k % 3];
+            let [lowest, highest] = range.map(f64::to_radians);
             Sample {
                 altitude,
                 view_elevation: 0.0,

@@ -67,8 +67,9 @@ impl Default for HeldOut {
 
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
-/// Changes whenever the physics or the layout of the units does.
-const UNIT_VERSION: u32 = 5;
+/// Change whenever the physics or the layout of light fields, or of other units, does.
+const LIGHT_VERSION: u32 = 5;
+const UNIT_VERSION: u32 = 6;
 
 /// The air of a visibility (m) for the nodes.
 fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
@@ -126,7 +127,7 @@ impl Plan {
     /// What the light fields depend on.
     pub(super) fn light_key(&self) -> String {
         format!(
-            "{UNIT_VERSION} {:?} {:?}",
+            "{LIGHT_VERSION} {:?} {:?}",
             self.settings, self.coverage.nodes
         )
     }

@@ -922,7 +922,7 @@ static int welkin__levels_are_good(const welkin_file *f, const welkin_estimate *
     if (welkin__f32(t->level) != 0 || welkin__f32(t->level + 4 * (size_t)(t->levels - 1)) != (float)f->top_altitude) return 0;
     for (i = 1; i < t->levels; i++)
         if (!((double)welkin__f32(t->level + 4 * (size_t)i) - (double)welkin__f32(t->level + 4 * (size_t)(i - 1)) >= 0.001)) return 0;
-    return welkin__f32s_are_within(t->ring, t->rings, 0, f->top_altitude);
+    return welkin__f32s_are_within(t->ring, t->rings, 0, (double)(float)f->top_altitude);
 }
 
 static int welkin__estimate_tables_are_good(const welkin_file *f, const welkin_estimate *t)
@@ -1963,7 +1963,7 @@ typedef struct welkin__stop {
 typedef struct welkin__ray {
     double fall, towards, length; /* towards: cosine of the angle between ray and sun */
     uint32_t count;
-    double distance[2 + 2 * WELKIN__ESTIMATE_LEVELS + 2 * WELKIN__ESTIMATE_RINGS];
+    double distance[3 + 2 * WELKIN__ESTIMATE_LEVELS + 2 * WELKIN__ESTIMATE_RINGS];
 } welkin__ray;
 
 static void welkin__add_stop(welkin__ray *ray, double distance)
@@ -1986,17 +1986,23 @@ static int welkin__roots(double a, double b, double c, double roots[2])
     return 1;
 }
 
-static void welkin__add_ring(const welkin_sky *sky, const welkin__view *view, double altitude, welkin__ray *ray)
+/* Stops on the cylinders around the axis of the Earth's shadow, and where the ray is nearest to that axis. */
+static void welkin__add_rings(const welkin_sky *sky, const welkin__view *view, welkin__ray *ray)
 {
-    double start = sky->file->planet_radius + sky->altitude, edge = sky->file->planet_radius + altitude;
-    double sine = sky->sun[2], across = start * sqrt(sky->sun[0] * sky->sun[0] + sky->sun[1] * sky->sun[1]), roots[2];
+    double radius = sky->file->planet_radius, start = radius + sky->altitude, roots[2];
+    double across = start * sqrt(sky->sun[0] * sky->sun[0] + sky->sun[1] * sky->sun[1]);
     const double *v = view->v, *s = sky->sun;
-    double x = v[1] * s[2] - v[2] * s[1], y = v[2] * s[0] - v[0] * s[2], z = v[0] * s[1] - v[1] * s[0], square = x * x + y * y + z * z;
-    int i;
-    if (!(square >= 1e-9)) return;
-    if (!welkin__roots(square, start * (v[2] - sine * ray->towards), (across - edge) * (across + edge), roots)) return;
-    for (i = 0; i < 2; i++)
-        if (start * sine + roots[i] * ray->towards < 0) welkin__add_stop(ray, roots[i]);
+    double x = v[1] * s[2] - v[2] * s[1], y = v[2] * s[0] - v[0] * s[2], z = v[0] * s[1] - v[1] * s[0];
+    double square = x * x + y * y + z * z, slope = start * (v[2] - s[2] * ray->towards);
+    uint32_t i, rings = sky->file->estimate.rings;
+    if (!(square >= 1e-9) || rings == 0) return;
+    welkin__add_stop(ray, -slope / square);
+    for (i = 0; i < rings; i++) {
+        double edge = radius + sky->estimate.ring[i];
+        if (!welkin__roots(square, slope, (across - edge) * (across + edge), roots)) continue;
+        welkin__add_stop(ray, roots[0]);
+        welkin__add_stop(ray, roots[1]);
+    }
 }
 
 static void welkin__find_stops(const welkin_sky *sky, const welkin__view *view, welkin__ray *ray)
@@ -2016,7 +2022,7 @@ static void welkin__find_stops(const welkin_sky *sky, const welkin__view *view, 
         welkin__add_stop(ray, roots[1]);
     }
     if (view->up) welkin__add_stop(ray, -ray->fall);
-    for (i = 0; i < f->estimate.rings; i++) welkin__add_ring(sky, view, sky->estimate.ring[i], ray);
+    welkin__add_rings(sky, view, ray);
     ray->distance[ray->count++] = ray->length;
 }
 
@@ -2164,19 +2170,30 @@ static void welkin__sum_columns(const welkin_sky *sky, const float *table, const
     }
 }
 
+/* Adds a share of ln of the columns from a level to the sun, of which so many radii are seen at a place with a dip. */
+static void welkin__add_columns_to_sun(const welkin_sky *sky, uint32_t level, double seen, double dip, double share,
+                                       double *column)
+{
+    double radius = sky->file->planet_radius, z = sky->estimate.level[level];
+    double own = atan(sqrt(z * (2 * radius + z)) / radius), range = WELKIN__HALF_PI + own;
+    double angle = fmax(0, seen * WELKIN__SUN_RADIUS + (own - dip) * seen / (seen + 1));
+    uint32_t n = sky->file->estimate.angles, k;
+    welkin__place place = welkin__place_at((n - 1) * angle * (range + 0.1) / (range * (angle + 0.1)), n);
+    const float *row = sky->estimate.column + 8 * ((size_t)level * n + place.node);
+    for (k = 0; k < sky->file->constituents; k++)
+        column[k] += share * ((1 - place.share) * (double)row[k] + place.share * (double)row[8 + k]);
+}
+
 /* Columns from a stop to the sun. */
 static void welkin__columns_to_sun(const welkin_sky *sky, const welkin__place *level, double height, double dip,
                                    double *column)
 {
-    uint32_t n = sky->file->estimate.angles, k;
-    double angle = welkin__disc_height(height) * WELKIN__SUN_RADIUS / (WELKIN__HALF_PI + dip);
-    welkin__place place = welkin__place_at((n - 1) * sqrt(angle), n);
-    const float *low = sky->estimate.column + 8 * ((size_t)level->node * n + place.node), *high = low + 8 * (size_t)n;
-    for (k = 0; k < sky->file->constituents; k++) {
-        double below = (1 - place.share) * (double)low[k] + place.share * (double)low[8 + k];
-        double above = (1 - place.share) * (double)high[k] + place.share * (double)high[8 + k];
-        column[k] = exp((1 - level->share) * below + level->share * above);
-    }
+    double seen = welkin__disc_height(height);
+    uint32_t k;
+    for (k = 0; k < sky->file->constituents; k++) column[k] = 0;
+    welkin__add_columns_to_sun(sky, level->node, seen, dip, 1 - level->share, column);
+    welkin__add_columns_to_sun(sky, level->node + 1, seen, dip, level->share, column);
+    for (k = 0; k < sky->file->constituents; k++) column[k] = exp(column[k]);
 }
 
 /* ln of the diffuse light at a stop. */

@@ -184,33 +184,37 @@ impl Oracle<'_> {
             .filter(|&&z| z <= altitude)
             .count();
         let up = ((altitude - levels[l]) / (levels[l + 1] - levels[l])).min(1.0);
-        let angle = height(rise) * SUN / (FRAC_PI_2 + dip);
-        let (i, f) = place((t.angles - 1) as f64 * angle.sqrt(), t.angles);
-        let table = |at: usize, row: usize, stride: usize, c: usize| self.f32(at, row * stride + c);
-        let root = ((altitude.sqrt() - levels[l].sqrt())
-            / (levels[l + 1].sqrt() - levels[l].sqrt()))
-        .min(1.0);
-        let bilinear =
-            |at: usize, [width, stride]: [usize; 2], up: f64, (i, f): (usize, f64), c: usize| {
-                let level = |l: usize| {
-                    (1.0 - f) * table(at, l * width + i, stride, c)
-                        + f * table(at, l * width + i + 1, stride, c)
-                };
-                (1.0 - up) * level(l) + up * level(l + 1)
+        let seen = height(rise).max(0.0);
+        let lerp =
+            |row: &dyn Fn(usize) -> f64, (i, f): (usize, f64)| (1.0 - f) * row(i) + f * row(i + 1);
+        let column = |k: usize| {
+            let level = |l: usize| {
+                let own = (radius / (radius + levels[l])).acos();
+                let angle = seen * SUN + (own - dip) * seen / (seen + 1.0);
+                let (angle, range) = (angle.max(0.0), FRAC_PI_2 + own);
+                let share = angle * (range + 0.1) / (range * (angle + 0.1));
+                let row = |i: usize| self.f32(t.column, (l * t.angles + i) * 8 + k);
+                lerp(&row, place((t.angles - 1) as f64 * share, t.angles))
             };
-        let column = |k: usize| bilinear(t.column, [t.angles, 8], root, (i, f), k).exp();
+            ((1.0 - up) * level(l) + up * level(l + 1)).exp()
+        };
         let [lowest, width] = t.axis;
         let g = |m: f64| (m / width).asinh();
         let u = (t.suns - 1) as f64 * (g(sine) - g(lowest)) / (g(1.0) - g(lowest));
-        let (j, h) = place(u, t.suns);
+        let sun = place(u, t.suns);
+        let light = |w: usize| {
+            let level = |l: usize| {
+                let row = |i: usize| self.f32(t.light, (l * t.suns + i) * t.stride + w);
+                lerp(&row, sun)
+            };
+            (1.0 - up) * level(l) + up * level(l + 1)
+        };
         Stop {
             distance,
             altitude,
             rise,
             to_sun: (0..self.n.k).map(column).collect(),
-            light: (0..self.n.w)
-                .map(|w| bilinear(t.light, [t.suns, t.stride], up, (j, h), w))
-                .collect(),
+            light: (0..self.n.w).map(light).collect(),
         }
     }
 

@@ -15,6 +15,8 @@ _ROW = 8
 """Columns of tables that have one for each constituent."""
 _MAX_WAVELENGTHS = 64
 _SCALE_HEIGHT = 8000.0
+_BEND = 0.1
+"""Angle in rad below which columns are dense."""
 _DIFFUSE_SHARE = 0.001
 """Share of diffuse light in the estimates of sunlight."""
 
@@ -62,7 +64,7 @@ class Estimates:
     @property
     def width(self):
         """Numbers that an intermediate array has for each ray, at most."""
-        stops = 3 + 2 * (len(self._tables.level) - 1) + 2 * len(self._tables.ring)
+        stops = 4 + 2 * (len(self._tables.level) - 1) + 2 * len(self._tables.ring)
         return stops * max(self._extinction.shape)
 
     def along(self, view):
@@ -99,9 +101,19 @@ class Estimates:
 
     def _columns_to_sun(self, altitude, x, dip):
         """D at the stops: (N, S, nk)."""
-        angle = visible_height(x) * SOLAR_RADIUS / (np.pi / 2 + dip)
-        place = np.sqrt(np.clip(angle, 0.0, 1.0))
-        return np.exp(self._tables.logarithm(self._tables.column, altitude, place))
+        tables, radius = self._tables, self._observer.planet_radius
+        seen = np.maximum(0.0, visible_height(x))
+        i, s = interval(tables.level, altitude)
+
+        def at(level):
+            own = horizon_dip(radius, tables.level)[level]
+            angle = np.maximum(0.0, seen * SOLAR_RADIUS + (own - dip) * seen / (seen + 1.0))
+            range_ = np.pi / 2 + own
+            place = angle * (range_ + _BEND) / (range_ * (angle + _BEND))
+            j, t = _locate(place, tables.column.shape[1])
+            return _between(tables.column[level, j], tables.column[level, j + 1], t)
+
+        return np.exp(_between(at(i), at(i + 1), s))
 
     def _depth(self, columns):
         """Optical depths: (N, S, nk) → (N, S, nw). What does not scatter dims, too."""
@@ -174,4 +186,4 @@ def _check_altitudes(level, ring, top):
     require(level[0] == 0.0, "the first level is not the ground")
     require(level[-1] == np.float32(top), "the last level is not the top")
     require(np.all(np.diff(level) >= 1e-3), "levels increase by less than 1 mm")
-    require_within(ring, 0.0, top, "ring")
+    require_within(ring, 0.0, np.float32(top), "ring")

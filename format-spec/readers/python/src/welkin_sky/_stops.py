@@ -56,14 +56,18 @@ class Rays:
         return self._within(roots)
 
     def _shadows(self, rings):
-        """Distances (N, 2·rings) at which cylinders behind the planet are crossed, or 0."""
+        """Distances (N, 2·rings + 1) at which cylinders around the axis of the shadow are crossed, and at which that is
+        nearest; or 0."""
+        if len(rings) == 0:
+            return np.zeros_like(self.end)
         radius, h = self._observer.planet_radius, self._observer.altitude
         across = (radius + h) * self._solar_cosine
         constant = (across - radius - rings) * (across + radius + rings)
         half = self._along - (radius + h) * self._solar_sine * self._cos_to_sun
         crossing = self._square_across >= _ALONG_THE_SHADOW
-        roots = self._within(_roots(np.where(crossing, self._square_across, 1.0), half, constant))
-        return np.where(crossing & (self._towards_sun(roots) < 0.0), roots, 0.0)
+        square = np.where(crossing, self._square_across, 1.0)
+        places = np.concatenate([_roots(square, half, constant), -half / square], axis=1)
+        return np.where(crossing, self._within(places), 0.0)
 
     def _within(self, distance):
         return np.where((distance > 0.0) & (distance < self.end), distance, 0.0)
