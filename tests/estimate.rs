@@ -29,7 +29,12 @@ fn any(random: &mut Random) -> (f64, f64, f64, f64) {
     let steep = random.share() < 0.5;
     let elevation = (random.share() - 0.5) * if steep { 3.1 } else { 0.3 };
     let sun = 0.4 * random.share() - 0.2;
-    (altitude, elevation, sun, 3.14 * random.share())
+    (
+        altitude,
+        elevation,
+        sun,
+        std::f64::consts::PI * random.share(),
+    )
 }
 
 fn line((altitude, elevation, sun, azimuth): (f64, f64, f64, f64)) -> Sightline {
@@ -113,7 +118,7 @@ fn the_shadow_is_dark() {
     let mut row = vec![0.0; estimates.len()];
     let nw = row.len() / 3;
     // Along level ground, away from a sun that has long set.
-    estimates.along(&line((0.0, 0.0, -0.19, 3.14)), &mut row);
+    estimates.along(&line((0.0, 0.0, -0.19, std::f64::consts::PI)), &mut row);
     for w in 0..nw {
         let rest = 1e-3 * row[2 * nw + w];
         assert!(row[w] < 1.5 * rest && row[nw + w] < 1.5 * rest, "{row:?}");

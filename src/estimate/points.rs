@@ -1,5 +1,7 @@
 //! Points on a ray, eight at a time: how high they are, how the sun stands there, and where that is in the tables.
 
+#![allow(clippy::needless_range_loop)] // Chains of iterators over several arrays do not always vectorise.
+
 use super::path::Stops;
 use crate::format::EstimateView;
 use crate::geometry::{Planet, SOLAR_ANGULAR_RADIUS};

@@ -25,7 +25,7 @@ impl Default for Training {
     fn default() -> Self {
         Self {
             visibilities: vec![40_000.0, 131_800.0, 20_000.0],
-            altitudes: vec![0.5, 800.0, 3000.0, 8000.0, 15_000.0],
+            altitudes: vec![0.5, 800.0, 3000.0, 8000.0, 15_000.0, 45_000.0],
             counts: [48, 16],
             settings: Settings::COARSE,
             fineness: 2.0,
@@ -34,7 +34,7 @@ impl Default for Training {
 }
 
 /// Changes whenever the physics or the layout of the units does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 /// Lights that are solved together, beside the guard.
 pub const TOGETHER: usize = NW - 1;
 
