@@ -3,6 +3,7 @@
 use crate::dataset::Sample;
 use anyhow::Result;
 use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
 use welkin::{Conditions, Model};
 
 /// Median, 95th, 99th percentile and largest relative error of a class of directions.
@@ -39,7 +40,7 @@ pub struct Error {
 pub type Class = (&'static str, fn(&Error) -> bool);
 
 /// Directions of the sphere and suns that are reported apart.
-pub const CLASSES: [Class; 8] = [
+pub const CLASSES: [Class; 13] = [
     ("all", |_| true),
     ("day (sun > 0°)", |e| e.solar_elevation > 0.0),
     ("twilight", |e| e.solar_elevation <= 0.0),
@@ -48,6 +49,19 @@ pub const CLASSES: [Class; 8] = [
     }),
     ("twilight, 300..760 nm", |e| {
         e.solar_elevation <= 0.0 && e.wavelength <= 760.0
+    }),
+    ("sun −12..−8°", |e| e.solar_elevation < -0.1396),
+    ("sun −8..−4.2°", |e| {
+        (-0.1396..-0.0733).contains(&e.solar_elevation)
+    }),
+    ("sun −4.2..0°", |e| {
+        (-0.0733..0.0).contains(&e.solar_elevation)
+    }),
+    ("… away from the sun", |e| {
+        (-0.0733..0.0).contains(&e.solar_elevation) && e.to_sun > FRAC_PI_2
+    }),
+    ("… to 760 nm", |e| {
+        (-0.0733..0.0).contains(&e.solar_elevation) && e.to_sun > FRAC_PI_2 && e.wavelength <= 760.0
     }),
     ("sun 0..12°", |e| (0.0..0.21).contains(&e.solar_elevation)),
     ("within 15° of the sun", |e| e.to_sun < 0.262),
@@ -148,7 +162,9 @@ pub fn table(errors: &[Error]) -> String {
 }
 
 /// Bands of solar elevation (degrees) that are reported apart.
-const BANDS: [(f64, f64); 6] = [
+const BANDS: [(f64, f64); 8] = [
+    (-12.0, -8.0),
+    (-8.0, -4.2),
     (-4.2, -2.0),
     (-2.0, 0.0),
     (0.0, 3.0),

@@ -86,7 +86,9 @@ pub fn cross_check(
 }
 
 /// Bands of solar elevation (degrees) that are reported apart.
-const BANDS: [(f64, f64); 5] = [
+const BANDS: [(f64, f64); 7] = [
+    (-12.0, -8.0),
+    (-8.0, -4.2),
     (-4.2, -3.0),
     (-3.0, -1.0),
     (-1.0, 1.0),

@@ -33,9 +33,15 @@ pub struct Error {
 pub type Class = (&'static str, fn(&Error) -> bool);
 
 /// Directions of the sphere, suns and observers that are reported apart.
-pub const CLASSES: [Class; 15] = [
+pub const CLASSES: [Class; 17] = [
     ("all", |_| true),
-    ("sun −4.2..−2°", |e| e.solar_elevation < -0.0349),
+    ("sun −12..−8°", |e| e.solar_elevation < -0.1396),
+    ("sun −8..−4.2°", |e| {
+        (-0.1396..-0.0733).contains(&e.solar_elevation)
+    }),
+    ("sun −4.2..−2°", |e| {
+        (-0.0733..-0.0349).contains(&e.solar_elevation)
+    }),
     ("sun −2..0°", |e| {
         (-0.0349..0.0).contains(&e.solar_elevation)
     }),
