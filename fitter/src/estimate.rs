@@ -25,9 +25,11 @@ const SUNS: usize = 36;
 const SUN_LOWEST: f64 = -0.31;
 const SUN_WIDTH: f64 = 0.08;
 const DENSITIES: usize = 321;
-/// Less light is none, sr⁻¹; columns of less air are none, m.
-const DARK: f32 = 1e-20;
+/// Columns of less air are none, m.
 const THIN: f64 = 1e-3;
+/// Light counts as at least this share of that under the best sun at the same level: what the solver has put out would
+/// make steps.
+const FAINTEST: f32 = 1e-10;
 
 /// The tables, from the air and light of a visibility in the middle: what differs at others is left to the fields.
 pub fn tables(solved: &[Solved]) -> Estimate {
@@ -143,7 +145,17 @@ fn mean_light(light: &LightField, altitude: f64) -> Vec<f32> {
                 }
             }
         }
-        sum.map(|trace| (trace * PER_SPHERE / SOLAR_UNITS).max(DARK).ln())
+        sum.map(|trace| trace * PER_SPHERE / SOLAR_UNITS)
     };
-    (0..SUNS).flat_map(at).collect()
+    let rows: Vec<Spectrum> = (0..SUNS).map(at).collect();
+    let least: Spectrum = std::array::from_fn(|w| {
+        let brightest = rows
+            .iter()
+            .map(|row| row[w])
+            .fold(f32::MIN_POSITIVE, f32::max);
+        FAINTEST * brightest
+    });
+    let logarithm =
+        |row: Spectrum| std::array::from_fn::<f32, NW, _>(|w| row[w].max(least[w]).ln());
+    rows.into_iter().flat_map(logarithm).collect()
 }
