@@ -5,6 +5,8 @@
 
 use zerocopy::little_endian::F32;
 
+use core::f32::consts::{LN_2, LOG2_E};
+
 use super::blocks::{Block, Blocks, MOST_BLOCKS, NOTHING, WIDTH};
 use super::path::{MOST_STOPS, Stops};
 use super::points::{Axes, BATCH, Numbers, Points, SUN};
@@ -32,7 +34,7 @@ const BEND: f32 = 0.1;
 type Row = Lanes<WIDTH>;
 type Spectrum = Lanes<WIDTH>;
 
-/// Light that reaches the observer from a stop: its optical depth, and what is left.
+/// Light that reaches the observer from a stop: its optical depth, in halvings, and what is left.
 #[derive(Clone, Copy)]
 struct Ray {
     depth: Spectrum,
@@ -47,7 +49,7 @@ impl Ray {
 
     #[inline(always)]
     fn new(depth: Spectrum) -> Self {
-        let through = (-depth).exp();
+        let through = (-depth).exp2();
         Self { depth, through }
     }
 
@@ -56,7 +58,7 @@ impl Ray {
     fn mean(self, next: Self) -> Spectrum {
         /// Differences of thinner panels lose their digits.
         const THIN: f32 = 0.1;
-        let step = next.depth - self.depth;
+        let step = (next.depth - self.depth) * LN_2;
         let size = step.abs();
         let mean = (self.through - next.through).abs() / size.max(Lanes::splat(THIN));
         let series = step.map(|x| 1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0))));
@@ -94,7 +96,7 @@ struct Walk<'a> {
 /// A block of wavelengths on the way along a ray.
 #[derive(Clone, Copy)]
 struct Band {
-    /// Extinction of the constituents where their profile is 1, m⁻¹.
+    /// Extinction of the constituents where their profile is 1, halvings per metre.
     extinction: [Spectrum; WIDTH],
     /// Light from the last stop: of the sun, and diffuse.
     rays: [Ray; 2],
@@ -150,9 +152,10 @@ impl Band {
                 }
             }
         }
+        out[last] = out[last] * LN_2;
         let rest = out[last] * REST;
         for q in 0..last.min(MAX_ESTIMATES) {
-            out[q] = out[q] * PER_SPHERE + rest;
+            out[q] = out[q] * (LN_2 * PER_SPHERE) + rest;
         }
         out
     }
@@ -198,7 +201,7 @@ fn along<const N: usize, I: Instructions>(
     let bands = &mut bands[..blocks];
     for (block, band) in bands.iter_mut().enumerate() {
         for k in 0..tables.constituents.min(WIDTH) {
-            band.extinction[k] = Lanes(of.extinction[k * blocks + block]);
+            band.extinction[k] = Lanes(of.extinction[k * blocks + block]) * LOG2_E;
         }
     }
     let scattering = (32 - tables.any_scatters().leading_zeros() as usize).min(WIDTH);
@@ -224,7 +227,7 @@ fn along<const N: usize, I: Instructions>(
                     let row = load(tables.light, stop.light[t] + block * WIDTH);
                     light = instructions.add_product(light, row, stop.weight[t]);
                 }
-                band.step(instructions, &stop, light, scattering);
+                band.step(instructions, &stop, light * LOG2_E, scattering);
             }
             k += 1;
             i += 1;
