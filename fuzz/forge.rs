@@ -4,7 +4,8 @@
 #![forbid(unsafe_code)]
 
 use welkin::{
-    AerialPerspective, Conditions, Model, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra, Transmittance,
+    AerialPerspective, Conditions, Model, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra,
+    Transmittance,
 };
 
 /// `data` with the length of the file and all checksums that can be found set right.
@@ -15,10 +16,15 @@ pub fn forged(data: &[u8]) -> Vec<u8> {
     }
     let length = bytes.len() as u64;
     bytes[16..24].copy_from_slice(&length.to_le_bytes());
-    let head = usize::try_from(u64_at(&bytes, 24)).unwrap_or(0).min(bytes.len());
+    let head = usize::try_from(u64_at(&bytes, 24))
+        .unwrap_or(0)
+        .min(bytes.len());
     let count = u32::from_le_bytes(bytes[36..40].try_into().expect("four bytes")) as usize;
     let directory = head.saturating_sub(count.saturating_mul(64));
-    for entry in (directory..head).step_by(64).filter(|e| *e >= 128 && e + 64 <= head) {
+    for entry in (directory..head)
+        .step_by(64)
+        .filter(|e| *e >= 128 && e + 64 <= head)
+    {
         let (offset, stored) = (u64_at(&bytes, entry + 8), u64_at(&bytes, entry + 16));
         let end = offset.saturating_add(stored);
         if (head as u64..=length).contains(&offset) && end <= length {
@@ -49,8 +55,12 @@ const SEGMENTS: [[[f64; 3]; 2]; 5] = [
 pub fn look_through(air: &Transmittance) {
     let mut through = vec![0.0; air.wavelengths().len()];
     for [from, to] in SEGMENTS {
-        air.transmittance(from, to, &mut through).expect("valid points");
-        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
+        air.transmittance(from, to, &mut through)
+            .expect("valid points");
+        assert!(
+            through.iter().all(|t| (0.0..=1.0).contains(t)),
+            "{through:?}"
+        );
     }
 }
 
@@ -65,12 +75,26 @@ pub fn look_into(aerial: &AerialPerspective) {
 pub fn scatter(aerial: &AerialPerspective, from: [f64; 3], to: [f64; 3]) {
     let mut light = vec![0.0; aerial.wavelengths().len()];
     let mut through = light.clone();
-    if aerial.in_scattering(from, to, &mut light, &mut through).is_ok() {
-        assert!(light.iter().all(|l| l.is_finite() && *l >= 0.0), "{light:?}");
-        assert!(through.iter().all(|t| (0.0..=1.0).contains(t)), "{through:?}");
+    if aerial
+        .in_scattering(from, to, &mut light, &mut through)
+        .is_ok()
+    {
+        assert!(
+            light.iter().all(|l| l.is_finite() && *l >= 0.0),
+            "{light:?}"
+        );
+        assert!(
+            through.iter().all(|t| (0.0..=1.0).contains(t)),
+            "{through:?}"
+        );
         let (mut i, mut q, mut u) = (light.clone(), light.clone(), light.clone());
-        let spectra = StokesSpectra { i: &mut i, q: &mut q, u: &mut u };
-        aerial.in_scattering_stokes(from, to, PolarisationFrame::Vertical, spectra, &mut through)
+        let spectra = StokesSpectra {
+            i: &mut i,
+            q: &mut q,
+            u: &mut u,
+        };
+        aerial
+            .in_scattering_stokes(from, to, PolarisationFrame::Vertical, spectra, &mut through)
             .expect("the same points");
         let parts = i.iter().zip(&q).zip(&u);
         let stokes: Vec<_> = parts.map(|((&i, &q), &u)| Stokes { i, q, u }).collect();
@@ -85,18 +109,27 @@ fn look_between(model: &Model, conditions: &Conditions, wavelength: f64) {
     let (frame, [from, to]) = (PolarisationFrame::Vertical, SEGMENTS[1]);
     let bright = |l: f32| assert!(l.is_finite() && l >= 0.0, "{l}");
     if let Ok(air) = model.transmittance(conditions.visibility) {
-        let through = air.transmittance_at(from, to, wavelength).expect("valid points");
+        let through = air
+            .transmittance_at(from, to, wavelength)
+            .expect("valid points");
         assert!((0.0..=1.0).contains(&through), "{through}");
     }
     if let Ok(disc) = model.solar_disc(conditions) {
-        bright(disc.radiance_at(disc.direction(), wavelength).expect("a wavelength of the model"));
+        bright(
+            disc.radiance_at(disc.direction(), wavelength)
+                .expect("a wavelength of the model"),
+        );
     }
     if let Ok(sky) = model.polarised_sky(conditions) {
         let light = sky.stokes_at([0.3, -0.2, 0.5], frame, wavelength);
         check_polarised(&[light.expect("a wavelength of the model")]);
     }
     if let Ok(aerial) = model.aerial_perspective(conditions) {
-        bright(aerial.in_scattering_at(from, to, wavelength).expect("valid points"));
+        bright(
+            aerial
+                .in_scattering_at(from, to, wavelength)
+                .expect("valid points"),
+        );
         let light = aerial.relative_stokes_at(from, to, frame, wavelength);
         check_polarised(&[light.expect("valid points")]);
     }
@@ -105,7 +138,10 @@ fn look_between(model: &Model, conditions: &Conditions, wavelength: f64) {
 /// Stokes vectors are finite, and no light is more than polarised.
 pub fn look_polarised(sky: &PolarisedSky, direction: [f32; 3]) {
     let mut light = vec![Stokes::default(); sky.sky().wavelengths().len()];
-    if sky.relative_stokes(direction, PolarisationFrame::Vertical, &mut light).is_ok() {
+    if sky
+        .relative_stokes(direction, PolarisationFrame::Vertical, &mut light)
+        .is_ok()
+    {
         check_polarised(&light);
     }
 }
@@ -114,7 +150,10 @@ fn check_polarised(light: &[Stokes]) {
     for stokes in light {
         assert!(stokes.i.is_finite() && stokes.q.is_finite() && stokes.u.is_finite());
         // Subnormal numbers have few digits.
-        assert!(stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40, "{stokes:?}");
+        assert!(
+            stokes.q.hypot(stokes.u) <= 1.001 * stokes.i + 1e-40,
+            "{stokes:?}"
+        );
     }
 }
 
@@ -151,13 +190,18 @@ pub fn interrogate(model: &Model) {
         if let Ok(sky) = model.sky(&conditions) {
             let mut out = vec![0.0; sky.wavelengths().len()];
             for direction in [[0.0, 0.0, 1.0], [1.0, 0.0, 0.01], [0.3, -0.2, -0.5]] {
-                sky.radiance(direction, &mut out).expect("a valid direction");
+                sky.radiance(direction, &mut out)
+                    .expect("a valid direction");
                 assert!(out.iter().all(|l| l.is_finite() && *l >= 0.0));
                 let xyz = sky.xyz(direction).expect("a valid direction");
                 assert!(xyz.iter().all(|v| v.is_finite()));
-                let range = model.wavelength_range().expect("the sky has read the spectrum");
+                let range = model
+                    .wavelength_range()
+                    .expect("the sky has read the spectrum");
                 let wavelength = within(range);
-                let l = sky.radiance_at(direction, wavelength).expect("a wavelength of the model");
+                let l = sky
+                    .radiance_at(direction, wavelength)
+                    .expect("a wavelength of the model");
                 assert!(l.is_finite() && l >= 0.0);
             }
         }

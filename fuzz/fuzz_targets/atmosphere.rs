@@ -17,6 +17,9 @@ fuzz_target!(|text: &str| {
     let air = &case.atmosphere;
     for altitude in [0.0, 1.0, 0.5 * air.top(), air.top()] {
         let extinction = air.extinction(altitude, 0);
-        assert!(extinction.is_finite() && extinction >= 0.0, "{extinction} at {altitude} m");
+        assert!(
+            extinction.is_finite() && extinction >= 0.0,
+            "{extinction} at {altitude} m"
+        );
     }
 });

@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::OnceLock;
-use welkin::{Conditions, AerialPerspective, Model, PolarisedSky};
+use welkin::{AerialPerspective, Conditions, Model, PolarisedSky};
 use welkin_fuzz::{look_polarised, scatter};
 
 /// What takes long to prepare, for a few scenes.
@@ -24,7 +24,9 @@ impl Prepared {
                 altitude: 1500.0,
                 ..Conditions::default()
             };
-            let aerial = model.aerial_perspective(&conditions).expect("a model with aerial perspective");
+            let aerial = model
+                .aerial_perspective(&conditions)
+                .expect("a model with aerial perspective");
             let sky = model.polarised_sky(&conditions).expect("a polarised model");
             (aerial, sky)
         });
@@ -40,9 +42,20 @@ static PREPARED: OnceLock<Prepared> = OnceLock::new();
 type Scene = ([f64; 5], [f32; 3], f64, [[i32; 3]; 2]);
 
 fuzz_target!(|input: Scene| {
-    let ([solar_elevation, solar_azimuth, visibility, albedo, altitude], direction, wavelength, points) = input;
+    let (
+        [solar_elevation, solar_azimuth, visibility, albedo, altitude],
+        direction,
+        wavelength,
+        points,
+    ) = input;
     let prepared = PREPARED.get_or_init(Prepared::new);
-    let conditions = Conditions { solar_elevation, solar_azimuth, visibility, albedo, altitude };
+    let conditions = Conditions {
+        solar_elevation,
+        solar_azimuth,
+        visibility,
+        albedo,
+        altitude,
+    };
     let conditions = conditions.clamped(&prepared.model).unwrap_or_default();
     let sky = prepared.model.sky(&conditions).expect("clamped conditions");
     if let Ok(l) = sky.radiance_at(direction, wavelength) {

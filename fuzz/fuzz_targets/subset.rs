@@ -5,7 +5,9 @@
 
 use libfuzzer_sys::fuzz_target;
 use welkin::Model;
-use welkin::format::{ENCODING_RAW, ENCODING_ZSTD, Selection, crop, encode, recode, unpack, verify};
+use welkin::format::{
+    ENCODING_RAW, ENCODING_ZSTD, Selection, crop, encode, recode, unpack, verify,
+};
 use welkin_fuzz::{forged, interrogate};
 
 fuzz_target!(|data: &[u8]| {
@@ -19,7 +21,9 @@ fuzz_target!(|data: &[u8]| {
     };
     let all = Selection::all(&head);
     let some = |indices: &[usize], shift: u32| {
-        let kept = indices.iter().filter(|i| bits >> (shift + (**i as u32 % 8)) & 1 == 1);
+        let kept = indices
+            .iter()
+            .filter(|i| bits >> (shift + (**i as u32 % 8)) & 1 == 1);
         kept.copied().collect()
     };
     let selection = Selection {

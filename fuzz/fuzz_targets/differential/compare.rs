@@ -20,8 +20,8 @@ pub struct Case<'a> {
     pub questions: &'a [Question],
     pub ranges: Ranges,
     pub changes: &'a Changes,
-    /// The class of what is wrong with the spectrum, if anything.
-    pub spectrum: Option<&'static str>,
+    /// The class of what is wrong with the spectrum or the estimates, if anything: those may be looked at early.
+    pub early: Option<&'static str>,
 }
 
 /// What is wrong with the report of another reader, if anything.
@@ -29,9 +29,9 @@ pub fn disagreement(case: &Case, library: &Report, other: &Report) -> Option<Str
     match (library, other) {
         (_, Err(class)) if class == ABSTAINS => None,
         (Err(a), Err(b)) => class_at_open(case, a, b),
-        // A damaged spectrum may be refused early.
+        // A damaged spectrum and damaged estimates may be refused early.
         (Ok(_), Err(class)) => case
-            .spectrum
+            .early
             .is_none()
             .then(|| format!("refused at open: {class}")),
         // Readers that are asked line by line say so at each question.
@@ -84,9 +84,9 @@ fn answer(case: &Case, i: usize, a: &[Answer], b: &[Answer]) -> Option<String> {
             values(case, question, zenith, a_values, b_values)
         }
         (Err(a), Err(b)) => class(case, question, a, b),
-        // A damaged spectrum may be refused, but need not, where nothing depends on it.
+        // So may they be where nothing depends on them, but need not.
         (Ok(_), Err(class)) | (Err(class), Ok(_))
-            if !question.needs_spectrum() && case.spectrum == Some(class) =>
+            if !question.needs_spectrum() && case.early == Some(class) =>
         {
             None
         }
@@ -101,8 +101,7 @@ fn answer(case: &Case, i: usize, a: &[Answer], b: &[Answer]) -> Option<String> {
 }
 
 fn class(case: &Case, question: &Question, a: &str, b: &str) -> Option<String> {
-    if question.is_outside(&case.ranges) && case.spectrum.is_none() && (a, b) != ("range", "range")
-    {
+    if question.is_outside(&case.ranges) && case.early.is_none() && (a, b) != ("range", "range") {
         return Some(format!("outside the range, but {a} and {b}"));
     }
     let both = |one, other| [(one, other), (other, one)].contains(&(a, b));
@@ -110,7 +109,7 @@ fn class(case: &Case, question: &Question, a: &str, b: &str) -> Option<String> {
     let free = ["checksum", "encoding", "value", "direction"]
         .iter()
         .any(|c| both("missing", c));
-    let damaged = case.spectrum.is_some_and(|class| [a, b].contains(&class));
+    let damaged = case.early.is_some_and(|class| [a, b].contains(&class));
     let free = free || damaged || question.has_wavelength() && (a, b) != ("range", "range");
     let several = case.changes.count > 1;
     (a != b && !several && !free).then(|| format!("{a} and {b}"))

@@ -25,6 +25,7 @@ use parts::Parts;
 use question::{Ranges, questions};
 use readers::{Python, Report};
 use welkin::Model;
+use welkin::format::Kind;
 // What the build script compiles is linked to the library of this package.
 use welkin_fuzz as _;
 
@@ -80,7 +81,7 @@ fuzz_target!(|data: &[u8]| {
         questions: &questions,
         ranges,
         changes: &changes,
-        spectrum: spectrum_damage(&model),
+        early: spectrum_damage(&model).or_else(|| estimate_damage(&model, &file)),
     };
     let check = |reader: &str, report: Report| {
         if let Some(wrong) = disagreement(&case, &library, &report) {
@@ -107,6 +108,15 @@ fuzz_target!(|data: &[u8]| {
 fn spectrum_damage(model: &Result<Model, welkin::Error>) -> Option<&'static str> {
     let range = model.as_ref().ok()?.wavelength_range();
     range.err().map(|error| error.class())
+}
+
+/// The same of the estimates.
+fn estimate_damage(model: &Result<Model, welkin::Error>, file: &[u8]) -> Option<&'static str> {
+    let mut directory = model.as_ref().ok()?.directory().iter();
+    let place = directory.position(|entry| entry.kind == Kind::Estimate)?;
+    let problems = welkin::format::verify(file);
+    let found = problems.iter().find(|problem| problem.chunk == Some(place));
+    found.map(|problem| problem.error.class())
 }
 
 /// Ends the run; with DIFFERENTIAL_LIST in the environment it goes on, to list what there is.
