@@ -15,8 +15,8 @@ pub const ESTIMATES: usize = 4;
 pub const OF_FIELD: [usize; crate::successive_orders::FIELDS] = [0, 1, 2, 3, 3];
 
 /// Altitudes at which rays have stops, m: about the inversion, the end of the aerosol, the ozone layer.
-const LEVELS: [f64; 13] = [
-    0.0, 1e3, 2e3, 3e3, 5e3, 8e3, 12e3, 17e3, 24e3, 32e3, 42e3, 55e3, 75e3,
+const LEVELS: [f64; 15] = [
+    0.0, 1e3, 2e3, 3e3, 5e3, 8e3, 12e3, 17e3, 24e3, 30e3, 36e3, 43e3, 51e3, 60e3, 75e3,
 ];
 /// Altitudes of sun rays that graze the Earth, m: from the edge of the shadow to where they are hardly dimmed.
 const RINGS: [f32; 4] = [0.0, 3e3, 8e3, 16e3];

@@ -4,7 +4,7 @@ use crate::dataset::Grid;
 use crate::decompose::Options;
 
 /// Changes whenever what is fitted or how it is does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Name of the unit that holds the fit of some nodes.
 pub(crate) fn unit_name(
@@ -54,7 +54,7 @@ impl Default for Fitting {
     fn default() -> Self {
         Self {
             options: Options {
-                rank: 160,
+                rank: 128,
                 sweeps: 100,
                 seed: 1,
             },
