@@ -130,6 +130,7 @@ cfg_if::cfg_if! {
         mod bands;
         mod budget;
         mod model;
+        mod moon;
         pub mod output;
         mod polarisation;
         mod sky;
@@ -152,6 +153,7 @@ cfg_if::cfg_if! {
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;
         pub use model::{Model, ReadAt, Traffic};
+        pub use moon::{Moon, SkySum};
         pub use polarisation::{
             PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,
         };

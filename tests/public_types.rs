@@ -25,6 +25,8 @@ all_shared! {
     Transmittance,
     AlphaAxis,
     BakeError,
+    Moon,
+    SkySum,
     BakedBandSky,
     BakedPolarisedBandSky,
     BandAerialPerspective,

@@ -28,8 +28,10 @@ use crate::spectrum::SpectralInterpolation;
 /// # Ok::<(), welkin::Error>(())
 /// ```
 pub struct Model {
-    store: Store,
+    store: Arc<Store>,
     contents: Contents,
+    /// The head in the light of the sun, where that of `contents` is in the light of the moon.
+    sunlit: Option<Arc<Head>>,
     interpolation: OnceLock<Arc<SpectralInterpolation>>,
 }
 
@@ -111,10 +113,35 @@ impl Model {
 
     fn assemble((store, contents): (Store, Contents)) -> Self {
         Self {
-            store,
+            store: Arc::new(store),
             contents,
+            sunlit: None,
             interpolation: OnceLock::new(),
         }
+    }
+
+    /// The same chunks with the light of the moon, which `moonlight` makes of that of the sun.
+    pub(crate) fn with_moonlight(&self, moonlight: impl FnOnce(&mut Head)) -> Self {
+        let sunlit = match &self.sunlit {
+            Some(sunlit) => Arc::clone(sunlit),
+            None => Arc::new(self.head().clone()),
+        };
+        let mut head = Head::clone(&sunlit);
+        moonlight(&mut head);
+        Self {
+            store: Arc::clone(&self.store),
+            contents: Contents {
+                head,
+                ..self.contents.clone()
+            },
+            sunlit: Some(sunlit),
+            interpolation: OnceLock::new(),
+        }
+    }
+
+    /// Whether the light is that of the moon: see [`Model::moonlit`].
+    pub fn is_moonlit(&self) -> bool {
+        self.sunlit.is_some()
     }
 
     /// Verifies all chunks at once instead of at their first touch.

@@ -126,6 +126,11 @@ const COEFFICIENTS: [(f64, [f64; 6]); 30] = [
     ),
 ];
 
+/// The profile of a disc that is evenly bright.
+pub(crate) fn none(_: f64) -> [f32; 6] {
+    [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+}
+
 /// Polynomial in μ at a wavelength (nm), divided by its mean over the disc: linear between the published wavelengths,
 /// constant beyond them.
 pub(crate) fn profile(wavelength: f64) -> [f32; 6] {

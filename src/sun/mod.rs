@@ -48,6 +48,8 @@ pub struct SolarDisc {
     wavelengths: Vec<f64>,
     /// Outside the air, W m⁻² nm⁻¹.
     irradiance: Vec<f32>,
+    /// Limb darkening at a wavelength, nm.
+    profile_at: fn(f64) -> [f32; 6],
     profile: Vec<[f32; 6]>,
     /// XYZ per unit of relative radiance.
     xyz: Vec<[f32; 3]>,
@@ -79,12 +81,17 @@ impl SolarDisc {
             false => None,
         };
         let wavelengths = head.wavelengths.iter();
+        let profile_at = match model.is_moonlit() {
+            true => limb_darkening::none,
+            false => limb_darkening::profile,
+        };
         Ok(Self {
+            profile_at,
             irradiance: wavelengths
                 .clone()
                 .map(|&l| head.solar_irradiance_at(l) as f32)
                 .collect(),
-            profile: wavelengths.map(|&l| limb_darkening::profile(l)).collect(),
+            profile: wavelengths.map(|&l| profile_at(l)).collect(),
             xyz: head.xyz.iter().map(|xyz| xyz.map(|v| v as f32)).collect(),
             wavelengths: head.wavelengths.clone(),
             cap,
@@ -140,7 +147,7 @@ impl SolarDisc {
         let known = (spot.depths).transmittance_at(interpolation, spot.elevation, wavelength);
         let relative = match known {
             Some(transmittance) => {
-                let profile = limb_darkening::profile(wavelength);
+                let profile = (self.profile_at)(wavelength);
                 let disc = limb_darkening::evaluate(&profile, spot.mu);
                 transmittance * f64::from(disc) / self.cap.solid_angle()
             }

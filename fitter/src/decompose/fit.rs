@@ -5,14 +5,14 @@ use super::collocation::Collocation;
 use super::coupled::{Factors, Options, decompose};
 use super::refine::{self, Basis, Own, Pass};
 use super::row_major::row_major;
-use super::tucker::{Dense, Tucker, compress_together};
+use super::tucker::{Dense, Tucker, principal_basis};
 use super::weights::channel_weights;
 use crate::dataset::{Axis, Grid};
 use faer::Mat;
 use rayon::prelude::*;
 
 /// Share of the energy that the compression before the decomposition may lose per mode.
-const COMPRESSION: f64 = 1e-9;
+const COMPRESSION: f64 = 1e-7;
 /// Azimuth and channel are shared, view direction and solar elevation belong to a chunk.
 pub const SHARED: [bool; 4] = [false, true, false, true];
 
@@ -98,26 +98,43 @@ pub fn refine_all(
     }
 }
 
+/// The shared modes first, from all chunks one by one, so that no more than small cores are held at a time.
 fn compress(chunks: &[Chunk], weights: &[f64], tolerance: f64) -> Vec<Tucker> {
+    let shared = |mode: usize| {
+        let grams = chunks
+            .par_iter()
+            .map(|c| weighted(c, weights).relative_gram(mode));
+        grams
+            .reduce_with(|a, b| a + b)
+            .map(|sum| principal_basis(&sum, tolerance))
+    };
+    let (phi, channel) = (shared(1), shared(3));
     let one = |chunk: &Chunk| {
-        let weighted = chunk.values().chunks_exact(weights.len());
-        let values = weighted.flat_map(|cell| {
-            let pairs = cell.iter().zip(weights);
-            pairs.map(|(v, w)| f64::from(*v) * w)
-        });
-        let [views, phis, elevations] = chunk.sites;
-        let mut tucker = Tucker::new(Dense {
-            shape: [views, phis, elevations, weights.len()],
-            values: values.collect(),
-        });
+        let mut tucker = Tucker::new(weighted(chunk, weights));
+        for (mode, basis) in [(3, &channel), (1, &phi)] {
+            if let Some(basis) = basis {
+                tucker.project(mode, basis);
+            }
+        }
         tucker.compress(0, tolerance);
         tucker.compress(2, tolerance);
         tucker
     };
-    let mut tuckers: Vec<Tucker> = chunks.par_iter().map(one).collect();
-    compress_together(&mut tuckers, 1, tolerance);
-    compress_together(&mut tuckers, 3, tolerance);
-    tuckers
+    chunks.par_iter().map(one).collect()
+}
+
+/// The fields of a chunk, each channel times its weight.
+fn weighted(chunk: &Chunk, weights: &[f64]) -> Dense {
+    let cells = chunk.values().chunks_exact(weights.len());
+    let values = cells.flat_map(|cell| {
+        let pairs = cell.iter().zip(weights);
+        pairs.map(|(v, w)| f64::from(*v) * w)
+    });
+    let [views, phis, elevations] = chunk.sites;
+    Dense {
+        shape: [views, phis, elevations, weights.len()],
+        values: values.collect(),
+    }
 }
 
 pub(super) fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f64]) -> Fit {

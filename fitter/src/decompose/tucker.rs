@@ -32,7 +32,8 @@ impl Tucker {
         self.project(mode, &basis);
     }
 
-    fn project(&mut self, mode: usize, basis: &Mat<f64>) {
+    /// Replaces `mode` by its coordinates in an orthonormal basis.
+    pub fn project(&mut self, mode: usize, basis: &Mat<f64>) {
         self.core = self.core.project(mode, basis);
         self.bases[mode] = &self.bases[mode] * basis;
     }
@@ -40,10 +41,7 @@ impl Tucker {
 
 /// Compresses `mode` of all tensors with one basis, to which every tensor contributes alike.
 pub fn compress_together(tensors: &mut [Tucker], mode: usize, tolerance: f64) {
-    let grams = tensors.iter().map(|t| {
-        let energy: f64 = t.core.values.iter().map(|v| v * v).sum();
-        gram(&t.core, mode) * faer::Scale(1.0 / energy.max(1e-300))
-    });
+    let grams = tensors.iter().map(|t| t.core.relative_gram(mode));
     let Some(sum) = grams.reduce(|a, b| a + b) else {
         return;
     };
@@ -57,6 +55,12 @@ fn gram(tensor: &Dense, mode: usize) -> Mat<f64> {
 }
 
 impl Dense {
+    /// The Gram matrix of a mode over the energy.
+    pub fn relative_gram(&self, mode: usize) -> Mat<f64> {
+        let energy: f64 = self.values.iter().map(|v| v * v).sum();
+        gram(self, mode) * faer::Scale(1.0 / energy.max(1e-300))
+    }
+
     /// Matrix `[mode][all others]`.
     pub fn unfold(&self, mode: usize) -> Mat<f64> {
         let (outer, n, inner) = self.split(mode);
@@ -91,7 +95,7 @@ impl Dense {
 }
 
 /// Eigenvectors of a Gram matrix that hold all but `tolerance` of its trace.
-fn principal_basis(gram: &Mat<f64>, tolerance: f64) -> Mat<f64> {
+pub fn principal_basis(gram: &Mat<f64>, tolerance: f64) -> Mat<f64> {
     let n = gram.nrows();
     let Ok(eigen) = gram.self_adjoint_eigen(Side::Lower) else {
         return Mat::identity(n, n);

@@ -8,6 +8,7 @@ use welkin::Sky;
 use crate::about::About;
 use crate::failure::Result;
 use crate::tone::{Film, Tone, WhiteBalance, luminance};
+use crate::view::View;
 
 /// Middle grey is 0.18 of white. Photographers put a clear sky one stop above it …
 const SKY: f64 = 0.36;
@@ -44,11 +45,11 @@ fn value(text: &str) -> std::result::Result<f64, String> {
 }
 
 impl Exposure {
-    /// For a sky.
-    pub fn of_sky(&self, sky: &Sky) -> Result<Film> {
+    /// For a sky, with what the moon adds to it in a view.
+    pub fn of_sky(&self, view: &View, sky: &Sky) -> Result<Film> {
         let white = match self.white() {
             Some(white) => white,
-            None => mean_luminance(sky)? / SKY,
+            None => mean_luminance(view, sky)? / SKY,
         };
         Ok(self.film(white))
     }
@@ -97,7 +98,7 @@ impl Film {
 }
 
 /// Geometric mean over the upper hemisphere, cd m⁻².
-fn mean_luminance(sky: &Sky) -> Result<f64> {
+fn mean_luminance(view: &View, sky: &Sky) -> Result<f64> {
     const RINGS: usize = 16;
     const SPOKES: usize = 32;
     let sun = sky.conditions().solar_azimuth;
@@ -108,7 +109,7 @@ fn mean_luminance(sky: &Sky) -> Result<f64> {
         [level * x, level * y, z].map(|v| v as f32)
     });
     let luminances: welkin::Result<Vec<f64>> = places
-        .map(|direction| Ok(f64::from(sky.xyz(direction)?[1])))
+        .map(|direction| Ok(f64::from(view.xyz(sky, direction)?[1])))
         .collect();
     Ok(geometric_mean(luminances?.into_iter()))
 }

@@ -22,6 +22,7 @@ mod irradiance;
 mod landscape;
 mod light;
 mod manual;
+mod moonlight;
 mod naming;
 mod outputs;
 mod parallel;

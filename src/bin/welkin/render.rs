@@ -13,6 +13,7 @@ use crate::exposure::Exposure;
 use crate::failure::{Failure, Result, fixed, plain};
 use crate::ground::Ground;
 use crate::landscape::{self, Landscape};
+use crate::moonlight::{self, Lit};
 use crate::outputs::{self, Outputs};
 use crate::picture::{Picture, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
@@ -20,7 +21,7 @@ use crate::projection::Projection;
 use crate::scene::Scene;
 use crate::sensor;
 use crate::tone::Film;
-use crate::view::View;
+use crate::view::{Moonlight, View};
 
 #[derive(clap::Args)]
 pub struct Options {
@@ -28,6 +29,8 @@ pub struct Options {
     pub source: Source,
     #[command(flatten)]
     pub scene: Scene,
+    #[command(flatten)]
+    moon: moonlight::Options,
     #[command(flatten)]
     heading: Heading,
     /// How the sphere of directions is laid onto the picture.
@@ -69,11 +72,17 @@ pub struct Options {
     exposure: Exposure,
 }
 
+const ZENITH: [f32; 3] = [0.0, 0.0, 1.0];
+
 /// A picture, and what it was made of.
 pub struct Shot {
     pub picture: Picture,
+    /// With the sun, wherever it is.
+    conditions: Conditions,
     sky: Sky,
     film: Film,
+    /// Luminance of the zenith, cd m⁻².
+    zenith: f32,
     pixels: usize,
     /// How long the sky took.
     prepared: Duration,
@@ -82,7 +91,8 @@ pub struct Shot {
 impl Options {
     /// As many conditions as there are steps in the course of the sun.
     pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
-        let mut course = self.scene.course(model, steps)?;
+        let has_moon = self.moon.moon().is_some();
+        let mut course = self.scene.course_with_moon(model, steps, has_moon)?;
         if let (None, Some(altitude)) = (self.scene.altitude, self.landscape.altitude()) {
             let [lowest, highest] = model.altitude_range();
             let altitude = altitude.clamp(lowest, highest);
@@ -100,6 +110,12 @@ impl Options {
         marks: &[(&'static str, &str)],
     ) -> Result<Shot> {
         let start = Instant::now();
+        let moon = self.moon.lit(model, conditions)?;
+        let conditions_of_sun = conditions;
+        let (model, conditions, moon) = match (&moon, moonlight::is_up(model, conditions)) {
+            (Some(moon), false) => (&moon.model, &moon.conditions, None),
+            (moon, _) => (model, conditions, moon.as_ref()),
+        };
         let sensor = match self.sensor.sensor(model)? {
             Some(sensor) => Some((sensor, model.band_sky(conditions, &sensor.bands)?)),
             None => None,
@@ -114,19 +130,24 @@ impl Options {
         };
         let prepared = start.elapsed();
         let azimuth = self.heading.azimuth(self.landscape.azimuth())?;
-        let mut about = About::scene(sky.conditions(), azimuth).with(marks);
+        let mut about = About::scene(conditions_of_sun, azimuth).with(marks);
+        self.moon.describe(&mut about);
         about.text("model", self.source.name());
         if self.sun {
             about.text("sun", "disc");
         }
+        let mut zenith = sky.xyz(ZENITH)?[1];
         let landscape = self
             .landscape
             .prepare(model, conditions, azimuth, self.sun)?;
         let (picture, film, pixels) = match landscape {
             Some(landscape) => self.scenery(&landscape, outputs, about)?,
             None => {
-                let view = self.view(model, conditions, azimuth)?;
-                let film = self.exposure.of_sky(&sky)?;
+                let view = View {
+                    moon: moon.map(|moon| self.moonlight(moon)).transpose()?,
+                    ..self.view(model, conditions, azimuth)?
+                };
+                let film = self.exposure.of_sky(&view, &sky)?;
                 let mut wanted = outputs.wanted(film, about);
                 let picture = match &sensor {
                     Some((sensor, bands)) => {
@@ -135,13 +156,16 @@ impl Options {
                     }
                     None => self.picture(&view, &sky, polarised.as_ref(), &mut wanted)?,
                 };
+                zenith = view.xyz(&sky, ZENITH)?[1];
                 (picture, film, view.size[0] * view.size[1])
             }
         };
         Ok(Shot {
             picture,
+            conditions: *conditions_of_sun,
             sky,
             film,
+            zenith,
             pixels,
             prepared,
         })
@@ -159,6 +183,10 @@ impl Options {
                 "the sun is not polarised: --sun shows radiance only",
             ),
             (
+                self.moon.moon().is_some(),
+                "moonlight has no polarisation: --moon-elevation shows radiance only",
+            ),
+            (
                 self.sensor.is_wanted(),
                 "bands have no quantity but radiance: --bands and --wavelengths show that only",
             ),
@@ -173,6 +201,18 @@ impl Options {
             projection: self.projection,
             size: self.projection.dimensions(self.size.into()),
             azimuth,
+            ground: ground.transpose()?,
+            disc: disc.transpose()?,
+            moon: None,
+        })
+    }
+
+    /// What the moon adds.
+    fn moonlight(&self, Lit { model, conditions }: &Lit) -> Result<Moonlight> {
+        let ground = self.ground.then(|| Ground::new(model, conditions));
+        let disc = self.sun.then(|| Disc::new(model, conditions));
+        Ok(Moonlight {
+            sky: model.sky(conditions)?,
             ground: ground.transpose()?,
             disc: disc.transpose()?,
         })
@@ -259,7 +299,7 @@ pub fn run(options: &Options) -> Result<()> {
 }
 
 fn report(options: &Options, model: &Model, shot: &Shot, out: &mut dyn Write) -> Result<()> {
-    let conditions = shot.sky.conditions();
+    let conditions = &shot.conditions;
     writeln!(
         out,
         "model           {}, {} wavelengths",
@@ -272,6 +312,15 @@ fn report(options: &Options, model: &Model, shot: &Shot, out: &mut dyn Write) ->
         conditions.solar_elevation.to_degrees(),
         fixed(conditions.solar_azimuth.to_degrees(), 2),
     )?;
+    if let Some(moon) = options.moon.moon() {
+        writeln!(
+            out,
+            "moon            elevation {:.2}°, azimuth {}°, phase angle {}°",
+            moon.elevation.to_degrees(),
+            fixed(moon.azimuth.to_degrees(), 2),
+            fixed(moon.phase_angle.to_degrees(), 2),
+        )?;
+    }
     writeln!(
         out,
         "conditions      visibility {} km, albedo {}, altitude {} m",
@@ -279,8 +328,11 @@ fn report(options: &Options, model: &Model, shot: &Shot, out: &mut dyn Write) ->
         plain(conditions.albedo),
         plain(conditions.altitude),
     )?;
-    let zenith = shot.sky.xyz([0.0, 0.0, 1.0])?[1];
-    writeln!(out, "zenith          {} cd/m²", fixed(zenith.into(), 4))?;
+    writeln!(
+        out,
+        "zenith          {} cd/m²",
+        fixed(shot.zenith.into(), 4)
+    )?;
     writeln!(out, "exposure        EV {:.2}", shot.film.exposure_value())?;
     Ok(())
 }

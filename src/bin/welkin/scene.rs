@@ -47,6 +47,33 @@ impl Scene {
         self.reached(model, wished.collect())
     }
 
+    /// The same, but where `has_moon` the sun may be below the range of the model.
+    pub fn course_with_moon(
+        &self,
+        model: &Model,
+        steps: usize,
+        has_moon: bool,
+    ) -> Result<Vec<Conditions>> {
+        if !has_moon {
+            return self.course(model, steps);
+        }
+        let air = self.air(model)?;
+        let positions = self.sun.positions(steps)?;
+        let wished: Vec<_> = positions.iter().map(|p| p.over(&air)).collect();
+        let [lowest, _] = model.solar_elevation_range();
+        let risen = wished.iter().map(|c| Conditions {
+            solar_elevation: c.solar_elevation.max(lowest),
+            ..*c
+        });
+        let mut reached = self.reached(model, risen.collect())?;
+        for (conditions, wished) in reached.iter_mut().zip(&wished) {
+            if wished.solar_elevation < lowest {
+                conditions.solar_elevation = wished.solar_elevation;
+            }
+        }
+        Ok(reached)
+    }
+
     /// Everything but the sun.
     pub fn air(&self, model: &Model) -> Result<Conditions> {
         let standard = Conditions::default();

@@ -138,8 +138,9 @@ impl Tile {
             azimuth: self.conditions.solar_azimuth,
             ground: None,
             disc: None,
+            moon: None,
         };
-        let film = exposure.of_sky(&sky)?;
+        let film = exposure.of_sky(&view, &sky)?;
         let pixel = |k: usize| {
             let direction = view.direction([k % self.size, k / self.size]);
             let rgb = direction.map(|d| sky.linear_srgb(d)).transpose()?;

@@ -17,7 +17,19 @@ pub struct View {
     pub ground: Option<Ground>,
     /// The sun's disc; none if absent.
     pub disc: Option<Disc>,
+    /// What the moon adds.
+    pub moon: Option<Moonlight>,
 }
+
+/// The sky in the light of the moon, the ground under it, and the moon's disc.
+pub struct Moonlight {
+    pub sky: Sky,
+    pub ground: Option<Ground>,
+    pub disc: Option<Disc>,
+}
+
+/// What one light makes.
+type Light<'a> = (&'a Sky, Option<&'a Ground>, Option<&'a Disc>);
 
 impl View {
     /// Up vector of the camera.
@@ -40,16 +52,37 @@ impl View {
             let Some(direction) = self.direction(pixel) else {
                 return Ok([0.0; 3]);
             };
-            let mut rgb = sky.linear_srgb(direction)?;
-            if let Some(ground) = &self.ground {
-                ground.add_srgb(direction, &mut rgb)?;
-            }
-            if let Some(disc) = &self.disc {
-                let added = disc.rgb(pixel, &self.look(), |_| true)?;
-                rgb = std::array::from_fn(|c| rgb[c] + added[c]);
+            let mut rgb = [0.0; 3];
+            for (sky, ground, disc) in self.lights(sky) {
+                let mut light = sky.linear_srgb(direction)?;
+                if let Some(ground) = ground {
+                    ground.add_srgb(direction, &mut light)?;
+                }
+                if let Some(disc) = disc {
+                    let added = disc.rgb(pixel, &self.look(), |_| true)?;
+                    light = std::array::from_fn(|c| light[c] + added[c]);
+                }
+                rgb = std::array::from_fn(|c| rgb[c] + light[c]);
             }
             Ok(rgb)
         })
+    }
+
+    /// The first light, and the moon's.
+    fn lights<'a>(&'a self, sky: &'a Sky) -> impl Iterator<Item = Light<'a>> {
+        let first = (sky, self.ground.as_ref(), self.disc.as_ref());
+        let moon = self.moon.iter();
+        std::iter::once(first).chain(moon.map(|m| (&m.sky, m.ground.as_ref(), m.disc.as_ref())))
+    }
+
+    /// CIE XYZ of the sky towards a direction, with what the moon adds.
+    pub fn xyz(&self, sky: &Sky, direction: [f32; 3]) -> welkin::Result<[f32; 3]> {
+        let mut sum = sky.xyz(direction)?;
+        if let Some(moon) = &self.moon {
+            let added = moon.sky.xyz(direction)?;
+            sum = std::array::from_fn(|c| sum[c] + added[c]);
+        }
+        Ok(sum)
     }
 
     /// Planes of the bands of a sensor; black outside the fish-eye.
@@ -67,20 +100,24 @@ impl View {
     /// Planes of spectral radiance, W m⁻² sr⁻¹ nm⁻¹.
     pub fn spectral(&self, sky: &Sky) -> welkin::Result<Vec<Vec<f32>>> {
         let count = sky.wavelengths().len();
-        let pixel = |pixel, _: &mut (), out: &mut [f32]| {
+        let pixel = |pixel, light: &mut Vec<f32>, out: &mut [f32]| {
+            out.fill(0.0);
             let Some(direction) = self.direction(pixel) else {
-                out.fill(0.0);
                 return Ok(());
             };
-            sky.radiance(direction, out)?;
-            if let Some(ground) = &self.ground {
-                ground.add(direction, out)?;
+            for (sky, ground, disc) in self.lights(sky) {
+                sky.radiance(direction, light)?;
+                if let Some(ground) = ground {
+                    ground.add(direction, light)?;
+                }
+                if let Some(disc) = disc {
+                    disc.add(pixel, &self.look(), light)?;
+                }
+                let pairs = out.iter_mut().zip(&*light);
+                pairs.for_each(|(sum, value)| *sum += value);
             }
-            match &self.disc {
-                Some(disc) => disc.add(pixel, &self.look(), out),
-                None => Ok(()),
-            }
+            Ok(())
         };
-        parallel::planes(self.size, count, || (), pixel)
+        parallel::planes(self.size, count, || vec![0.0; count], pixel)
     }
 }
