@@ -116,12 +116,7 @@ impl Place {
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.
     pub fn conditions(&self, sun: [f64; 3], elsewhere: &Conditions) -> Result<Conditions> {
-        let largest = sun.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        if !(largest > 0.0 && sun.iter().all(|v| v.is_finite())) {
-            let got = sun.map(|v| v as f32);
-            return Err(Error::Direction { got });
-        }
-        let [x, y, z] = self.to_local(sun.map(|v| v / largest));
+        let [x, y, z] = self.to_local(scaled(sun)?);
         let level = (x * x + y * y).sqrt();
         Ok(Conditions {
             altitude: self.altitude,
@@ -131,11 +126,78 @@ impl Place {
         })
     }
 
+    /// The place where a ray from here in a direction of the world (need not be normalised) first comes down to an
+    /// altitude (m): where a camera beyond the air asks for the sky, with [`Place::conditions`] and
+    /// [`Place::direction`] of that place. This place itself where it is not above the altitude; none where the ray
+    /// does not come so low.
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a vector that is zero or not finite.
+    ///
+    /// ```
+    /// use welkin::{Conditions, Model, Place, PointQuery};
+    ///
+    /// let model = Model::default_model()?;
+    /// let planet = model.head().planet;
+    /// let [_, ceiling] = model.altitude_range();
+    /// let camera = Place::new(&planet, [0.0; 3], [0.0, 0.0, planet.radius + 400e3])?;
+    /// // Through the air above the horizon, which is 20° below the horizontal.
+    /// let (ray, sun) = ([0.943, 0.0, -0.334], [0.0, 0.6, 0.8]);
+    /// let entry = camera.entry(ray, ceiling)?.expect("a ray that meets the air");
+    /// let conditions = entry.conditions(sun, &Conditions::default())?;
+    /// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
+    /// let mut radiance = vec![0.0; model.wavelengths().len()];
+    /// query.radiance(&conditions, entry.direction(ray), &mut radiance)?;
+    /// assert!(camera.entry([1.0, 0.0, 0.0], ceiling)?.is_none());
+    /// # Ok::<(), welkin::Error>(())
+    /// ```
+    pub fn entry(&self, direction: [f64; 3], altitude: f64) -> Result<Option<Self>> {
+        let unit = unit(direction)?;
+        if self.altitude <= altitude {
+            return Ok(Some(*self));
+        }
+        let [_, _, up] = self.axes;
+        let (here, there) = (self.radius + self.altitude, self.radius + altitude);
+        let sine = dot(up, unit);
+        // The squared distance of the line from the centre, without the cancellation of 1 − sin².
+        let across: [f64; 3] = core::array::from_fn(|i| unit[i] - sine * up[i]);
+        let nearest = here * dot(across, across).sqrt();
+        if sine >= 0.0 || nearest > there || there <= 0.0 {
+            return Ok(None);
+        }
+        let half = ((there - nearest) * (there + nearest)).sqrt();
+        let distance = (here - there) * (here + there) / (half - here * sine);
+        let from_centre: [f64; 3] = core::array::from_fn(|i| here * up[i] + distance * unit[i]);
+        let length = dot(from_centre, from_centre).sqrt();
+        Ok(Some(Self {
+            altitude,
+            axes: carried(from_centre.map(|v| v / length)),
+            ..*self
+        }))
+    }
+
     /// The polarisation frame with this axis of the world: the up vector of a camera, say.
     #[cfg(feature = "std")]
     pub fn frame(&self, axis: [f64; 3]) -> PolarisationFrame {
         PolarisationFrame::Axis(self.direction(axis))
     }
+}
+
+/// A vector of which the largest component is 1 in size.
+fn scaled(vector: [f64; 3]) -> Result<[f64; 3]> {
+    let largest = vector.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    if !(largest > 0.0 && vector.iter().all(|v| v.is_finite())) {
+        let got = vector.map(|v| v as f32);
+        return Err(Error::Direction { got });
+    }
+    Ok(vector.map(|v| v / largest))
+}
+
+/// A unit vector.
+fn unit(vector: [f64; 3]) -> Result<[f64; 3]> {
+    let scaled = scaled(vector)?;
+    let length = dot(scaled, scaled).sqrt();
+    Ok(scaled.map(|v| v / length))
 }
 
 /// Farther out there is nothing.
@@ -221,6 +283,45 @@ mod tests {
         );
         assert_eq!(place.altitude(), 300.0);
         assert_eq!(place.point_to_local([5.0, 6.0, 300.0]), [5.0, 6.0, 300.0]);
+    }
+
+    #[test]
+    fn rays_enter_where_they_first_come_down() {
+        let height = 4e5;
+        let centre = [5e5, 0.0, -3e6];
+        let up = [0.6, 0.0, 0.8];
+        let position = core::array::from_fn(|i| centre[i] + up[i] * (EARTH.radius + height));
+        let camera = Place::new(&EARTH, centre, position).unwrap();
+        let ceiling = 99e3;
+        let mut met = 0;
+        for i in 0..2000 {
+            let z = 1.0 - f64::from(i) * 0.001;
+            let level = (1.0 - z * z).max(0.0).sqrt();
+            let (y, x) = (2.4 * f64::from(i)).sin_cos();
+            let ray = camera.to_world([2.0 * level * x, 2.0 * level * y, 2.0 * z]);
+            let Some(entry) = camera.entry(ray, ceiling).unwrap() else {
+                // Above the horizon of that sphere.
+                let lowest = (EARTH.radius + height) * level;
+                assert!(z >= 0.0 || lowest > EARTH.radius + ceiling);
+                continue;
+            };
+            met += 1;
+            assert_eq!(entry.altitude(), ceiling);
+            let point = entry.point_to_world([0.0, 0.0, ceiling]);
+            // On the ray, and coming down.
+            let path: [f64; 3] = core::array::from_fn(|i| point[i] - position[i]);
+            let along = dot(path, ray) / 2.0;
+            let off: f64 = (0..3)
+                .map(|i| (path[i] - along * ray[i] / 2.0).powi(2))
+                .sum();
+            assert!(along > 0.0 && off.sqrt() < 1e-3, "{off}");
+            assert!(entry.to_local(ray)[2] <= 1e-9);
+        }
+        assert!(met > 500);
+        let inside = camera.entry([0.0, 0.0, 1.0], 5e5).unwrap().unwrap();
+        assert_eq!(inside, camera);
+        assert!(camera.entry([0.0; 3], ceiling).is_err());
+        assert!(camera.entry([f64::NAN, 0.0, 1.0], ceiling).is_err());
     }
 
     #[test]

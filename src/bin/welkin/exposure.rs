@@ -58,7 +58,11 @@ impl Exposure {
     pub fn of_landscape(&self, pixels: &[[f32; 3]]) -> Film {
         let white = self.white().unwrap_or_else(|| {
             let luminances = pixels.iter().map(|&pixel| f64::from(luminance(pixel)));
-            let mut luminances: Vec<_> = luminances.collect();
+            // Space is black.
+            let mut luminances: Vec<_> = luminances.filter(|&l| l > 0.0).collect();
+            if luminances.is_empty() {
+                return WHITE_AT_EV_0;
+            }
             let mean = geometric_mean(luminances.iter().copied());
             let bright = (luminances.len() as f64 * (1.0 - BRIGHTEST)) as usize;
             let (_, &mut bright, _) = luminances.select_nth_unstable_by(bright, f64::total_cmp);

@@ -31,12 +31,19 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// For an observer under these conditions.
+    /// For an observer under these conditions, or beyond the air.
     pub fn new(model: &Model, conditions: &Conditions) -> Result<Self> {
         let planet = model.head().planet;
-        let conditions = conditions.checked(model)?;
+        let altitude = conditions.altitude;
+        let [_, ceiling] = model.altitude_range();
+        let below = Conditions {
+            altitude: altitude.min(ceiling),
+            ..*conditions
+        };
+        let conditions = below.checked(model)?;
         // The farthest ground stands as far away, seen from the planet's centre, as the horizon dips.
-        let reach = planet.dip(conditions.altitude);
+        let altitude = altitude.max(conditions.altitude);
+        let reach = planet.dip(altitude);
         let [min, max] = model.solar_elevation_range();
         let lowest = (conditions.solar_elevation - reach).clamp(min, max);
         let highest = (conditions.solar_elevation + reach).clamp(min, max);
@@ -59,7 +66,7 @@ impl Ground {
             radiance: radiance.collect::<Result<_>>()?,
             air: model.transmittance(conditions.visibility)?,
             sun: conditions.sun_direction(),
-            altitude: conditions.altitude,
+            altitude,
             srgb: (0..model.wavelengths().len()).map(unit).collect(),
             planet,
             lowest,

@@ -103,6 +103,11 @@ impl Options {
         name.filter(|path| ![Path::new("flat"), Path::new("hills")].contains(path))
     }
 
+    /// Whether there is to be one.
+    pub fn is_wanted(&self) -> bool {
+        self.terrain.is_some()
+    }
+
     fn is_hills(&self) -> bool {
         self.terrain.as_deref() == Some(Path::new("hills"))
     }

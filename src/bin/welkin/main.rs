@@ -36,6 +36,7 @@ mod render;
 mod scene;
 mod sensor;
 mod sheet;
+mod space;
 mod span;
 mod subset;
 mod sun;

@@ -20,6 +20,7 @@ use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
 use crate::scene::Scene;
 use crate::sensor;
+use crate::space::{self, Space};
 use crate::tone::Film;
 use crate::view::{Moonlight, View};
 
@@ -79,7 +80,8 @@ pub struct Shot {
     pub picture: Picture,
     /// With the sun, wherever it is.
     conditions: Conditions,
-    sky: Sky,
+    /// Memory of the tables, bytes.
+    bytes: usize,
     film: Film,
     /// Luminance of the zenith, cd m⁻².
     zenith: f32,
@@ -92,7 +94,7 @@ impl Options {
     /// As many conditions as there are steps in the course of the sun.
     pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
         let has_moon = self.moon.moon().is_some();
-        let mut course = self.scene.course_with_moon(model, steps, has_moon)?;
+        let mut course = self.scene.course_beyond(model, steps, has_moon)?;
         if let (None, Some(altitude)) = (self.scene.altitude, self.landscape.altitude()) {
             let [lowest, highest] = model.altitude_range();
             let altitude = altitude.clamp(lowest, highest);
@@ -109,6 +111,9 @@ impl Options {
         outputs: &Outputs,
         marks: &[(&'static str, &str)],
     ) -> Result<Shot> {
+        if space::is_beyond(model, conditions) {
+            return self.shot_from_space(model, conditions, outputs, marks);
+        }
         let start = Instant::now();
         let moon = self.moon.lit(model, conditions)?;
         let conditions_of_sun = conditions;
@@ -163,10 +168,57 @@ impl Options {
         Ok(Shot {
             picture,
             conditions: *conditions_of_sun,
-            sky,
+            bytes: sky.bytes(),
             film,
             zenith,
             pixels,
+            prepared,
+        })
+    }
+
+    /// The same of an observer beyond the air.
+    fn shot_from_space(
+        &self,
+        model: &Model,
+        conditions: &Conditions,
+        outputs: &Outputs,
+        marks: &[(&'static str, &str)],
+    ) -> Result<Shot> {
+        let is_plain = !(self.spectral || self.stokes || self.sun || self.sensor.is_wanted())
+            && self.quantity == Quantity::Radiance
+            && self.moon.moon().is_none();
+        let azimuth = self.heading.azimuth(self.landscape.azimuth())?;
+        if !is_plain || self.landscape.is_wanted() {
+            let text = "from beyond the air pictures are in colour only: without --spectral, --stokes, --quantity, \
+                        --bands, --wavelengths, --sun, --moon-elevation and --terrain";
+            return Err(Failure::message(text));
+        }
+        let start = Instant::now();
+        let view = View {
+            projection: self.projection,
+            size: self.projection.dimensions(self.size.into()),
+            azimuth,
+            ground: None,
+            disc: None,
+            moon: None,
+        };
+        let ground = self.ground.then(|| Ground::new(model, conditions));
+        let bytes = self.source.bytes()?;
+        let space = Space::new(model, &bytes, conditions, ground.transpose()?)?;
+        let prepared = start.elapsed();
+        let pixels = space.rgb(&view)?;
+        let film = self.exposure.of_landscape(&pixels);
+        let mut about = About::scene(conditions, azimuth).with(marks);
+        about.text("model", self.source.name());
+        about.text("projection", self.projection.name());
+        let picture = Picture::of_pixels(view.size, &pixels, &outputs.wanted(film, about))?;
+        Ok(Shot {
+            picture,
+            conditions: *conditions,
+            bytes: 0,
+            film,
+            zenith: 0.0,
+            pixels: pixels.len(),
             prepared,
         })
     }
@@ -293,7 +345,7 @@ pub fn run(options: &Options) -> Result<()> {
         "memory          {} of {} bytes of the model touched, {} bytes of tables prepared",
         model.touched_bytes(),
         model.file_bytes(),
-        shot.sky.bytes(),
+        shot.bytes,
     )?;
     Ok(())
 }

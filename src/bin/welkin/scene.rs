@@ -8,6 +8,9 @@ use crate::failure::{Result, plain};
 use crate::sun::Sun;
 use crate::turbidity;
 
+/// Highest camera in orbit, m.
+const FARTHEST: f64 = 5e8;
+
 /// What is absent is as in the default conditions of the library.
 #[derive(clap::Args)]
 pub struct Scene {
@@ -47,28 +50,37 @@ impl Scene {
         self.reached(model, wished.collect())
     }
 
-    /// The same, but where `has_moon` the sun may be below the range of the model.
-    pub fn course_with_moon(
+    /// The same, but the observer may be above the range of the model, and where `has_moon` the sun below it.
+    pub fn course_beyond(
         &self,
         model: &Model,
         steps: usize,
         has_moon: bool,
     ) -> Result<Vec<Conditions>> {
-        if !has_moon {
-            return self.course(model, steps);
-        }
         let air = self.air(model)?;
         let positions = self.sun.positions(steps)?;
         let wished: Vec<_> = positions.iter().map(|p| p.over(&air)).collect();
         let [lowest, _] = model.solar_elevation_range();
-        let risen = wished.iter().map(|c| Conditions {
-            solar_elevation: c.solar_elevation.max(lowest),
+        let [_, ceiling] = model.altitude_range();
+        let is_night = |c: &Conditions| has_moon && c.solar_elevation < lowest;
+        let is_beyond =
+            |c: &Conditions| !self.clamp && c.altitude > ceiling && c.altitude <= FARTHEST;
+        let inside = wished.iter().map(|c| Conditions {
+            solar_elevation: if is_night(c) {
+                lowest
+            } else {
+                c.solar_elevation
+            },
+            altitude: if is_beyond(c) { ceiling } else { c.altitude },
             ..*c
         });
-        let mut reached = self.reached(model, risen.collect())?;
+        let mut reached = self.reached(model, inside.collect())?;
         for (conditions, wished) in reached.iter_mut().zip(&wished) {
-            if wished.solar_elevation < lowest {
+            if is_night(wished) {
                 conditions.solar_elevation = wished.solar_elevation;
+            }
+            if is_beyond(wished) {
+                conditions.altitude = wished.altitude;
             }
         }
         Ok(reached)
