@@ -211,6 +211,9 @@ impl Options {
         let mut about = About::scene(conditions, azimuth).with(marks);
         about.text("model", self.source.name());
         about.text("projection", self.projection.name());
+        if self.ground {
+            about.text("ground", "lit");
+        }
         let picture = Picture::of_pixels(view.size, &pixels, &outputs.wanted(film, about))?;
         Ok(Shot {
             picture,
