@@ -129,8 +129,8 @@ fn courses_that_the_model_does_not_reach_are_refused_before_the_first_frame() {
     let folder = folder.path();
     for (line, word) in [
         (
-            "animate --sun-elevation 60..-10 --frames 9 --out f",
-            "solar elevation must be in -4.2..=90 degrees, got -10",
+            "animate --sun-elevation 60..-20 --frames 9 --out f",
+            "solar elevation must be in -12..=90 degrees, got -20",
         ),
         ("animate --frames 9 --out f", "--sun-elevation"),
         ("animate --sun-elevation 1..2 --frames 0 --out f", "frames"),

@@ -17,7 +17,7 @@ static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap()
 
 fn conditions() -> impl Strategy<Value = Conditions> {
     let altitude = prop_oneof![Just(0.0), 0.0..1.0f64, 0.0..2e3f64];
-    let elevation = prop_oneof![-4.2..5.0f64, -4.2..90.0f64];
+    let elevation = prop_oneof![-12.0..5.0f64, -12.0..90.0f64];
     (
         elevation,
         -9.0..9.0f64,

@@ -46,8 +46,8 @@ fn axis() -> impl Strategy<Value = (Axis, f64, f64)> {
     prop_oneof![
         (Just(Axis::Climb), 0.0..15e3f64, 0.0..400f64),
         (Just(Axis::Climb), 0.0..100f64, 0.0..20f64),
-        (Just(Axis::Sun), -4.2..89.0f64, 0.0..1f64),
-        (Just(Axis::Sun), -4.2..5.0f64, 0.0..0.5f64),
+        (Just(Axis::Sun), -12.0..89.0f64, 0.0..1f64),
+        (Just(Axis::Sun), -12.0..5.0f64, 0.0..0.5f64),
         (Just(Axis::Visibility), 20e3..131e3f64, 0.0..5e3f64),
     ]
 }
@@ -61,7 +61,7 @@ proptest! {
         (axis, start, way) in axis(),
         kind in prop::sample::select(&KINDS[..]),
         altitude in prop_oneof![Just(0.0), 0.0..3e3f64, 0.0..15e3f64],
-        elevation in prop_oneof![-4.2..5.0f64, -4.2..90.0f64],
+        elevation in prop_oneof![-12.0..5.0f64, -12.0..90.0f64],
         visibility in 20e3..131.8e3f64,
         albedo in 0.0..1.0f64,
     ) {

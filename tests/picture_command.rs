@@ -251,13 +251,13 @@ fn models_may_have_any_name() {
 #[test]
 fn clamping_says_what_it_moved() {
     let folder = folder();
-    let line = "render --model m.welkin --clamp --size 4 --sun-elevation -10 --visibility 5 --altitude -5 --out a";
+    let line = "render --model m.welkin --clamp --size 4 --sun-elevation -20 --visibility 5 --altitude -5 --out a";
     let output = run(folder.path(), line, 2);
     assert!(output.status.success(), "{output:?}");
     let text = String::from_utf8(output.stderr).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     let expected = [
-        "welkin: sun elevation moved from -10 to -4.2 degrees",
+        "welkin: sun elevation moved from -20 to -12 degrees",
         "welkin: visibility moved from 5 to 20 km",
         "welkin: altitude moved from -5 to 0 m",
     ];

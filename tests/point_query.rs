@@ -148,7 +148,7 @@ proptest! {
         altitude in prop_oneof![Just(0.0), Just(120.0), Just(2000.0), 0.0..2000.0f64],
         visibility in prop_oneof![Just(59.4e3), Just(20e3), Just(131.8e3), 20e3..131.8e3f64],
         albedo in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64],
-        elevation in -4.2..90.0f64,
+        elevation in -12.0..90.0f64,
         solar_azimuth in -7.0..7.0f64,
         direction in prop::array::uniform3(-1.0..1.0f32),
         bytes in prop::sample::select(vec![common::model_bytes(), common::wide_bytes(), common::long_bytes()]),

@@ -40,7 +40,7 @@ struct Row {
 
 impl Row {
     fn random(quantity: &'static str, random: &mut Random) -> Self {
-        let elevation = random.between(-4.2, 90.0);
+        let elevation = random.between(-12.0, 90.0);
         let beside = |random: &mut Random| random.between(-0.25, 0.25);
         let of_sun = quantity == "sun_radiance";
         let zenith = match of_sun {
@@ -83,7 +83,7 @@ impl Row {
             (0, 5.0, "visibility must be in"),
             (1, f64::NAN, "albedo must be in"),
             (2, -501.0, "altitude must be in"),
-            (3, -4.3, "solar elevation must be in"),
+            (3, -12.1, "solar elevation must be in"),
             (4, 180.5, "view_zenith_deg must be in 0..=180"),
             (5, f64::INFINITY, "view_azimuth_deg must be finite"),
             (6, -1.0, "distance_m must"),

@@ -108,7 +108,7 @@ fn dates_that_are_none_are_refused() {
     for (line, word) in [
         (
             format!("light --date 2026-06-21 --time 23:00Z {here}"),
-            "solar elevation must be in -4.2..=90 degrees, got -18",
+            "solar elevation must be in -12..=90 degrees, got -18",
         ),
         (
             format!("render --date 2026-06-21 --time 12:00 {here}"),
@@ -234,7 +234,7 @@ fn suns_of_dates_beyond_the_model_are_named() {
     let said = refusal("light --date 2026-12-21 --time 19:00Z --latitude 48 --longitude 11");
     assert_eq!(
         said,
-        "welkin: the sun on 2026-12-21: solar elevation must be in -4.2..=90 degrees, got -34.69 degrees\n"
+        "welkin: the sun on 2026-12-21: solar elevation must be in -12..=90 degrees, got -34.69 degrees\n"
     );
 }
 

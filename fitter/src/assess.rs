@@ -26,6 +26,8 @@ pub struct Quantiles {
 pub struct Error {
     /// |model − truth| / truth.
     pub relative: f64,
+    /// The same with its sign.
+    pub signed: f64,
     /// nm.
     pub wavelength: f64,
     /// Solar elevation, rad.
@@ -114,6 +116,7 @@ pub fn errors(model: &Model, visibility: f64, samples: &[Sample]) -> Result<Vec<
             if want > DARK {
                 out.push(Error {
                     relative: (f64::from(*got) / want - 1.0).abs(),
+                    signed: f64::from(*got) / want - 1.0,
                     wavelength,
                     ..place
                 });
@@ -132,6 +135,7 @@ fn place(planet: welkin::geometry::Planet, sky: &welkin::Sky, sample: &Sample) -
     let cosine: f32 = sun.iter().zip(d).map(|(a, b)| a * b).sum();
     Error {
         relative: 0.0,
+        signed: 0.0,
         wavelength: 0.0,
         solar_elevation: sample.solar_elevation,
         from_horizon: planet.ray(sample.altitude, sample.view_elevation).angle,
@@ -194,4 +198,62 @@ pub fn band_table(rows: &[(f64, f64, Vec<Error>)]) -> String {
         }
     }
     out + "\n"
+}
+
+/// Bands of solar elevation (degrees) and of wavelength (nm) about the edge of the shadow.
+const EDGE_SUNS: [(f64, f64); 5] = [
+    (-2.0, -0.5),
+    (-4.0, -2.0),
+    (-6.0, -4.0),
+    (-8.0, -6.0),
+    (-12.0, -8.0),
+];
+const EDGE_WAVELENGTHS: [(f64, f64); 4] = [
+    (300.0, 340.0),
+    (340.0, 500.0),
+    (500.0, 640.0),
+    (640.0, 760.0),
+];
+
+/// Errors about the edge of the Earth's shadow by altitude (m) × solar elevation × wavelength, to 760 nm: median, p95,
+/// p99, max and mean with its sign, in percent, as CSV.
+pub fn edge_table(rows: &[(f64, Vec<Error>)]) -> String {
+    let mut out = String::from("altitude,sun,wavelengths,values,median,p95,p99,max,mean\n");
+    let mut line = |name: String, errors: &[&Error]| {
+        if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
+            let mean = errors.iter().map(|e| e.signed).sum::<f64>() / errors.len() as f64;
+            let [median, p95, p99, max, mean] =
+                [q.median, q.p95, q.p99, q.max, mean].map(|v| 100.0 * v);
+            out += &format!(
+                "{name},{},{median:.2},{p95:.2},{p99:.2},{max:.1},{mean:.2}\n",
+                q.count
+            );
+        }
+    };
+    let visible = |e: &&Error| e.wavelength <= 760.0;
+    for (altitude, errors) in rows {
+        for (low, high) in EDGE_SUNS {
+            for (short, long) in EDGE_WAVELENGTHS {
+                let inside = |e: &&Error| {
+                    (low..high).contains(&e.solar_elevation.to_degrees())
+                        && (short..long).contains(&e.wavelength)
+                };
+                let class: Vec<&Error> = errors.iter().filter(inside).collect();
+                line(format!("{altitude},{low}..{high},{short}..{long}"), &class);
+            }
+        }
+    }
+    for (low, high) in EDGE_SUNS {
+        let inside = |e: &&Error| (low..high).contains(&e.solar_elevation.to_degrees());
+        let all = rows.iter().flat_map(|(_, errors)| errors);
+        let class: Vec<&Error> = all.filter(inside).filter(visible).collect();
+        line(format!("all,{low}..{high},300..760"), &class);
+    }
+    let all = rows.iter().flat_map(|(_, errors)| errors);
+    line(
+        "all,all,300..760".to_owned(),
+        &all.clone().filter(visible).collect::<Vec<_>>(),
+    );
+    line("all,all,all".to_owned(), &all.collect::<Vec<_>>());
+    out
 }

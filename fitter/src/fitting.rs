@@ -4,7 +4,7 @@ use crate::dataset::Grid;
 use crate::decompose::Options;
 
 /// Changes whenever what is fitted or how it is does.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Name of the unit that holds the fit of some nodes.
 pub(crate) fn unit_name(

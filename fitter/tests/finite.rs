@@ -38,6 +38,7 @@ fn head(air: &Atmosphere) -> Head {
     head.wavelengths = air.wavelengths.clone();
     head.constituents = air.constituents.len();
     head.absorbers = 0;
+    head.estimated = false;
     head.extinction = air
         .constituents
         .iter()

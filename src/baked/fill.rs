@@ -25,8 +25,11 @@ pub(crate) trait Channels<const N: usize> {
     fn project(&self, radiance: &[f32], emit: impl FnMut(usize, Lanes<N>));
 }
 
-/// Radiance is not less than this share of the envelope: logarithms need an end where a fit has gone below zero.
-const FLOOR: f32 = 1e-4;
+/// Differences count relative to the radiance, or to this share of the brightest direction where that is more: seen
+/// from the stratosphere at dusk, skies fade by ten powers of ten.
+const DARK: f32 = 1e-5;
+/// Radiance is not less than this share of the brightest: logarithms need an end where a fit has gone below zero.
+const FLOOR: f32 = 1e-8;
 
 /// Makes a table that keeps a tolerance.
 pub(super) fn table<const N: usize>(
@@ -95,6 +98,8 @@ struct Radiance<'a, C, const N: usize> {
     lattice: GridNodes<'a>,
     channels: &'a C,
     envelope: &'a [Lanes<N>],
+    /// In the brightest direction, `[block]`.
+    brightest: Vec<Lanes<N>>,
     sites: Vec<Site>,
     /// `[site][direction][block]`.
     truth: Vec<Lanes<N>>,
@@ -112,11 +117,16 @@ impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
             lattice,
             channels,
             envelope,
+            brightest: vec![Lanes::splat(f32::MIN_POSITIVE); channels.blocks()],
             sites: sites(lattice, frame),
             truth: Vec::new(),
             known: Known::new(channels.blocks()),
         };
         half.truth = dispatch(Truth(&half));
+        for truth in half.truth.chunks(channels.blocks()) {
+            let pairs = half.brightest.iter_mut().zip(truth);
+            pairs.for_each(|(most, value)| *most = most.max(*value));
+        }
         half
     }
 
@@ -174,9 +184,8 @@ impl<const N: usize, C: Channels<N>> Half<N> for Radiance<'_, C, N> {
         let intervals = Lanes::splat(SUN as f32);
         self.along(&ray, azimuths, |angle, block, value| {
             let sun = taps(Lanes([angle.half_sine()]), intervals);
-            let least = Lanes::splat(f32::MIN_POSITIVE);
-            let ratio = (value * scale).max(least).log2() - envelope(self.envelope, &sun, 0, block);
-            values.push(ratio.max(Lanes::splat(FLOOR.log2())));
+            let value = value.max(self.brightest[block] * FLOOR);
+            values.push((value * scale).log2() - envelope(self.envelope, &sun, 0, block));
         });
         values
     }
@@ -189,15 +198,17 @@ impl<const N: usize, C: Channels<N>> Half<N> for Radiance<'_, C, N> {
     #[inline(always)]
     fn compare(
         &self,
-        (site, spots, i): (&Site, &Spots<WIDTH>, usize),
+        (site, spots, i, block): (&Site, &Spots<WIDTH>, usize, usize),
         sum: Lanes<N>,
         truth: &Lanes<N>,
         count: usize,
         errors: &mut Errors,
     ) {
         let got = sum.exp2() * spots.opacity.0[i];
-        let pairs = got.0.iter().zip(&truth.0).take(count);
-        let differences = pairs.map(|(&got, &truth)| difference(got, truth));
+        let least = self.brightest[block] * DARK;
+        let pairs = got.0.iter().zip(&truth.0).zip(&least.0);
+        let differences = pairs.map(|((&got, &truth), &least)| difference(got, truth, least));
+        let differences = differences.take(count);
         errors.add(differences, site.parts[i]);
     }
 }

@@ -80,11 +80,15 @@ impl Errors {
 
     /// What they take of the tolerance. Where the largest errors stand steeply above the rest, the 95th percentile of
     /// other directions may be among them: so the 97th may not be much larger.
-    fn strain(&self, tolerance: f64) -> f64 {
+    fn strain(&self, tolerance: f64, level: usize) -> f64 {
+        let most = self.quantile(0.95) / tolerance;
+        if level >= PATIENT {
+            return most;
+        }
         let steep = self.quantile(0.97) / STEEP;
         let tail = self.quantile(0.999) / TAIL;
         let peak = self.largest() / PEAK;
-        self.quantile(0.95).max(steep).max(tail).max(peak) / tolerance
+        most.max(steep.max(tail).max(peak) / tolerance)
     }
 
     fn largest(&self) -> f64 {
@@ -112,7 +116,7 @@ fn part(bits: u64) -> f64 {
 
 /// Sizes from small to large, with the 95th percentile of the error that four in five skies keep. Each holds the
 /// splines of those before it.
-const LEVELS: [(f64, Size); 7] = [
+const LEVELS: [(f64, Size); 9] = [
     (2e-2, size(12, 6)),
     (1e-2, size(24, 6)),
     (1.9e-3, size(24, 12)),
@@ -121,11 +125,16 @@ const LEVELS: [(f64, Size); 7] = [
     (5e-4, size(96, 24)),
     // For the stratosphere at dusk.
     (3e-4, size(96, 48)),
+    (2e-4, size(192, 48)),
+    (1.5e-4, size(192, 96)),
 ];
 
 const fn size(rows: u32, columns: u32) -> Size {
     Size { rows, columns }
 }
+
+/// From this level on a size gives way to a larger one for the 95th percentile only.
+const PATIENT: usize = 6;
 
 /// The part of a level on one side: below the horizon two thirds of the rows do.
 fn on_side(side: Side, level: usize) -> Size {
@@ -190,7 +199,7 @@ pub(super) fn bake<const N: usize>(
     let (mut surface, mut errors) = loop {
         let surface = part.surface(on_side(side, level));
         let errors = part.errors(&surface);
-        let share = share(errors.strain(tolerance));
+        let share = share(errors.strain(tolerance, level));
         if share == 1.0 || level == last {
             break (surface, errors);
         }
@@ -214,9 +223,9 @@ pub(super) fn bake<const N: usize>(
     }
 }
 
-/// Relative to the least that tables hold where there is less.
+/// Relative to what is expected, or to the least that counts where there is less.
 #[inline(always)]
-pub(super) fn difference(got: f32, expected: f32) -> f32 {
-    let off = f64::from((got - expected).abs()) / f64::from(expected.max(f32::MIN_POSITIVE));
+pub(super) fn difference(got: f32, expected: f32, least: f32) -> f32 {
+    let off = f64::from((got - expected).abs()) / f64::from(expected.max(least));
     off.min(f64::from(f32::MAX)) as f32
 }

@@ -166,7 +166,7 @@ impl Half<PAIR> for Ratios<'_> {
     #[inline(always)]
     fn compare(
         &self,
-        (site, _, i): (&Site, &Spots<WIDTH>, usize),
+        (site, _, i, _): (&Site, &Spots<WIDTH>, usize, usize),
         sum: Lanes<PAIR>,
         truth: &Lanes<PAIR>,
         count: usize,

@@ -25,10 +25,10 @@ pub(super) trait Half<const N: usize> {
     fn row(&self, height: f64, azimuths: &[f64]) -> Vec<Lanes<N>>;
     /// What the surface is added to, for direction `i`.
     fn base<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<N>;
-    /// Notes how far the first `count` channels are from the truth for direction `i`.
+    /// Notes how far the first `count` channels are from the truth for direction `i` and a block.
     fn compare(
         &self,
-        at: (&Site, &Spots<WIDTH>, usize),
+        at: (&Site, &Spots<WIDTH>, usize, usize),
         sum: Lanes<N>,
         truth: &Lanes<N>,
         count: usize,
@@ -97,7 +97,7 @@ impl<const N: usize, H: Half<N>> Kernel for Compare<'_, H, N> {
                     let first = block * size.cells();
                     let sum = spots.bicubic(base, first, size.stride(), &self.surface.cells, i);
                     let count = channels.min((block + 1) * H::CHANNELS) - block * H::CHANNELS;
-                    half.compare((site, &spots, i), sum, truth, count, &mut errors);
+                    half.compare((site, &spots, i, block), sum, truth, count, &mut errors);
                 }
             }
         }

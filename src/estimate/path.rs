@@ -104,17 +104,25 @@ impl Stops {
             return;
         }
         let nearest = (place * along - self.start) / steep;
-        self.insert(nearest, end);
+        self.insert(self.moved(nearest), end);
         let middle = (radius - place) * (radius + place);
         for ring in tables.ring {
             let ring = planet.radius + f64::from(ring.get());
             let square = nearest * nearest - (middle - ring * ring) / steep;
             if square > 0.0 {
                 let half = square.sqrt();
-                self.insert(nearest - half, end);
-                self.insert(nearest + half, end);
+                self.insert(self.moved(nearest - half), end);
+                self.insert(self.moved(nearest + half), end);
             }
         }
+    }
+
+    /// On the day side of the Earth cylinders mean nothing: their stops stand farther out, by day beyond the end.
+    #[inline(always)]
+    fn moved(&self, distance: f64) -> f64 {
+        const FARTHER: f64 = 4.0;
+        let [place, along] = self.sunwards;
+        distance + FARTHER * (place + distance * along).max(0.0)
     }
 
     /// A stop before the end.

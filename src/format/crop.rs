@@ -28,7 +28,7 @@ use crate::kernel::half::widen;
 /// crop(&mut head, &mut chunks, &lowest)?;
 /// let small = Model::from_bytes(encode(&head, &chunks)?)?;
 /// assert_eq!(small.head().altitudes.len(), 2);
-/// assert!(small.file_bytes() < welkin::DEFAULT_MODEL.len() / 4);
+/// assert!(small.file_bytes() < welkin::DEFAULT_MODEL.len() / 2);
 /// # Ok::<(), welkin::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

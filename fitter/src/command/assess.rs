@@ -26,6 +26,9 @@ pub struct Args {
         default_value = "8,70,210,480,800,1250,1760,2220,2800,4100,6300,9200,11900,14000"
     )]
     altitudes: Vec<f64>,
+    /// Judge about the edge of the Earth's shadow instead: suns −12..−0.5°, directions away from them, as CSV.
+    #[arg(long)]
+    shadow_edge: bool,
 }
 
 /// Runs the command.
@@ -40,11 +43,17 @@ pub fn run(args: &Args) -> Result<()> {
         .collect();
     let mut rows = vec![];
     let (mut polarised, mut without_u) = (vec![], vec![]);
+    let mut edges = vec![];
     let plan = Plan::default();
     let store = plan.store(&args.work)?;
     for visibility in args.visibilities.iter().map(|v| 1e3 * v) {
         let solved = plan.solve(&args.work, visibility, &|_| {})?;
         for &altitude in &altitudes {
+            if args.shadow_edge {
+                let samples = plan.shadow_edge(&store, &solved, altitude)?;
+                edges.push((altitude, assess::errors(&model, visibility, &samples)?));
+                continue;
+            }
             let samples = plan.held_out(&store, &solved, altitude)?;
             let errors = assess::errors(&model, visibility, &samples)?;
             rows.push((visibility, altitude, errors));
@@ -53,6 +62,10 @@ pub fn run(args: &Args) -> Result<()> {
                 without_u.extend(polarimetry::without_u(&model, visibility, &samples));
             }
         }
+    }
+    if args.shadow_edge {
+        print!("{}", assess::edge_table(&edges));
+        return Ok(());
     }
     println!("{}", band_table(&rows));
     let all: Vec<Error> = rows.into_iter().flat_map(|(_, _, errors)| errors).collect();

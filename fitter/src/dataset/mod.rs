@@ -10,4 +10,4 @@ pub use checkpoint::{State, Store};
 pub use coverage::{Coverage, SHORT_WAVE_INFRARED, VISIBLE};
 pub use grid::{Axis, Grid};
 pub use tensor::{CHANNELS, Tensor, trace_tensor};
-pub use truth::{Sample, truth};
+pub use truth::{Sample, shadow_edge, truth};

@@ -60,6 +60,37 @@ pub fn truth(
         .collect()
 }
 
+/// Random samples at `altitude` about the edge of the Earth's shadow: suns uniform in −12..−0.5°, directions away from
+/// them within 4° of where the shadow of the horizon would stand far away, or below.
+pub fn shadow_edge(
+    gatherer: &Gatherer,
+    light: &LightField,
+    altitude: f64,
+    count: usize,
+    seed: u64,
+) -> Vec<Sample> {
+    let lowest = -gatherer.planet().dip(altitude) - 1f64.to_radians();
+    let one = |i: usize| {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed.wrapping_add(104_729 * (i as u64 + 1)));
+        let solar_elevation = (-12.0 + 11.5 * uniform(&mut rng)).to_radians();
+        let view_azimuth = PI * (0.5 + 0.5 * uniform(&mut rng));
+        let edge = solar_elevation * view_azimuth.cos();
+        let off = (8.0 * uniform(&mut rng) - 4.0).to_radians();
+        let mut sample = [Sample {
+            altitude,
+            view_elevation: (edge + off).max(lowest),
+            view_azimuth,
+            solar_elevation,
+            albedo: uniform(&mut rng),
+            radiance: [0.0; NW],
+            polarisation: [[0.0; NW]; 2],
+        }];
+        fill(gatherer, light, &mut sample);
+        sample
+    };
+    (0..count).into_par_iter().flat_map_iter(one).collect()
+}
+
 fn uniform(rng: &mut Pcg64Mcg) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
@@ -91,20 +122,33 @@ fn view(gatherer: &Gatherer, light: &LightField, skies: &[Sample], seed: u64) ->
         sample.view_elevation = mu.asin();
         sample.view_azimuth = PI * uniform(&mut rng);
     }
-    let altitude = skies[0].altitude;
-    let side = gatherer.planet().ray(altitude, mu.asin()).side;
+    fill(gatherer, light, &mut samples);
+    samples
+}
+
+/// Traces samples of one altitude and one elevation of the view.
+fn fill(gatherer: &Gatherer, light: &LightField, samples: &mut [Sample]) {
+    let Some(&Sample {
+        altitude,
+        view_elevation,
+        ..
+    }) = samples.first()
+    else {
+        return;
+    };
+    let mu = view_elevation.sin();
+    let side = gatherer.planet().ray(altitude, view_elevation).side;
     if side == Side::Down && altitude == 0.0 {
-        return samples;
+        return;
     }
     let suns: Vec<Sun> = samples.iter().map(sun).collect();
-    let path = gatherer.path(altitude, mu.asin(), side);
+    let path = gatherer.path(altitude, view_elevation, side);
     let fields = gatherer.fields(&path, mu, &suns);
     for ((sample, fields), sun) in samples.iter_mut().zip(&fields).zip(&suns) {
         let cosine = view_rays::scattering_cosine(mu, sun);
         sample.radiance = total(gatherer, light, fields, cosine, sample.albedo);
         sample.polarisation = polarisation(gatherer, light, fields, (mu, sun), sample.albedo);
     }
-    samples
 }
 
 fn sun(sample: &Sample) -> Sun {

@@ -3,7 +3,7 @@
 use super::unit::Kind;
 use crate::atmosphere::{Atmosphere, Particles, real_at};
 use crate::dataset::{
-    CHANNELS, Coverage, Grid, Sample, Store, Tensor, VISIBLE, trace_tensor, truth,
+    CHANNELS, Coverage, Grid, Sample, Store, Tensor, VISIBLE, shadow_edge, trace_tensor, truth,
 };
 use crate::spectrum::training::Training;
 use crate::successive_orders::{
@@ -188,6 +188,24 @@ impl Plan {
         let name = Kind::Truth.unit(solved.visibility, Some(altitude));
         let values = store.unit(&name, || {
             let samples = truth(&solved.gatherer(), &solved.light, altitude, counts, seed);
+            Ok(samples.iter().flat_map(Sample::to_values).collect())
+        })?;
+        Ok(Sample::from_values(&values))
+    }
+
+    /// Held-out samples about the edge of the Earth's shadow at any altitude (m).
+    pub fn shadow_edge(
+        &self,
+        store: &Store,
+        solved: &Solved,
+        altitude: f64,
+    ) -> Result<Vec<Sample>> {
+        const COUNT: usize = 4000;
+        let seed = (solved.visibility + altitude) as u64;
+        let name = format!("edge-{}-{altitude}", solved.visibility);
+        let values = store.unit(&name, || {
+            let (gatherer, light) = (solved.gatherer(), &solved.light);
+            let samples = shadow_edge(&gatherer, light, altitude, COUNT, seed);
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;
         Ok(Sample::from_values(&values))

@@ -1986,6 +1986,13 @@ static int welkin__roots(double a, double b, double c, double roots[2])
     return 1;
 }
 
+/* Where a stop at the shadow counts: on the day side of the planet farther out. */
+static double welkin__moved(const welkin_sky *sky, const welkin__ray *ray, double distance)
+{
+    double sunwards = (sky->file->planet_radius + sky->altitude) * sky->sun[2] + distance * ray->towards;
+    return distance + 4 * (sunwards > 0 ? sunwards : 0);
+}
+
 /* Stops on the cylinders around the axis of the Earth's shadow, and where the ray is nearest to that axis. */
 static void welkin__add_rings(const welkin_sky *sky, const welkin__view *view, welkin__ray *ray)
 {
@@ -1996,12 +2003,12 @@ static void welkin__add_rings(const welkin_sky *sky, const welkin__view *view, w
     double square = x * x + y * y + z * z, slope = start * (v[2] - s[2] * ray->towards);
     uint32_t i, rings = sky->file->estimate.rings;
     if (!(square >= 1e-9) || rings == 0) return;
-    welkin__add_stop(ray, -slope / square);
+    welkin__add_stop(ray, welkin__moved(sky, ray, -slope / square));
     for (i = 0; i < rings; i++) {
         double edge = radius + sky->estimate.ring[i];
         if (!welkin__roots(square, slope, (across - edge) * (across + edge), roots)) continue;
-        welkin__add_stop(ray, roots[0]);
-        welkin__add_stop(ray, roots[1]);
+        welkin__add_stop(ray, welkin__moved(sky, ray, roots[0]));
+        welkin__add_stop(ray, welkin__moved(sky, ray, roots[1]));
     }
 }
 

@@ -157,12 +157,16 @@ impl Oracle<'_> {
         let across = cross(view, sun);
         let steep = dot(across, across);
         if steep >= 1e-9 && t.rings > 0 {
-            at.push((place * along - r * mu) / steep);
+            let moved = |d: f64| d + 4.0 * (place + d * along).max(0.0);
+            at.push(moved((place * along - r * mu) / steep));
             for i in 0..t.rings {
                 let ring = radius + self.f32(t.ring, i);
                 let slope = (r * mu - place * along) / steep;
                 let root = (slope * slope - (r * r - place * place - ring * ring) / steep).sqrt();
-                at.extend([-slope - root, root - slope]);
+                // Nowhere where there is no root.
+                if root >= 0.0 {
+                    at.extend([-slope - root, root - slope].map(moved));
+                }
             }
         }
         at.retain(|d| (0.0..=end).contains(d));

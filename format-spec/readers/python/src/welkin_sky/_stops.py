@@ -6,6 +6,8 @@ from ._transmittance import altitude_on_line
 
 _ALONG_THE_SHADOW = 1e-9
 """Square of the sine of the angle to the sun's axis below which a ray has no stops at rings."""
+_FARTHER = 4.0
+"""How much farther out stops at rings stand for each metre on the day side of the planet."""
 
 
 class Rays:
@@ -67,16 +69,17 @@ class Rays:
         crossing = self._square_across >= _ALONG_THE_SHADOW
         square = np.where(crossing, self._square_across, 1.0)
         places = np.concatenate([_roots(square, half, constant), -half / square], axis=1)
-        return np.where(crossing, self._within(places), 0.0)
+        moved = places + _FARTHER * np.maximum(0.0, self._towards_sun(places))
+        return np.where(crossing, self._within(moved), 0.0)
 
     def _within(self, distance):
         return np.where((distance > 0.0) & (distance < self.end), distance, 0.0)
 
 
 def _roots(square, half, constant):
-    """Roots (N, 2·M) of square·t² + 2·half·t + constant = 0, without cancellation; 0 for none."""
+    """Roots (N, 2·M) of square·t² + 2·half·t + constant = 0, without cancellation; nan for none."""
     discriminant = half * half - square * constant
     sum_ = half + np.copysign(np.sqrt(np.maximum(0.0, discriminant)), half)
     real = (discriminant >= 0.0) & (sum_ != 0.0)
     near, far = constant / np.where(real, -sum_, 1.0), -sum_ / square
-    return np.concatenate([np.where(real, near, 0.0), np.where(real, far, 0.0)], axis=1)
+    return np.concatenate([np.where(real, near, np.nan), np.where(real, far, np.nan)], axis=1)
