@@ -123,9 +123,11 @@ fn the_pixels_of_the_disc_hold_its_light() {
             }
             let line = format!("render {scene} --size {size}");
             let got = added(folder, &line, projection, &["R", "G", "B"]);
+            // A setting sun has next to no blue: what is left of larger numbers.
+            let most = expected.iter().fold(0.0f64, |most, v| most.max(v.abs()));
             for (got, expected) in got.iter().zip(&expected) {
                 assert!(
-                    (got / expected - 1.0).abs() < 4e-3,
+                    (got - expected).abs() < 4e-3 * expected.abs().max(0.01 * most),
                     "{line} {projection}: {got} {expected}"
                 );
             }

@@ -18,7 +18,7 @@ proptest! {
         altitude in prop_oneof![Just(0.0), Just(120.0), 0.0..2000.0f64],
         visibility in prop_oneof![Just(59.4e3), 20e3..131.8e3f64],
         albedo in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64],
-        solar_elevation in prop_oneof![3 => -12.0..90.0f64, 1 => 86.0..90.0f64, 1 => 89.99..90.0f64],
+        solar_elevation in prop_oneof![3 => -4.2..90.0f64, 1 => 86.0..90.0f64, 1 => 89.99..90.0f64],
         solar_azimuth in -7.0..7.0f64,
         direction in prop_oneof![9 => proptest::array::uniform3(-1.0..1.0f32), 1 => Just([0.0, 0.0, 1.0])],
         wavelength in 320.0..760.0f64,

@@ -128,7 +128,7 @@ fn nothing_jumps_between_intervals() {
             }
             for (below, above) in below.into_iter().zip(above) {
                 assert!(
-                    (below / above - 1.0).abs() < 2e-6 * common::darkness(above),
+                    (below / above - 1.0).abs() < 1e-5 * common::darkness(above),
                     "{altitude} {visibility} {below} {above}"
                 );
             }

@@ -8,7 +8,8 @@ use crate::geometry::Side;
 
 /// What baking adds to the error of a sky: relative differences of all channels at some 660 directions that are not
 /// nodes, each counted by the part of the sphere that it stands for, nothing excluded but what is below an observer on
-/// the ground. They are dense where errors are large: at the horizon, and beside the sun.
+/// the ground. They are dense where errors are large: at the horizon, and beside the sun. Where a channel is darker than
+/// 10⁻⁵ of its brightest direction, they are relative to that much light.
 ///
 /// ```
 /// use welkin::{BakedSky, Conditions, Model};
