@@ -39,6 +39,6 @@ fn a_sky_on_the_ground_takes_less_than_a_megabyte() {
     println!("anonymous {anonymous} kB, of the model {mapped} kB");
     // The code that runs for the first time comes on top: the tool `resident` counts it, too.
     assert!(anonymous > 0 && mapped > 0);
-    assert!(anonymous + mapped <= 700, "{anonymous} {mapped}");
-    assert!(model.touched_bytes() < 140_000);
+    assert!(anonymous + mapped <= 1000, "{anonymous} {mapped}");
+    assert!(model.touched_bytes() < 300_000);
 }
