@@ -4,7 +4,7 @@ use crate::dataset::Grid;
 use crate::decompose::Options;
 
 /// Changes whenever what is fitted or how it is does.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// Name of the unit that holds the fit of some nodes.
 pub(crate) fn unit_name(

@@ -104,25 +104,27 @@ impl Stops {
             return;
         }
         let nearest = (place * along - self.start) / steep;
-        self.insert(self.moved(nearest), end);
+        self.insert(self.moved(nearest, end), end);
         let middle = (radius - place) * (radius + place);
         for ring in tables.ring {
             let ring = planet.radius + f64::from(ring.get());
             let square = nearest * nearest - (middle - ring * ring) / steep;
             if square > 0.0 {
                 let half = square.sqrt();
-                self.insert(self.moved(nearest - half), end);
-                self.insert(self.moved(nearest + half), end);
+                self.insert(self.moved(nearest - half, end), end);
+                self.insert(self.moved(nearest + half, end), end);
             }
         }
     }
 
-    /// On the day side of the Earth cylinders mean nothing: their stops stand farther out, by day beyond the end.
+    /// On the day side of the Earth cylinders mean nothing: over 300 km their stops go home to the observer.
     #[inline(always)]
-    fn moved(&self, distance: f64) -> f64 {
-        const FARTHER: f64 = 4.0;
+    fn moved(&self, distance: f64, end: f64) -> f64 {
+        const PER_REACH: f64 = 1.0 / 300e3;
         let [place, along] = self.sunwards;
-        distance + FARTHER * (place + distance * along).max(0.0)
+        let distance = distance.min(end);
+        let t = ((place + distance * along) * PER_REACH).clamp(0.0, 1.0);
+        distance * (1.0 - t * t * (3.0 - 2.0 * t))
     }
 
     /// A stop before the end.

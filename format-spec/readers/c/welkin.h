@@ -1986,11 +1986,14 @@ static int welkin__roots(double a, double b, double c, double roots[2])
     return 1;
 }
 
-/* Where a stop at the shadow counts: on the day side of the planet farther out. */
+/* Where a stop at the shadow counts: on the day side of the planet nearer and nearer to the observer. */
 static double welkin__moved(const welkin_sky *sky, const welkin__ray *ray, double distance)
 {
-    double sunwards = (sky->file->planet_radius + sky->altitude) * sky->sun[2] + distance * ray->towards;
-    return distance + 4 * (sunwards > 0 ? sunwards : 0);
+    double t;
+    if (distance > ray->length) distance = ray->length;
+    t = ((sky->file->planet_radius + sky->altitude) * sky->sun[2] + distance * ray->towards) / 300e3;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    return distance * (1 - t * t * (3 - 2 * t));
 }
 
 /* Stops on the cylinders around the axis of the Earth's shadow, and where the ray is nearest to that axis. */

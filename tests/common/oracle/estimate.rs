@@ -157,7 +157,11 @@ impl Oracle<'_> {
         let across = cross(view, sun);
         let steep = dot(across, across);
         if steep >= 1e-9 && t.rings > 0 {
-            let moved = |d: f64| d + 4.0 * (place + d * along).max(0.0);
+            let moved = |d: f64| {
+                let d = d.min(end);
+                let t = ((place + d * along) / 300e3).clamp(0.0, 1.0);
+                d * (1.0 - t * t * (3.0 - 2.0 * t))
+            };
             at.push(moved((place * along - r * mu) / steep));
             for i in 0..t.rings {
                 let ring = radius + self.f32(t.ring, i);

@@ -6,8 +6,8 @@ from ._transmittance import altitude_on_line
 
 _ALONG_THE_SHADOW = 1e-9
 """Square of the sine of the angle to the sun's axis below which a ray has no stops at rings."""
-_FARTHER = 4.0
-"""How much farther out stops at rings stand for each metre on the day side of the planet."""
+_REACH = 300e3
+"""Metres into the day side of the planet over which stops at rings go to the observer."""
 
 
 class Rays:
@@ -69,7 +69,9 @@ class Rays:
         crossing = self._square_across >= _ALONG_THE_SHADOW
         square = np.where(crossing, self._square_across, 1.0)
         places = np.concatenate([_roots(square, half, constant), -half / square], axis=1)
-        moved = places + _FARTHER * np.maximum(0.0, self._towards_sun(places))
+        places = np.minimum(places, self.end)
+        share = np.clip(self._towards_sun(places) / _REACH, 0.0, 1.0)
+        moved = places * (1.0 - share * share * (3.0 - 2.0 * share))
         return np.where(crossing, self._within(moved), 0.0)
 
     def _within(self, distance):
