@@ -109,7 +109,7 @@ fn bad_rows_get_an_error_and_good_ones_a_value() {
         ),
         (
             "radiance,59.4,0.2,0,-12.1,60,30,,550",
-            "solar elevation must be in -12..=90 degrees, got -12.1",
+            "solar elevation must be in -4.2..=90 degrees, got -12.1",
         ),
         (
             "radiance,59.4,0.2,0,20,181,30,,550",

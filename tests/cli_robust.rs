@@ -257,7 +257,7 @@ fn errors_are_in_the_units_of_the_command_line() {
     for (arguments, expected) in [
         (
             &["render", "--sun-elevation", "95", "--visibility", "40"][..],
-            "solar elevation must be in -12..=90 degrees, got 95 degrees",
+            "solar elevation must be in -4.2..=90 degrees, got 95 degrees",
         ),
         (
             &["render", "--sun-azimuth", "inf", "--visibility", "40"],
@@ -265,11 +265,11 @@ fn errors_are_in_the_units_of_the_command_line() {
         ),
         (
             &["froxels", "--sun-elevation", "-30", "--visibility", "40"],
-            "solar elevation must be in -12..=90 degrees, got -30 degrees",
+            "solar elevation must be in -4.2..=90 degrees, got -30 degrees",
         ),
         (
             &["plan", "--sun-elevations", "-20..5", "--visibilities", "40"],
-            "solar elevation must be in -12..=90 degrees, got -20 degrees",
+            "solar elevation must be in -4.2..=90 degrees, got -20 degrees",
         ),
         (
             &["plan", "--visibilities", "40..90"],

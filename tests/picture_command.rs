@@ -257,7 +257,7 @@ fn clamping_says_what_it_moved() {
     let text = String::from_utf8(output.stderr).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     let expected = [
-        "welkin: sun elevation moved from -20 to -12 degrees",
+        "welkin: sun elevation moved from -20 to -4.2 degrees",
         "welkin: visibility moved from 5 to 20 km",
         "welkin: altitude moved from -5 to 0 m",
     ];

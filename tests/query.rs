@@ -227,7 +227,8 @@ fn random_rows_are_answered_as_by_what_is_prepared_for_them_alone() {
                     _ => 1e-5,
                 };
                 assert!(
-                    (got - expected).abs() <= tolerance * size,
+                    // A hair above the ground there is next to no air to look down through.
+                    (got - expected).abs() <= tolerance * size + 1e-11,
                     "{row:?} {got} {expected} {text}"
                 );
             }

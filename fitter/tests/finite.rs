@@ -39,6 +39,7 @@ fn head(air: &Atmosphere) -> Head {
     head.constituents = air.constituents.len();
     head.absorbers = 0;
     head.estimated = false;
+    head.fields.iter_mut().for_each(|field| field.estimate = 0);
     head.extinction = air
         .constituents
         .iter()

@@ -92,13 +92,13 @@ fn the_embedded_model_follows_the_traced_sky() {
         Quantiles::of(chosen.map(|e| e.relative)).unwrap()
     };
     let (day, twilight) = (of(true), of(false));
-    // The truth of this test is itself good to a few tenths of a percent.
+    // The truth of this test is itself good to a few tenths of a percent. Its twilight goes down to −12°.
     assert!(
         day.count > 1000 && day.median < 0.006 && day.p99 < 0.04,
         "{day:?}"
     );
     assert!(
-        twilight.count > 500 && twilight.median < 0.01 && twilight.p95 < 0.04,
+        twilight.count > 500 && twilight.median < 0.012 && twilight.p95 < 0.06,
         "{twilight:?}"
     );
 }
