@@ -201,7 +201,10 @@ fn neutral_points_stand_where_the_air_has_them() {
                 (None, Some(at)) => plane.modelled((sun + at).to_radians()),
                 _ => 0.0,
             };
-            assert!(alone.abs() < 0.004, "{low}..{high}: {got:?} {want:?} {alone}");
+            assert!(
+                alone.abs() < 0.004,
+                "{low}..{high}: {got:?} {want:?} {alone}"
+            );
             if let (Some(got), Some(want)) = (got, want) {
                 // Near a high sun the degree crosses zero so slowly that a small error of it moves the point.
                 let most = if sun > 60.0 { 4.0 } else { 1.0 };

@@ -5,7 +5,10 @@ use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
 
 impl Conditions {
-    /// Moves every parameter into the range of `model`.
+    /// Moves every parameter into the range of `model`. What that means beyond the ends: a sun that is lower stands for
+    /// the lowest (in the default model at −12°: 0.0008 cd m⁻² at the zenith, four times what airglow and stars give);
+    /// an observer who is higher sees what the highest does, and one beyond the air wants
+    /// [`Place::entry`](crate::Place::entry) instead; haze and clear air end at the nearest visibility.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a parameter is not finite.
