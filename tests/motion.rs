@@ -16,12 +16,12 @@ static MODEL: LazyLock<Model> = LazyLock::new(|| Model::default_model().unwrap()
 
 /// The largest change of a pixel beyond the sky's own. The horizon and the sky with it go with the root of the
 /// altitude, so that the first metres of a climb are long: 0.1 m from the ground is as far as 11 m from 3 km. In
-/// twilight errors change fastest, and where the fit of a sky falls through zero no table follows it well.
+/// twilight, and where the disc of the sun sets, errors change fastest, and where the fit of a sky falls through zero no table follows it well.
 fn largest(conditions: &Conditions, jump: &Jump) -> f64 {
     match (jump.held, conditions.altitude < 20.0) {
         (false, _) => 5e-2,
         (_, true) => 1e-2,
-        _ if conditions.solar_elevation < 0.0 => 2e-3,
+        _ if conditions.solar_elevation < 0.05 => 5e-3,
         _ => 1e-3,
     }
 }
