@@ -88,7 +88,7 @@ fn solar_elevation_has_no_kinks() {
         });
         // The tables of the estimates are linear, so that there are kinks where the disc of the sun comes out and in
         // deep twilight: half a per cent over a hundredth of an interval at most.
-        bounded("solar elevation", worst, 0.3);
+        bounded("solar elevation", worst, 0.25);
     }
 }
 
@@ -113,7 +113,7 @@ fn altitude_has_no_kinks() {
             };
             logarithms(&model, &conditions)
         });
-        bounded("altitude", worst, 0.25);
+        bounded("altitude", worst, 0.2);
     }
 }
 

@@ -56,6 +56,11 @@ fn the_moon_adds_its_light() {
         "{both} {sun} {night}"
     );
     assert!((1e-4..2e-2).contains(&night), "{night}");
+    // Before the first frame.
+    let course =
+        "animate --sun-elevation 10..-20 --frames 3 --moon-elevation -20 --size 8 --out frame.exr";
+    assert!(refusal(folder, course).contains("both below"));
+    assert!(!folder.join("frame-0001.exr").exists());
     for (line, word) in [
         (
             "render --sun-elevation -20 --moon-elevation -20",

@@ -124,7 +124,7 @@ fn no_solar_elevation_stands_out() {
         let (before, after) = (v[1] - v[0], v[2] - v[1]);
         let degrees = -4.15 + 0.05 * k as f64;
         assert!(
-            (after - before).abs() < 0.008 + 0.05 * before.abs(),
+            (after - before).abs() < 0.006 + 0.05 * before.abs(),
             "kink at {degrees}°: {before} {after}"
         );
     }

@@ -20,10 +20,11 @@ pub struct Options {
         requires = "moon_elevation"
     )]
     moon_azimuth: f64,
-    /// Phase angle of the moon, degrees: 0 is full, 90 half, 180 new.
+    /// Phase angle of the moon, degrees: 0 is full, 90 half, 180 new; 1.55, as full as without an
+    /// eclipse, if absent.
     #[arg(
         long,
-        default_value_t = 0.0,
+        default_value_t = 1.55,
         value_name = "DEG",
         requires = "moon_elevation"
     )]
@@ -66,12 +67,20 @@ impl Options {
             model: model.moonlit(&moon)?,
             conditions: moon.conditions(conditions),
         };
-        let is_up = is_up(model, &lit.conditions);
-        if !is_up && !self::is_up(model, conditions) {
-            let text = "sun and moon are both below the range of the model: the sky is dark";
-            return Err(Failure::message(text));
+        Ok(is_up(model, &lit.conditions).then_some(lit))
+    }
+
+    /// An error where a moon is wanted and neither it nor the sun is up far enough.
+    pub fn check(&self, model: &Model, conditions: &Conditions) -> Result<()> {
+        match self.moon() {
+            Some(moon)
+                if !is_up(model, &moon.conditions(conditions)) && !is_up(model, conditions) =>
+            {
+                let text = "sun and moon are both below the range of the model: the sky is dark";
+                Err(Failure::message(text))
+            }
+            _ => Ok(()),
         }
-        Ok(is_up.then_some(lit))
     }
 }
 

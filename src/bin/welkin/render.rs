@@ -95,6 +95,9 @@ impl Options {
     pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
         let has_moon = self.moon.moon().is_some();
         let mut course = self.scene.course_beyond(model, steps, has_moon)?;
+        for conditions in &course {
+            self.moon.check(model, conditions)?;
+        }
         if let (None, Some(altitude)) = (self.scene.altitude, self.landscape.altitude()) {
             let [lowest, highest] = model.altitude_range();
             let altitude = altitude.clamp(lowest, highest);
@@ -194,17 +197,9 @@ impl Options {
             return Err(Failure::message(text));
         }
         let start = Instant::now();
-        let view = View {
-            projection: self.projection,
-            size: self.projection.dimensions(self.size.into()),
-            azimuth,
-            ground: None,
-            disc: None,
-            moon: None,
-        };
-        let ground = self.ground.then(|| Ground::new(model, conditions));
+        let view = self.view(model, conditions, azimuth)?;
         let bytes = self.source.bytes()?;
-        let space = Space::new(model, &bytes, conditions, ground.transpose()?)?;
+        let space = Space::new(model, &bytes, conditions)?;
         let prepared = start.elapsed();
         let pixels = space.rgb(&view)?;
         let film = self.exposure.of_landscape(&pixels);

@@ -44,10 +44,15 @@ impl Scene {
 
     /// As many conditions as there are steps in the course of the sun.
     pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
+        self.reached(model, self.wished(model, steps)?)
+    }
+
+    /// The same, within the model or not.
+    fn wished(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
         let air = self.air(model)?;
         let positions = self.sun.positions(steps)?;
         let wished = positions.iter().map(|position| position.over(&air));
-        self.reached(model, wished.collect())
+        Ok(wished.collect())
     }
 
     /// The same, but the observer may be above the range of the model, and where `has_moon` the sun below it.
@@ -57,9 +62,7 @@ impl Scene {
         steps: usize,
         has_moon: bool,
     ) -> Result<Vec<Conditions>> {
-        let air = self.air(model)?;
-        let positions = self.sun.positions(steps)?;
-        let wished: Vec<_> = positions.iter().map(|p| p.over(&air)).collect();
+        let wished = self.wished(model, steps)?;
         let [lowest, _] = model.solar_elevation_range();
         let [_, ceiling] = model.altitude_range();
         let is_night = |c: &Conditions| has_moon && c.solar_elevation < lowest;

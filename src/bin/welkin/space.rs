@@ -4,7 +4,6 @@ use welkin::geometry::Planet;
 use welkin::{Conditions, Error, Model, Place, PointQuery};
 
 use crate::failure::Result;
-use crate::ground::Ground;
 use crate::parallel;
 use crate::view::View;
 
@@ -17,7 +16,6 @@ pub struct Space<'a> {
     ceiling: f64,
     /// To linear sRGB from relative radiance, `[wavelength]`.
     srgb: Vec<[f32; 3]>,
-    ground: Option<Ground>,
 }
 
 /// Whether an observer is above all that the model has.
@@ -27,12 +25,7 @@ pub fn is_beyond(model: &Model, conditions: &Conditions) -> bool {
 
 impl<'a> Space<'a> {
     /// From the bytes of the model.
-    pub fn new(
-        model: &Model,
-        bytes: &'a [u8],
-        conditions: &Conditions,
-        ground: Option<Ground>,
-    ) -> Result<Self> {
+    pub fn new(model: &Model, bytes: &'a [u8], conditions: &Conditions) -> Result<Self> {
         let Planet { radius, .. } = model.head().planet;
         let position = [0.0, 0.0, radius + conditions.altitude];
         let weights = model.head().xyz.iter();
@@ -45,7 +38,6 @@ impl<'a> Space<'a> {
             srgb: weights
                 .map(|xyz| welkin::xyz_to_linear_srgb(xyz.map(|v| v as f32)))
                 .collect(),
-            ground,
         })
     }
 
@@ -56,7 +48,7 @@ impl<'a> Space<'a> {
                 return Ok([0.0; 3]);
             };
             let mut rgb = self.air(direction)?;
-            if let Some(ground) = &self.ground {
+            if let Some(ground) = &view.ground {
                 ground.add_srgb(direction, &mut rgb)?;
             }
             Ok(rgb)
