@@ -13,6 +13,7 @@ mod points;
 mod prepared;
 mod sightline;
 mod sums;
+mod walk;
 
 #[cfg(feature = "std")]
 pub(crate) use around::Around;

@@ -195,7 +195,7 @@ impl Kernel for Along<'_, '_> {
     type Output = Blocks;
 
     #[inline(always)]
-    fn run<I: Instructions>(self, _: I) -> Blocks {
-        self.estimator.along(Portable, self.line)
+    fn run<I: Instructions>(self, instructions: I) -> Blocks {
+        self.estimator.along(instructions, Portable, self.line)
     }
 }

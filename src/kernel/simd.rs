@@ -22,6 +22,8 @@ pub(crate) trait Instructions: Copy {
     fn add_product(self, sum: Lanes<8>, a: Lanes<8>, b: f32) -> Lanes<8>;
     /// Asks for numbers that will be read soon.
     fn fetch<T>(self, numbers: &[T]);
+    /// Runs a kernel as a function of its own, which has all registers to itself.
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output;
 }
 
 /// For every processor.
@@ -45,6 +47,11 @@ impl Instructions for Portable {
 
     #[inline(always)]
     fn fetch<T>(self, _: &[T]) {}
+
+    #[inline(never)]
+    fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
+    }
 }
 
 /// Runs a kernel with the widest vectors of this processor.
@@ -89,6 +96,7 @@ mod x86 {
         }
     }
 
+    #[inline(never)]
     #[target_feature(enable = "avx2,f16c,fma")]
     fn run<K: Kernel>(wide: Wide, kernel: K) -> K::Output {
         kernel.run(wide)
@@ -133,6 +141,11 @@ mod x86 {
                 // SAFETY: the address is in the slice, and prefetching is a hint that never faults.
                 unsafe { _mm_prefetch::<_MM_HINT_T1>(first.add(place)) };
             }
+        }
+
+        #[inline(always)]
+        fn apart<K: Kernel>(self, kernel: K) -> K::Output {
+            self.run(kernel)
         }
     }
 

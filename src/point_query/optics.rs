@@ -189,7 +189,7 @@ impl Light {
             tables: *tables,
             extinction: &extinction,
         };
-        estimator.along(instructions, &place.line)
+        estimator.along(instructions, instructions, &place.line)
     }
 
     /// Σ fields · phase functions, what Rayleigh scattering polarises of it, and A / (1 − A s), wavelength by
