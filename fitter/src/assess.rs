@@ -200,24 +200,34 @@ pub fn band_table(rows: &[(f64, f64, Vec<Error>)]) -> String {
     out + "\n"
 }
 
-/// Bands of solar elevation (degrees) and of wavelength (nm) about the edge of the shadow.
-const EDGE_SUNS: [(f64, f64); 5] = [
+/// Bands of solar elevation (degrees) about the edge of the Earth's shadow.
+pub const EDGE_SUNS: [(f64, f64); 5] = [
     (-2.0, -0.5),
     (-4.0, -2.0),
     (-6.0, -4.0),
     (-8.0, -6.0),
     (-12.0, -8.0),
 ];
-const EDGE_WAVELENGTHS: [(f64, f64); 4] = [
+/// Bands of solar elevation (degrees) of all skies.
+pub const SUNS: [(f64, f64); 5] = [
+    (12.0, 90.0),
+    (0.0, 12.0),
+    (-4.2, 0.0),
+    (-8.0, -4.2),
+    (-12.0, -8.0),
+];
+/// Bands of wavelength (nm).
+const WAVELENGTHS: [(f64, f64); 5] = [
     (300.0, 340.0),
     (340.0, 500.0),
     (500.0, 640.0),
     (640.0, 760.0),
+    (760.0, 1101.0),
 ];
 
-/// Errors about the edge of the Earth's shadow by altitude (m) × solar elevation × wavelength, to 760 nm: median, p95,
-/// p99, max and mean with its sign, in percent, as CSV.
-pub fn edge_table(rows: &[(f64, Vec<Error>)]) -> String {
+/// Errors by altitude (m) × solar elevation × wavelength, and of all altitudes: median, p95, p99, max and mean with its
+/// sign, in percent, as CSV.
+pub fn place_table(rows: &[(f64, Vec<Error>)], suns: &[(f64, f64)]) -> String {
     let mut out = String::from("altitude,sun,wavelengths,values,median,p95,p99,max,mean\n");
     let mut line = |name: String, errors: &[&Error]| {
         if let Some(q) = Quantiles::of(errors.iter().map(|e| e.relative)) {
@@ -231,29 +241,30 @@ pub fn edge_table(rows: &[(f64, Vec<Error>)]) -> String {
         }
     };
     let visible = |e: &&Error| e.wavelength <= 760.0;
+    let class = |errors: &mut dyn Iterator<Item = &Error>, (low, high): (f64, f64)| -> Vec<Error> {
+        errors
+            .filter(|e| (low..high).contains(&e.solar_elevation.to_degrees()))
+            .copied()
+            .collect()
+    };
     for (altitude, errors) in rows {
-        for (low, high) in EDGE_SUNS {
-            for (short, long) in EDGE_WAVELENGTHS {
-                let inside = |e: &&Error| {
-                    (low..high).contains(&e.solar_elevation.to_degrees())
-                        && (short..long).contains(&e.wavelength)
-                };
-                let class: Vec<&Error> = errors.iter().filter(inside).collect();
-                line(format!("{altitude},{low}..{high},{short}..{long}"), &class);
+        for &(low, high) in suns {
+            let class = class(&mut errors.iter(), (low, high));
+            for (short, long) in WAVELENGTHS {
+                let band = |e: &&Error| (short..long).contains(&e.wavelength);
+                let band: Vec<&Error> = class.iter().filter(band).collect();
+                line(format!("{altitude},{low}..{high},{short}..{long}"), &band);
             }
         }
     }
-    for (low, high) in EDGE_SUNS {
-        let inside = |e: &&Error| (low..high).contains(&e.solar_elevation.to_degrees());
-        let all = rows.iter().flat_map(|(_, errors)| errors);
-        let class: Vec<&Error> = all.filter(inside).filter(visible).collect();
-        line(format!("all,{low}..{high},300..760"), &class);
+    let mut all = rows.iter().flat_map(|(_, errors)| errors);
+    for &(low, high) in suns {
+        let class = class(&mut all.clone(), (low, high));
+        let seen: Vec<&Error> = class.iter().filter(visible).collect();
+        line(format!("all,{low}..{high},300..760"), &seen);
     }
-    let all = rows.iter().flat_map(|(_, errors)| errors);
-    line(
-        "all,all,300..760".to_owned(),
-        &all.clone().filter(visible).collect::<Vec<_>>(),
-    );
-    line("all,all,all".to_owned(), &all.collect::<Vec<_>>());
+    let seen: Vec<&Error> = all.clone().filter(visible).collect();
+    line("all,all,300..760".to_owned(), &seen);
+    line("all,all,all".to_owned(), &all.by_ref().collect::<Vec<_>>());
     out
 }

@@ -29,6 +29,9 @@ pub struct Args {
     /// Judge about the edge of the Earth's shadow instead: suns −12..−0.5°, directions away from them, as CSV.
     #[arg(long)]
     shadow_edge: bool,
+    /// Print radiance by altitude, sun and wavelength as CSV.
+    #[arg(long, conflicts_with = "shadow_edge")]
+    by_altitude: bool,
 }
 
 /// Runs the command.
@@ -64,7 +67,12 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     if args.shadow_edge {
-        print!("{}", assess::edge_table(&edges));
+        print!("{}", assess::place_table(&edges, &assess::EDGE_SUNS));
+        return Ok(());
+    }
+    if args.by_altitude {
+        let rows: Vec<(f64, Vec<Error>)> = rows.into_iter().map(|(_, h, e)| (h, e)).collect();
+        print!("{}", assess::place_table(&rows, &assess::SUNS));
         return Ok(());
     }
     println!("{}", band_table(&rows));

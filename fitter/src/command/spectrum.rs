@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use welkin::Model;
 use welkin::output::replace_file;
 use welkin_fitter::dataset::Store;
-use welkin_fitter::spectrum::judge::{bands, csv, judge, summary};
+use welkin_fitter::spectrum::judge::{bands, csv, judge, luminance, summary};
 use welkin_fitter::spectrum::walk::Walk;
 use welkin_fitter::spectrum::{Lesson, held_out_table, lesson, quantiles};
 use welkin_fitter::spectrum::{draw, g173};
@@ -101,6 +101,8 @@ enum Table {
     Bands,
     /// Every quantity over all wavelengths.
     Summary,
+    /// Luminance by sun: relative, absolute, and before a night sky.
+    Luminance,
 }
 
 /// Runs the command.
@@ -197,6 +199,7 @@ impl JudgeArgs {
             Table::All => csv(&judgement),
             Table::Bands => bands(&judgement),
             Table::Summary => summary(&judgement),
+            Table::Luminance => luminance(&judgement),
         };
         print!("{table}");
         Ok(())

@@ -24,8 +24,19 @@ pub struct Judgement {
     pub in_scattering: Vec<Difference>,
     /// Transmittance of segments, absolute.
     pub transmittance: Vec<Difference>,
-    /// ΔE00 of skies of which Y is half of that of white (D65), with the solar elevation (rad).
-    pub colour: Vec<(f64, f64)>,
+    /// Colour of skies.
+    pub colour: Vec<Colour>,
+}
+
+/// The colour of one line.
+#[derive(Clone, Copy, Debug)]
+pub struct Colour {
+    /// Solar elevation, rad.
+    pub sun: f64,
+    /// ΔE00, exposed so that Y is half of that of white (D65).
+    pub difference: f64,
+    /// Luminance, traced and of the model, cd/m².
+    pub luminance: [f64; 2],
 }
 
 /// One wavelength of one line.
@@ -123,8 +134,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// ΔE00 with the solar elevation.
-    fn colour(&self, sky: &PolarisedSky, sample: &Sample, s: usize) -> Result<Option<(f64, f64)>> {
+    fn colour(&self, sky: &PolarisedSky, sample: &Sample, s: usize) -> Result<Option<Colour>> {
         let [first, last] = [0, self.walk.wavelengths.len() - 1].map(|i| self.walk.wavelengths[i]);
         if first > SEEN[0] || last < SEEN[1] {
             return Ok(None);
@@ -145,10 +155,11 @@ impl Judge<'_> {
             let [x, y, z] = xyz.map(|v| 0.5 * v / want[1]);
             Lab::<D65, f64>::from_color(Xyz::new(x, y, z))
         };
-        Ok(Some((
-            sample.solar_elevation,
-            lab(got).difference(lab(want)),
-        )))
+        Ok(Some(Colour {
+            sun: sample.solar_elevation,
+            difference: lab(got).difference(lab(want)),
+            luminance: [want[1], got[1]],
+        }))
     }
 
     fn segment(&self, i: usize) -> Result<Judgement> {
@@ -251,8 +262,8 @@ pub fn csv(judgement: &Judgement) -> String {
         let class = judgement
             .colour
             .iter()
-            .filter(|c| belongs(c.0))
-            .map(|c| c.1);
+            .filter(|c| belongs(c.sun))
+            .map(|c| c.difference);
         row(&mut out, ("colour (ΔE00)", sun), [360.0, 830.0], class);
     }
     out
@@ -356,12 +367,77 @@ pub fn summary(judgement: &Judgement) -> String {
         let colours = judgement
             .colour
             .iter()
-            .filter(|c| belongs(c.0))
-            .map(|c| c.1);
+            .filter(|c| belongs(c.sun))
+            .map(|c| c.difference);
         if let Some(q) = Quantiles::of(colours) {
             let cells = [q.median, q.p95, q.p99, q.max].map(|v| two_digits(v, ""));
             out += &format!("\"ΔE00 of XYZ, {sun}\",{}\n", cells.join(","));
         }
     }
     out
+}
+
+/// Luminance of the night sky without sun and moon, cd/m²: what the sun adds is seen before it.
+const NIGHT: f64 = 2e-4;
+/// Bands of solar elevation of luminances, degrees.
+const LUMINANCE_SUNS: [(f64, f64); 6] = [
+    (12.0, 90.0),
+    (0.0, 12.0),
+    (-4.2, 0.0),
+    (-6.0, -4.2),
+    (-9.0, -6.0),
+    (-12.0, -9.0),
+];
+
+/// Rows of a page: luminances and their errors, relative, absolute, and relative to what is seen before a night sky.
+pub fn luminance(judgement: &Judgement) -> String {
+    let mut out = String::from(
+        "sun at,luminance: p5,median,p95,relative error: median,p95,max,absolute: p95,max,before 0.0002 cd/m²: p95,max\n",
+    );
+    for (low, high) in LUMINANCE_SUNS {
+        let inside = |c: &&Colour| (low..high).contains(&c.sun.to_degrees());
+        let class: Vec<[f64; 2]> = judgement
+            .colour
+            .iter()
+            .filter(inside)
+            .map(|c| c.luminance)
+            .collect();
+        let errors = |by: &dyn Fn(f64) -> f64| {
+            let errors = class
+                .iter()
+                .map(|[want, got]| (got - want).abs() / by(*want));
+            Quantiles::of(errors)
+        };
+        let parts = (
+            errors(&|want| want),
+            errors(&|_| 1.0),
+            errors(&|want| want + NIGHT),
+        );
+        let (Some(relative), Some(absolute), Some(seen)) = parts else {
+            continue;
+        };
+        let mut bright: Vec<f64> = class.iter().map(|[want, _]| *want).collect();
+        bright.sort_by(f64::total_cmp);
+        let at = |q: f64| bright[(q * (bright.len() - 1) as f64).round() as usize];
+        let cells = [0.05, 0.5, 0.95].map(|q| candela(at(q)));
+        let percent =
+            |q: &[f64]| -> Vec<String> { q.iter().map(|v| two_digits(100.0 * v, " %")).collect() };
+        let cells: Vec<String> = cells
+            .into_iter()
+            .chain(percent(&[relative.median, relative.p95, relative.max]))
+            .chain([absolute.p95, absolute.max].map(candela))
+            .chain(percent(&[seen.p95, seen.max]))
+            .collect();
+        out += &format!("{low}..{high}°,{}\n", cells.join(","));
+    }
+    out
+}
+
+/// Two digits and the unit.
+fn candela(value: f64) -> String {
+    let power = value.abs().max(1e-30).log10().floor();
+    if (-3.0..4.0).contains(&power) {
+        return two_digits(value, " cd/m²");
+    }
+    format!("{value:.1e} cd/m²")
 }

@@ -55,27 +55,46 @@ pub fn trace(
         let r = x.hypot(z);
         (z / r, x / r)
     };
-    let transmittance = |s: f64| medium.transmittance(&integrator.along(altitude, mu, s));
+    let columns = |s: f64| integrator.along(altitude, mu, s);
+    let transmittance = |s: f64| medium.transmittance(&columns(s));
     let mut nodes = vec![];
     let mut s = 0.0;
+    let mut behind = columns(0.0);
     let mut passed: Spectrum = [1.0; NW];
     while s < length {
         let (h, c) = at(s);
         let ds = segment(medium, h, c, &passed, fineness).max(length / MOST_SEGMENTS);
         let ds = ds.min(length - s);
+        let first = nodes.len();
+        let mut taken = [0.0; NW];
         for x in GAUSS {
             let d = s + x * ds;
             let (h, c) = at(d);
-            let t = transmittance(d);
+            let weight = transmittance(d).map(|t| t * 0.5 * ds as f32);
+            let extinction = medium.sum(&medium.profiles(h.max(0.0)));
+            for w in 0..NW {
+                taken[w] += extinction[w] * weight[w];
+            }
             nodes.push(Node {
                 altitude: h.max(0.0),
                 arc: arc(d),
                 cos_zenith: c.clamp(-1.0, 1.0),
-                weight: t.map(|t| t * 0.5 * ds as f32),
+                weight,
             });
         }
         s += ds;
-        passed = transmittance(s);
+        let here = columns(s);
+        let depth = medium.sum(&std::array::from_fn(|k| (here[k] - behind[k]) as f32));
+        for node in &mut nodes[first..] {
+            for w in 0..NW {
+                // A segment takes away exactly what its transmittance says.
+                if taken[w] > f32::MIN_POSITIVE {
+                    node.weight[w] *= passed[w] * -(-depth[w]).exp_m1() / taken[w];
+                }
+            }
+        }
+        behind = here;
+        passed = medium.transmittance(&here);
         if passed.iter().all(|&t| t < 1e-6) {
             return Path {
                 nodes,

@@ -59,8 +59,8 @@ impl Default for Settings {
             down: 9,
             azimuths: 10,
             first: 3,
-            orders: 7,
-            fineness: 3.0,
+            orders: 9,
+            fineness: 1.5,
         }
     }
 }

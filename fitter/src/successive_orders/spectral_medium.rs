@@ -160,13 +160,19 @@ impl Medium {
     }
 
     fn attenuate(&self, columns: &[f32; MAX_CONSTITUENTS]) -> Spectrum {
-        let mut tau = [0.0f32; NW];
-        for (part, c) in self.parts.iter().zip(columns) {
-            for (sum, extinction) in tau.iter_mut().zip(&part.extinction) {
+        self.sum(columns)
+            .map(|t| if t < BLACK { (-t).exp() } else { 0.0 })
+    }
+
+    /// Extinction times what there is of each constituent: optical depth of columns, extinction of profiles.
+    pub fn sum(&self, constituents: &[f32; MAX_CONSTITUENTS]) -> Spectrum {
+        let mut sums = [0.0f32; NW];
+        for (part, c) in self.parts.iter().zip(constituents) {
+            for (sum, extinction) in sums.iter_mut().zip(&part.extinction) {
                 *sum += extinction * c;
             }
         }
-        tau.map(|t| if t < BLACK { (-t).exp() } else { 0.0 })
+        sums
     }
 }
 

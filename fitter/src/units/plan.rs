@@ -68,8 +68,8 @@ impl Default for HeldOut {
 /// Length of ray segments when view rays are gathered, relative to the finest.
 const FINENESS: f64 = 1.0;
 /// Change whenever the physics or the layout of light fields, or of other units, does.
-const LIGHT_VERSION: u32 = 5;
-const UNIT_VERSION: u32 = 6;
+const LIGHT_VERSION: u32 = 6;
+const UNIT_VERSION: u32 = 7;
 
 /// The air of a visibility (m) for the nodes.
 fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
