@@ -13,6 +13,7 @@ pub mod ray_points;
 pub mod scattered_source;
 mod solve;
 pub mod spectral_medium;
+mod unresolved;
 pub mod view_rays;
 
 /// The grid of the moments.

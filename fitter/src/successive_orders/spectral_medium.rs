@@ -143,6 +143,15 @@ impl Medium {
     /// Near the planet's edge it is the share of the disc above the horizon, seen through the air at the centroid of
     /// that share.
     pub fn sunlight(&self, altitude: f64, mu: f64) -> Option<Spectrum> {
+        self.sunlight_through(altitude, mu).map(|(light, _)| light)
+    }
+
+    /// The same, and the columns (m) that it came through.
+    pub fn sunlight_through(
+        &self,
+        altitude: f64,
+        mu: f64,
+    ) -> Option<(Spectrum, [f32; MAX_CONSTITUENTS])> {
         let dip = self.sun.planet().dip(altitude);
         let angle = mu.clamp(-1.0, 1.0).asin() + dip;
         let x = angle / self.sun_radius.max(1e-12);
@@ -156,7 +165,7 @@ impl Medium {
         };
         let centre = (angle + rise * self.sun_radius).max(0.0);
         let columns = self.sun.at(altitude, centre, dip);
-        Some(self.attenuate(&columns).map(|t| t * share as f32))
+        Some((self.attenuate(&columns).map(|t| t * share as f32), columns))
     }
 
     fn attenuate(&self, columns: &[f32; MAX_CONSTITUENTS]) -> Spectrum {

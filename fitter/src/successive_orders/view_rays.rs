@@ -5,6 +5,7 @@ use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
 use super::solve::LightField;
 use super::spectral_medium::{Medium, NW, Spectrum, henyey_greenstein};
+use super::unresolved::TwiceScattered;
 use crate::column::planet;
 use welkin::geometry::{Planet, Side};
 
@@ -114,26 +115,29 @@ impl<'a> Gatherer<'a> {
         let parts = self.medium.parts.len();
         let mut sunlit = vec![[0.0; NW]; parts * suns.len()];
         let mut multiple = vec![[DARK; 2]; suns.len()];
+        let mut twice: Vec<_> = suns
+            .iter()
+            .map(|_| TwiceScattered::new(self.medium))
+            .collect();
         for node in &path.nodes {
             let profiles = self.medium.profiles(node.altitude);
             let sky = SourceTable::new(self.medium, &self.light.sky, node);
             let ground = SourceTable::new(self.medium, &self.light.ground, node);
             for (i, sun) in suns.iter().enumerate() {
                 let local = sun.at(node);
-                if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                    first_order::add(
-                        &profiles,
-                        &t,
-                        &node.weight,
-                        &mut sunlit[i * parts..(i + 1) * parts],
-                    );
+                if let Some((t, columns)) = self.medium.sunlight_through(node.altitude, local.mu) {
+                    let sums = &mut sunlit[i * parts..(i + 1) * parts];
+                    first_order::add(&profiles, &t, &node.weight, sums);
+                    twice[i].add(&profiles, &columns, &t, &node.weight);
                 }
                 sky.add(self.medium, &local, &node.weight, &mut multiple[i][0]);
                 ground.add(self.medium, &local, &node.weight, &mut multiple[i][1]);
             }
         }
         let mut out = vec![];
-        for ((sun, sums), light) in suns.iter().zip(sunlit.chunks_exact(parts)).zip(multiple) {
+        for (i, (sums, mut light)) in sunlit.chunks_exact(parts).zip(multiple).enumerate() {
+            let sun = &suns[i];
+            twice[i].add_to(&mut light[0][0], mu, sun);
             out.push(self.assemble(sums, light, scattering_cosine(mu, sun)));
         }
         out
@@ -143,15 +147,13 @@ impl<'a> Gatherer<'a> {
     pub fn stokes(&self, path: &Path, mu: f64, sun: &Sun, albedo: f32) -> Stokes {
         let mut sums = vec![[0.0; NW]; self.medium.parts.len()];
         let mut light = [DARK; 2];
+        let mut twice = TwiceScattered::new(self.medium);
         for node in &path.nodes {
             let local = sun.at(node);
-            if let Some(t) = self.medium.sunlight(node.altitude, local.mu) {
-                first_order::add(
-                    &self.medium.profiles(node.altitude),
-                    &t,
-                    &node.weight,
-                    &mut sums,
-                );
+            if let Some((t, columns)) = self.medium.sunlight_through(node.altitude, local.mu) {
+                let profiles = self.medium.profiles(node.altitude);
+                first_order::add(&profiles, &t, &node.weight, &mut sums);
+                twice.add(&profiles, &columns, &t, &node.weight);
             }
             for (moments, out) in [&self.light.sky, &self.light.ground]
                 .into_iter()
@@ -161,6 +163,7 @@ impl<'a> Gatherer<'a> {
                 table.add(self.medium, &local, &node.weight, out);
             }
         }
+        twice.add_to(&mut light[0][0], mu, sun);
         let mut out = first_order::stokes(self.medium, &sums, mu, sun);
         for (s, total) in out.iter_mut().enumerate() {
             for w in 0..NW {

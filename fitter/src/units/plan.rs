@@ -69,7 +69,7 @@ impl Default for HeldOut {
 const FINENESS: f64 = 1.0;
 /// Change whenever the physics or the layout of light fields, or of other units, does.
 const LIGHT_VERSION: u32 = 6;
-const UNIT_VERSION: u32 = 7;
+const UNIT_VERSION: u32 = 8;
 
 /// The air of a visibility (m) for the nodes.
 fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
