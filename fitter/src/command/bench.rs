@@ -49,7 +49,7 @@ pub fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-fn queries() -> [(&'static str, Query); 3] {
+fn queries() -> [(&'static str, Query); 6] {
     let query = |zenith: f64, sun: f64| Query {
         altitude: 0.0,
         view_zenith: zenith.to_radians(),
@@ -57,9 +57,17 @@ fn queries() -> [(&'static str, Query); 3] {
         sun_elevation: sun.to_radians(),
         distance: None,
     };
+    let shadow_edge = Query {
+        altitude: 12e3,
+        view_azimuth: std::f64::consts::PI,
+        ..query(86.5, -3.5)
+    };
     [
         ("(a) zenith, sun at 30°", query(0.0, 30.0)),
         ("(b) 2° above the horizon, sun at 2°", query(88.0, 2.0)),
         ("(c) zenith, sun at -4.2°", query(0.0, -4.2)),
+        ("(d) edge of the shadow, 12 km, sun at -3.5°", shadow_edge),
+        ("(e) zenith, sun at -8°", query(0.0, -8.0)),
+        ("(f) zenith, sun at -12°", query(0.0, -12.0)),
     ]
 }
