@@ -123,9 +123,9 @@ fn the_whole_way_is_the_polarised_sky() {
         errors.sort_by(f32::total_cmp);
         let [median, p95] = [0.5, 0.95].map(|q| errors[(q * errors.len() as f64) as usize]);
         println!("sun at {elevation}°: (Q, U)/I off by {median} (median), {p95} (p95)");
-        // The sky itself errs by 0.002 and 0.014 (p99 0.028).
+        // The sky itself errs by 0.002 and 0.015 (p99 0.030).
         assert!(
-            median < 0.006 && p95 < 0.03 && polarised > 100,
+            median < 0.008 && p95 < 0.03 && polarised > 100,
             "{elevation}: {median} {p95}"
         );
     }
