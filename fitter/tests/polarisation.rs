@@ -206,8 +206,13 @@ fn neutral_points_stand_where_the_air_has_them() {
                 "{low}..{high}: {got:?} {want:?} {alone}"
             );
             if let (Some(got), Some(want)) = (got, want) {
-                // Near a high sun the degree crosses zero so slowly that a small error of it moves the point.
-                let most = if sun > 60.0 { 4.0 } else { 1.0 };
+                // Near a high sun, and about one in haze, the degree crosses zero so slowly that a small error of it
+                // moves the point: what counts is that it is small where the point was traced.
+                let most = match () {
+                    () if sun > 60.0 => 4.0,
+                    () if visibility == HAZY => 2.5,
+                    () => 1.0,
+                };
                 let there = plane.modelled((sun + want).to_radians());
                 println!("{got:.2}°, traced {want:.2}°, where the model has {there:.5}");
                 assert!((got - want).abs() < most, "{got} {want}");
