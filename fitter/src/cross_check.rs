@@ -101,9 +101,9 @@ const BANDS: [(f64, f64); 7] = [
 pub struct Summary {
     /// Number of values.
     pub values: usize,
-    /// Mean difference: the bias of the data.
+    /// Mean difference, weighted with the precision of the reference tracer: the bias of the data.
     pub mean: f64,
-    /// Standard error of the mean.
+    /// Standard error of the mean that follows from that precision.
     pub standard_error: f64,
     /// Root mean square of the differences.
     pub rms: f64,
@@ -121,14 +121,14 @@ impl Summary {
         let all: Vec<&Difference> = differences.into_iter().collect();
         let n = all.len() as f64;
         let mean_of = |f: &dyn Fn(&Difference) -> f64| all.iter().map(|d| f(d)).sum::<f64>() / n;
-        let mean = mean_of(&|d| d.relative);
-        let square = mean_of(&|d| d.relative.powi(2));
+        let weight = |d: &Difference| 1.0 / (d.standard_error.powi(2) + SYSTEMATIC.powi(2));
+        let weights = mean_of(&weight);
         (!all.is_empty()).then(|| Self {
             values: all.len(),
-            mean,
+            mean: mean_of(&|d| weight(d) * d.relative) / weights,
             // The wavelengths of a sample share their walks: count samples, not values.
-            standard_error: ((square - mean * mean) / (n / NW as f64)).sqrt(),
-            rms: square.sqrt(),
+            standard_error: (NW as f64 / (n * weights)).sqrt(),
+            rms: mean_of(&|d| d.relative.powi(2)).sqrt(),
             tracer_rms: mean_of(&|d| d.standard_error.powi(2)).sqrt(),
             chi2: mean_of(&|d| d.z().powi(2)),
             worst_z: all.iter().map(|d| d.z().abs()).fold(0.0, f64::max),
