@@ -389,10 +389,10 @@ const LUMINANCE_SUNS: [(f64, f64); 6] = [
     (-12.0, -9.0),
 ];
 
-/// Rows of a page: luminances and their errors, relative, absolute, and relative to what is seen before a night sky.
+/// Rows of a page: luminances and their errors, relative, absolute, and relative to them and a night sky together.
 pub fn luminance(judgement: &Judgement) -> String {
     let mut out = String::from(
-        "sun at,luminance: p5,median,p95,relative error: median,p95,max,absolute: p95,max,before 0.0002 cd/m²: p95,max\n",
+        "sun at,cd/m²: p5,median,p95,error: median,p95,max,in cd/m²: p95,max,with night: p95,max\n",
     );
     for (low, high) in LUMINANCE_SUNS {
         let inside = |c: &&Colour| (low..high).contains(&c.sun.to_degrees());
@@ -433,11 +433,11 @@ pub fn luminance(judgement: &Judgement) -> String {
     out
 }
 
-/// Two digits and the unit.
+/// Two digits.
 fn candela(value: f64) -> String {
     let power = value.abs().max(1e-30).log10().floor();
     if (-3.0..4.0).contains(&power) {
-        return two_digits(value, " cd/m²");
+        return two_digits(value, "");
     }
-    format!("{value:.1e} cd/m²")
+    format!("{value:.1e}")
 }
