@@ -206,12 +206,12 @@ fn neutral_points_stand_where_the_air_has_them() {
                 "{low}..{high}: {got:?} {want:?} {alone}"
             );
             if let (Some(got), Some(want)) = (got, want) {
-                // Near a high sun, and about one in haze, the degree crosses zero so slowly that a small error of it
+                // The higher the sun, the more slowly the degree crosses zero, and the further a small error of it
                 // moves the point: what counts is that it is small where the point was traced.
-                let most = match () {
-                    () if sun > 60.0 => 4.0,
-                    () if visibility == HAZY => 2.5,
-                    () => 1.0,
+                let most = match sun {
+                    60.0.. => 4.0,
+                    40.0.. => 2.5,
+                    _ => 1.0,
                 };
                 let there = plane.modelled((sun + want).to_radians());
                 println!("{got:.2}°, traced {want:.2}°, where the model has {there:.5}");
