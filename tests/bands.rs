@@ -196,7 +196,7 @@ fn curves_of_the_ultraviolet_and_the_infrared_agree_with_fine_sums() {
     for (residual, errors) in bands.residuals().iter().zip(&found) {
         let [median, p99] = [0.5, 0.99].map(|q| errors[(q * (errors.len() - 1) as f64) as usize]);
         println!("{residual:?}: {median:.5} {p99:.5}");
-        assert!(median < 5e-4 && p99 < 4e-3, "{residual:?} {median} {p99}");
+        assert!(median < 5e-4 && p99 < 3.1e-3, "{residual:?} {median} {p99}");
     }
 }
 

@@ -240,31 +240,31 @@ pub fn place_table(rows: &[(f64, Vec<Error>)], suns: &[(f64, f64)]) -> String {
             );
         }
     };
-    let visible = |e: &&Error| e.wavelength <= 760.0;
-    let class = |errors: &mut dyn Iterator<Item = &Error>, (low, high): (f64, f64)| -> Vec<Error> {
-        errors
-            .filter(|e| (low..high).contains(&e.solar_elevation.to_degrees()))
-            .copied()
-            .collect()
-    };
+    let visible = |e: &&&Error| e.wavelength <= 760.0;
     for (altitude, errors) in rows {
-        for &(low, high) in suns {
-            let class = class(&mut errors.iter(), (low, high));
+        for &band in suns {
+            let class = under(errors.iter().collect(), band);
             for (short, long) in WAVELENGTHS {
-                let band = |e: &&Error| (short..long).contains(&e.wavelength);
-                let band: Vec<&Error> = class.iter().filter(band).collect();
-                line(format!("{altitude},{low}..{high},{short}..{long}"), &band);
+                let inside = |e: &&&Error| (short..long).contains(&e.wavelength);
+                let inside: Vec<&Error> = class.iter().filter(inside).copied().collect();
+                let (low, high) = band;
+                line(format!("{altitude},{low}..{high},{short}..{long}"), &inside);
             }
         }
     }
-    let mut all = rows.iter().flat_map(|(_, errors)| errors);
+    let all: Vec<&Error> = rows.iter().flat_map(|(_, errors)| errors).collect();
+    let seen: Vec<&Error> = all.iter().filter(visible).copied().collect();
     for &(low, high) in suns {
-        let class = class(&mut all.clone(), (low, high));
-        let seen: Vec<&Error> = class.iter().filter(visible).collect();
-        line(format!("all,{low}..{high},300..760"), &seen);
+        let class = under(seen.clone(), (low, high));
+        line(format!("all,{low}..{high},300..760"), &class);
     }
-    let seen: Vec<&Error> = all.clone().filter(visible).collect();
     line("all,all,300..760".to_owned(), &seen);
-    line("all,all,all".to_owned(), &all.by_ref().collect::<Vec<_>>());
+    line("all,all,all".to_owned(), &all);
     out
+}
+
+/// Those under suns of a band of elevations, degrees.
+fn under(mut errors: Vec<&Error>, (low, high): (f64, f64)) -> Vec<&Error> {
+    errors.retain(|e| (low..high).contains(&e.solar_elevation.to_degrees()));
+    errors
 }

@@ -11,7 +11,7 @@ use super::blocks::{Block, Blocks, MOST_BLOCKS, NOTHING, WIDTH};
 use super::path::Stops;
 use super::points::{Axes, BATCH};
 use super::sightline::Sightline;
-use super::walk::{Steps, Stop, Walk, read, scatterers};
+use super::walk::{Steps, Stop, Walk, scatterers};
 use crate::format::{EstimateView, MAX_ESTIMATES};
 use crate::geometry::Planet;
 use crate::kernel::lanes::Lanes;
@@ -92,7 +92,7 @@ impl<const S: usize> Band<S> {
                 if k < tables.constituents && scatters >> k & 1 == 1 {
                     let row = (q * tables.constituents + k) * (tables.light_stride / WIDTH);
                     let albedo = albedos[row + block];
-                    out[q] = out[q] + extinction[k] * read(&albedo) * *lit;
+                    out[q] = out[q] + extinction[k] * Lanes::read(&albedo) * *lit;
                 }
             }
         }
@@ -132,7 +132,7 @@ impl<F: Instructions, const S: usize> Kernel for Onwards<'_, F, S> {
             }
             let mut bright = Lanes::splat(0.0);
             for t in 0..4 {
-                let row = read(&self.light[stop.light[t]]);
+                let row = Lanes::read(&self.light[stop.light[t]]);
                 bright = products.add_product(bright, row, stop.weight[t]);
             }
             let next = [Ray::new(sun), Ray::new(view - bright)];

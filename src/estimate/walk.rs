@@ -285,19 +285,14 @@ fn pick(values: &[f32; MOST_LEVELS], level: &[u32; BATCH], above: usize) -> Numb
 #[inline(always)]
 fn between(rows: &[[F32; WIDTH]], first: usize, cell: &Cell, i: usize) -> Row {
     let row = first + cell.index[i] as usize;
-    mix(read(&rows[row]), read(&rows[row + 1]), cell.rest.0[i])
+    mix(
+        Lanes::read(&rows[row]),
+        Lanes::read(&rows[row + 1]),
+        cell.rest.0[i],
+    )
 }
 
 #[inline(always)]
 fn mix(a: Row, b: Row, t: f32) -> Row {
     a + (b - a) * t
-}
-
-#[inline(always)]
-pub(super) fn read(row: &[F32; WIDTH]) -> Row {
-    let mut lanes = [0.0; WIDTH];
-    for i in 0..WIDTH {
-        lanes[i] = row[i].get();
-    }
-    Lanes(lanes)
 }

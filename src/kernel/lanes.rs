@@ -4,6 +4,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use zerocopy::little_endian::F32;
+
 use crate::kernel::math;
 
 /// `N` numbers, lane by lane.
@@ -119,6 +121,16 @@ impl<const N: usize> Lanes<N> {
 }
 
 impl Lanes<8> {
+    /// Eight numbers of a file.
+    #[inline(always)]
+    pub fn read(numbers: &[F32; 8]) -> Self {
+        let mut lanes = [0.0; 8];
+        for i in 0..8 {
+            lanes[i] = numbers[i].get();
+        }
+        Self(lanes)
+    }
+
     /// The same four numbers twice.
     #[inline(always)]
     pub fn twice(half: &[f32; 4]) -> Self {

@@ -3,7 +3,7 @@
 //! No closures: they would be compiled without the instructions of the kernel.
 #![allow(clippy::needless_range_loop)]
 
-use zerocopy::little_endian::{F32, U16};
+use zerocopy::little_endian::U16;
 
 use super::capacity::WAVELENGTH_BLOCKS;
 use crate::azimuth_fade::mean_weight;
@@ -105,7 +105,7 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
     let suns = Rows::new(chunk.elevation, chunk.stride, elevation);
     let scales = chunk.scale[..chunk.stride].as_chunks::<WIDTH>().0;
     for (b, (sum, scale)) in sum.iter_mut().zip(scales).enumerate() {
-        let value = heights.sum(instructions, b) * (read(scale) * weight);
+        let value = heights.sum(instructions, b) * (Lanes::read(scale) * weight);
         *sum = *sum + value * suns.sum(instructions, b);
     }
 }
@@ -251,13 +251,4 @@ fn add_columns<const N: usize, I: Instructions>(
         }
     }
     sums
-}
-
-#[inline(always)]
-fn read(numbers: &[F32; WIDTH]) -> Lanes<WIDTH> {
-    let mut lanes = Lanes::splat(0.0);
-    for i in 0..WIDTH {
-        lanes.0[i] = numbers[i].get();
-    }
-    lanes
 }

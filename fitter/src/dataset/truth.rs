@@ -1,9 +1,7 @@
 //! Traced radiance at random, held-out conditions, to judge a fit by.
 
 use crate::successive_orders::scattered_source::Sun;
-use crate::successive_orders::{
-    Fields, Gatherer, LightField, NW, first_order, rayleigh_phase, view_rays,
-};
+use crate::successive_orders::{Fields, Gatherer, LightField, NW, first_order, rayleigh_phase};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -145,7 +143,7 @@ fn fill(gatherer: &Gatherer, light: &LightField, samples: &mut [Sample]) {
     let path = gatherer.path(altitude, view_elevation, side);
     let fields = gatherer.fields(&path, mu, &suns);
     for ((sample, fields), sun) in samples.iter_mut().zip(&fields).zip(&suns) {
-        let cosine = view_rays::scattering_cosine(mu, sun);
+        let cosine = sun.cosine(mu);
         sample.radiance = total(gatherer, light, fields, cosine, sample.albedo);
         sample.polarisation = polarisation(gatherer, light, fields, (mu, sun), sample.albedo);
     }

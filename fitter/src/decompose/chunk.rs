@@ -3,7 +3,7 @@
 use super::normalise::{RelativeEstimates, SiteEstimates, levels, normalise};
 use crate::dataset::{Grid, Tensor};
 use crate::successive_orders::scattered_source::Sun;
-use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase, view_rays};
+use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase};
 use std::f64::consts::FRAC_PI_2;
 use welkin::estimate::Estimates;
 use welkin::geometry::Side;
@@ -208,7 +208,7 @@ fn cosines(gatherer: &Gatherer, grid: &Grid, a: usize) -> Vec<f32> {
                     elevation: (e.cos(), e.sin()),
                     azimuth: (p.cos(), p.sin()),
                 };
-                out.push(view_rays::scattering_cosine(view.sin(), &sun));
+                out.push(sun.cosine(view.sin()));
             }
         }
     }

@@ -1,12 +1,13 @@
 //! What lies between the nodes: the weights of the nodes at every wavelength, learned from traced spectra.
 //!
-//! Data flow: [`cells`] → [`training`] → [`weights`] → [`learned`] → [`pack()`]; [`walk`] → [`judge`].
+//! Data flow: [`cells`] → [`training`] → [`weights`] → [`learned`] → [`pack()`]; [`walk`] → [`judge`] → [`judgement_tables`].
 
 pub mod cells;
 pub mod colour;
 pub mod draw;
 pub mod g173;
 pub mod judge;
+pub mod judgement_tables;
 pub mod learned;
 mod pack;
 mod thinned;

@@ -55,9 +55,7 @@ pub fn polarisation(polarising: &Spectrum, dipole: &Spectrum, mu: f64, sun: &Sun
 
 /// Stokes vector of all singly scattered light on a ray of zenith cosine `mu`, from its line integrals.
 pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes {
-    let ((ce, se), (ca, _)) = (sun.elevation, sun.azimuth);
-    let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
-    let cosine = (sine * ce * ca + mu * se) as f32;
+    let cosine = sun.cosine(mu);
     let mut out = DARK;
     let dipole = rayleigh(medium, sums);
     [out[1], out[2]] = polarisation(&medium.polarising, &dipole, mu, sun);

@@ -85,14 +85,7 @@ pub fn trace(
         s += ds;
         let here = columns(s);
         let depth = medium.sum(&std::array::from_fn(|k| (here[k] - behind[k]) as f32));
-        for node in &mut nodes[first..] {
-            for w in 0..NW {
-                // A segment takes away exactly what its transmittance says.
-                if taken[w] > f32::MIN_POSITIVE {
-                    node.weight[w] *= passed[w] * -(-depth[w]).exp_m1() / taken[w];
-                }
-            }
-        }
+        take_exactly(&mut nodes[first..], &taken, &passed, &depth);
         behind = here;
         passed = medium.transmittance(&here);
         if passed.iter().all(|&t| t < 1e-6) {
@@ -107,6 +100,18 @@ pub fn trace(
         nodes,
         transmittance: transmittance(length),
         ground: ground.then(|| arc(length)),
+    }
+}
+
+/// Weights the nodes of a segment of optical depth `depth`, to which `passed` comes, so that it takes away exactly what
+/// its transmittance says; so far it would be `taken`.
+fn take_exactly(nodes: &mut [Node], taken: &Spectrum, passed: &Spectrum, depth: &Spectrum) {
+    for node in nodes {
+        for w in 0..NW {
+            if taken[w] > f32::MIN_POSITIVE {
+                node.weight[w] *= passed[w] * -(-depth[w]).exp_m1() / taken[w];
+            }
+        }
     }
 }
 
@@ -144,5 +149,35 @@ fn height_step(h: f64, top: f64) -> f64 {
         h if h < 60_000.0 => 2000.0,
         h if h < HIGHEST || top <= HIGHEST => 5000.0,
         h => (0.1 * (top - h)).clamp(100.0, 5000.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atmosphere::{Particles, real_at};
+    use crate::dataset::VISIBLE;
+    use crate::successive_orders::SOLAR_ANGULAR_RADIUS;
+
+    #[test]
+    fn what_does_not_pass_is_taken_by_the_segments() {
+        let air = real_at(20e3, &VISIBLE.nodes, Particles::HenyeyGreenstein).unwrap();
+        let medium = Medium::new(air, SOLAR_ANGULAR_RADIUS).unwrap();
+        for mu in [0.02, 0.3, 1.0] {
+            let path = trace(&medium, 0.0, mu, 80e3, false, 3.0);
+            let mut taken = [0.0; NW];
+            for node in &path.nodes {
+                let extinction = medium.sum(&medium.profiles(node.altitude));
+                for w in 0..NW {
+                    taken[w] += extinction[w] * node.weight[w];
+                }
+            }
+            for (taken, passed) in taken.iter().zip(&path.transmittance) {
+                assert!(
+                    (taken + passed - 1.0).abs() < 2e-5,
+                    "{mu}: {taken} {passed}"
+                );
+            }
+        }
     }
 }

@@ -31,6 +31,13 @@ pub struct LocalSun {
 }
 
 impl Sun {
+    /// Cosine of the angle between the sun and a view ray of zenith cosine `mu`.
+    pub fn cosine(&self, mu: f64) -> f32 {
+        let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
+        let cosine = sine * self.elevation.0 * self.azimuth.0 + mu * self.elevation.1;
+        cosine.clamp(-1.0, 1.0) as f32
+    }
+
     /// Seen from a node further along the ray.
     pub fn at(&self, node: &Node) -> LocalSun {
         let ((ce, se), (ca, sa)) = (self.elevation, self.azimuth);

@@ -14,22 +14,25 @@ use super::spectral_medium::{
 /// Line integrals ∫ profile · column towards the sun · sunlight · transmittance to the observer (m²) of each pair of
 /// constituents that scatter as aerosols.
 pub struct TwiceScattered<'a> {
-    /// Which constituents these are.
-    parts: Vec<usize>,
     medium: &'a Medium,
+    /// The later and the earlier of each pair.
+    pairs: Vec<[usize; 2]>,
     sums: Vec<Spectrum>,
 }
 
 impl<'a> TwiceScattered<'a> {
     /// Nothing yet.
     pub fn new(medium: &'a Medium) -> Self {
-        let aerosols = |k: &usize| !medium.parts[*k].aerosols.is_empty();
-        let parts: Vec<usize> = (0..medium.parts.len()).filter(aerosols).collect();
-        let sums = vec![[0.0; NW]; parts.len() * parts.len()];
+        let parts = 0..medium.parts.len();
+        let parts = parts.filter(|&k| !medium.parts[k].aerosols.is_empty());
+        let pairs = parts
+            .clone()
+            .flat_map(|a| parts.clone().map(move |b| [a, b]));
+        let pairs: Vec<[usize; 2]> = pairs.collect();
         Self {
-            parts,
             medium,
-            sums,
+            sums: vec![[0.0; NW]; pairs.len()],
+            pairs,
         }
     }
 
@@ -41,11 +44,7 @@ impl<'a> TwiceScattered<'a> {
         sunlight: &Spectrum,
         weight: &Spectrum,
     ) {
-        let pairs = self
-            .parts
-            .iter()
-            .flat_map(|&a| self.parts.iter().map(move |&b| (a, b)));
-        for (sum, (last, first)) in self.sums.iter_mut().zip(pairs) {
+        for (sum, &[last, first]) in self.sums.iter_mut().zip(&self.pairs) {
             let share = profiles[last] * columns[first];
             for w in 0..NW {
                 sum[w] += share * sunlight[w] * weight[w];
@@ -55,18 +54,9 @@ impl<'a> TwiceScattered<'a> {
 
     /// Adds the intensity, sr⁻¹, on a ray of zenith cosine `mu`.
     pub fn add_to(&self, out: &mut Spectrum, mu: f64, sun: &Sun) {
-        if self.parts.is_empty() {
-            return;
-        }
-        let resolved = resolved(mu, sun);
-        let ((ce, se), (ca, _)) = (sun.elevation, sun.azimuth);
-        let cosine = (((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt() * ce * ca + mu * se) as f32;
-        let aerosols = |k: usize| self.medium.parts[k].aerosols.iter();
-        let pairs = self
-            .parts
-            .iter()
-            .flat_map(|&a| self.parts.iter().map(move |&b| (a, b)));
-        for (sum, (last, first)) in self.sums.iter().zip(pairs) {
+        let (resolved, cosine) = (resolved(mu, sun), sun.cosine(mu));
+        let aerosols = |k: usize| &self.medium.parts[k].aerosols;
+        for (sum, &[last, first]) in self.sums.iter().zip(&self.pairs) {
             for a in aerosols(last) {
                 for b in aerosols(first) {
                     add_pair(out, sum, [a, b], cosine, &resolved);
@@ -119,9 +109,8 @@ mod tests {
             azimuth: (-0.28, 0.96),
         };
         let (mu, g) = (0.4f64, 0.2f32);
-        let cosine = ((1.0 - mu * mu).sqrt() * 0.8 * -0.28 + mu * 0.6) as f32;
         let terms = resolved(mu, &sun);
         let series = terms.iter().rev().fold(0.0, |sum, term| sum * g + term);
-        assert!((series - henyey_greenstein(&[g; NW], cosine)[0]).abs() < 1e-5);
+        assert!((series - henyey_greenstein(&[g; NW], sun.cosine(mu))[0]).abs() < 1e-5);
     }
 }

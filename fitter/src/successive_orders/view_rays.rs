@@ -138,7 +138,7 @@ impl<'a> Gatherer<'a> {
         for (i, (sums, mut light)) in sunlit.chunks_exact(parts).zip(multiple).enumerate() {
             let sun = &suns[i];
             twice[i].add_to(&mut light[0][0], mu, sun);
-            out.push(self.assemble(sums, light, scattering_cosine(mu, sun)));
+            out.push(self.assemble(sums, light, sun.cosine(mu)));
         }
         out
     }
@@ -211,10 +211,4 @@ impl<'a> Gatherer<'a> {
             .filter_map(|p| p.aerosols.get(species));
         found.next().map_or([0.0; NW], |a| a.g)
     }
-}
-
-/// Cosine of the angle between a view ray of zenith cosine `mu` and the sun.
-pub fn scattering_cosine(mu: f64, sun: &Sun) -> f32 {
-    let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
-    (sine * sun.elevation.0 * sun.azimuth.0 + mu * sun.elevation.1).clamp(-1.0, 1.0) as f32
 }

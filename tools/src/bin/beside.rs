@@ -3,10 +3,10 @@
 //! tone curve, so that they differ where light does.
 
 use std::error::Error;
-use std::fs::File;
-use std::io::BufWriter;
+use std::path::Path;
 
 use exr::prelude::read_first_rgba_layer_from_file;
+use welkin::output::replace_file;
 
 /// Pixels between pairs.
 const GAP: usize = 4;
@@ -94,14 +94,13 @@ fn write(
             }
         }
     }
-    let mut encoder = png::Encoder::new(
-        BufWriter::new(File::create(out)?),
-        u32::try_from(across)?,
-        u32::try_from(down)?,
-    );
+    let mut file = vec![];
+    let (across, down) = (u32::try_from(across)?, u32::try_from(down)?);
+    let mut encoder = png::Encoder::new(&mut file, across, down);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    Ok(encoder.write_header()?.write_image_data(&image)?)
+    encoder.write_header()?.write_image_data(&image)?;
+    Ok(replace_file(Path::new(out), &file)?)
 }
 
 fn white(picture: &Picture) -> f32 {
