@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::prepared::AerialPerspective;
 use super::scatterers::Scatterers;
-use super::source_expansion::{Expansion, Fill, Scratch};
+use super::source_expansion::Expansion;
+use super::source_fill::{Fill, Scratch};
 use super::source_table::{ground_factor, overflow, reach, sun_nodes};
-use super::sun_transmittance::NODES;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::visibility_node;
@@ -52,8 +52,7 @@ pub struct AerialPerspectiveQuery<'a> {
     /// Sines of the sun nodes of the source.
     suns: Vec<f64>,
     now: u32,
-    /// When each node of the beam and of the source, `[sun][altitude]`, was computed.
-    beam: Vec<u32>,
+    /// When each node of the source, `[sun][altitude]`, was computed.
     source: Vec<u32>,
     scratch: Scratch,
 }
@@ -65,7 +64,12 @@ impl Model {
     /// # Errors
     /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged.
     pub fn aerial_perspective_query(&self) -> Result<AerialPerspectiveQuery<'_>> {
-        let expansion = Arc::new(Expansion::new(self)?);
+        let nodes = self.nodes();
+        let expansion = Arc::new(Expansion::new(
+            self,
+            nodes,
+            0..nodes.head.visibilities.len(),
+        )?);
         let [visibility, _] = self.visibility_range();
         let aerial = self.aerial_perspective(&Conditions {
             visibility,
@@ -81,7 +85,6 @@ impl Model {
             ground: Vec::new(),
             suns: Vec::new(),
             now: 0,
-            beam: vec![0; NODES],
             source: Vec::new(),
             scratch: Scratch::default(),
             aerial,
@@ -199,22 +202,19 @@ impl AerialPerspectiveQuery<'_> {
         let (nodes, x) = (head.visibility_nodes(), visibility_node(visibility));
         self.visibilities = hermite(&nodes, x);
         self.ground = ground_factor(head, visibility, conditions.albedo);
-        let sources = &self.expansion.sources;
         let around: Vec<_> = (linear(&nodes, x).taps())
-            .map(|(v, weight)| (sources[v], weight))
+            .map(|(v, weight)| (self.expansion.source(v), weight))
             .collect();
         let aerial = &mut self.aerial;
         aerial.species = Scatterers::new(head, around.into_iter());
         aerial.air.set_visibility(head, visibility);
         aerial.grey = aerial.air.grey();
-        aerial.beam.turn(&aerial.air.planet(), solar_elevation);
         self.suns = sun_nodes(solar_elevation, reach(&head.planet));
         aerial.source.turn(&self.suns);
         let nodes = aerial.source.altitudes() * self.suns.len();
         // Near the zenith the sun has fewer nodes; room for more stays.
         self.source.resize(nodes.max(self.source.len()), 0);
         self.now = self.now.checked_add(1).unwrap_or_else(|| {
-            self.beam.fill(0);
             self.source.fill(0);
             1
         });
@@ -226,15 +226,6 @@ impl AerialPerspectiveQuery<'_> {
             query: self,
             segment,
         })
-    }
-
-    fn fill_beam(&mut self, nodes: &[usize]) {
-        for &node in nodes {
-            if self.beam[node] != self.now {
-                self.beam[node] = self.now;
-                self.aerial.beam.fill(&self.aerial.air.layers, node);
-            }
-        }
     }
 
     /// Computes the source at two altitudes and a sun.
@@ -286,15 +277,6 @@ impl Kernel for Needs<'_, '_> {
     fn run<I: Instructions>(self, _: I) -> Result<()> {
         let Self { query, segment } = self;
         let (panels, places, _) = query.aerial.panels(segment);
-        let planet = query.aerial.air.planet();
-        let ends = 2 * (panels.count + 1).div_ceil(2);
-        for (i, places) in places.iter().enumerate() {
-            let nodes = query.aerial.beam.nodes(&planet, places);
-            let count = ends.saturating_sub(i * nodes.len()).min(nodes.len());
-            for nodes in &nodes[..count] {
-                query.fill_beam(nodes);
-            }
-        }
         let stations = panels.count + 1..panels.count + 1 + panels.stations.shares.len();
         for i in stations {
             let places = &places[i / super::path_points::BATCH];

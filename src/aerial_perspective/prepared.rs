@@ -1,12 +1,18 @@
 //! What segments of a scene share.
 
+use std::sync::Arc;
+
+use super::file_tables::FileTables;
 use super::reach::Reach;
 use super::scatterers::Scatterers;
-use super::source_table::{SourceTable, blocks, ground_factor};
+use super::source_expansion::Expansion;
+use super::source_fill::{Fill, Scratch};
+use super::source_table::{SourceTable, blocks, ground_factor, overflow, reach, sun_nodes};
 use super::sun_transmittance::Beam;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::{Head, Kind, visibility_node};
+use crate::kernel::axis::{Stencil, hermite, linear};
 use crate::kernel::math::LANES;
 use crate::model::{Model, Nodes};
 use crate::transmittance::Transmittance;
@@ -49,7 +55,7 @@ pub struct AerialPerspective {
     pub(super) sun: [f64; 3],
     pub(super) species: Scatterers,
     pub(super) source: SourceTable,
-    pub(super) beam: Beam,
+    pub(super) beam: Arc<Beam>,
     pub(super) reach: Reach,
     /// Extinction at a typical wavelength, m⁻¹: a polynomial of each layer.
     pub(super) grey: Vec<[f32; 3]>,
@@ -80,26 +86,25 @@ impl AerialPerspective {
         let head = nodes.head;
         let visibilities = head.visibility_nodes();
         let x = visibility_node(conditions.visibility);
-        let cubic = crate::kernel::axis::hermite(&visibilities, x);
+        let cubic = hermite(&visibilities, x);
         let sources = cubic.taps().map(|(v, _)| (Kind::Source, None, Some(v)));
         let shared = [Kind::Transmittance, Kind::SourceBasis].map(|kind| (kind, None, None));
         model.prefetch(sources.chain(shared).chain(nodes.spectrum()))?;
         let air = Transmittance::prepare(model, head, conditions.visibility)?;
-        let linear = crate::kernel::axis::linear(&visibilities, x);
-        let around: Vec<_> = linear
-            .taps()
-            .map(|(v, weight)| Ok((nodes.source(model.source_chunk(v)?), weight)))
-            .collect::<Result<_>>()?;
-        let around = around
-            .iter()
-            .map(|(source, weight)| (source.view(), *weight));
+        let linear = linear(&visibilities, x);
+        let expansion = Expansion::new(model, nodes, cubic.taps().map(|(v, _)| v))?;
+        let around: Vec<_> = (linear.taps())
+            .map(|(v, weight)| (expansion.source(v), weight))
+            .collect();
+        let suns = sun_nodes(conditions.solar_elevation, reach(&head.planet));
+        let mut source = SourceTable::empty(model, nodes, &suns)?;
         let ground = ground_factor(head, conditions.visibility, conditions.albedo);
-        let elevation = conditions.solar_elevation;
+        fill(&mut source, &suns, &expansion, (&cubic, &ground))?;
         Ok(Self {
-            source: SourceTable::new(model, nodes, conditions.visibility, elevation, &ground)?,
-            species: Scatterers::new(head, around),
+            source,
+            species: Scatterers::new(head, around.into_iter()),
             sun: conditions.sun_direction(),
-            beam: Beam::new(&air.layers, elevation),
+            beam: Arc::clone(&FileTables::of(model)?.beam),
             reach: Reach::new(&head.planet),
             grey: air.grey(),
             irradiance: blocks(&irradiance(head)).collect(),
@@ -154,6 +159,32 @@ impl AerialPerspective {
     pub fn reach(&self) -> f64 {
         self.reach.angle
     }
+}
+
+/// Fills all nodes of a table.
+fn fill(
+    table: &mut SourceTable,
+    suns: &[f64],
+    expansion: &Expansion,
+    (visibilities, ground): (&Stencil, &[f64]),
+) -> Result<()> {
+    let altitudes: Vec<usize> = (0..table.altitudes()).collect();
+    let mut scratch = Scratch::default();
+    for sun in suns.iter().copied().enumerate() {
+        let fill = Fill {
+            expansion,
+            visibilities,
+            ground,
+            sun,
+            altitudes: &altitudes,
+            table,
+            scratch: &mut scratch,
+        };
+        if !fill.run() {
+            return Err(overflow());
+        }
+    }
+    Ok(())
 }
 
 fn irradiance(head: &Head) -> Vec<f64> {

@@ -1,14 +1,14 @@
 //! The source function of multiply scattered light at the conditions of a scene: every mode but altitude, sun and
 //! component is contracted here. Format specification, section 7.7.
 
+use std::sync::Arc;
+
 use super::angular_basis::{Components, Directions};
+use super::file_tables::FileTables;
 use crate::error::{Error, Result};
-use crate::format::{
-    Head, SOURCE_FIELDS, SourceBasisView, SourceView, altitude_node, visibility_node,
-};
+use crate::format::{Head, SourceBasisView, visibility_node};
 use crate::geometry::Planet;
-use crate::kernel::axis::{hermite, linear};
-use crate::kernel::half::widen;
+use crate::kernel::axis::linear;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
 use crate::model::{Model, Nodes};
@@ -26,7 +26,7 @@ const FAR: f64 = 0.5;
 /// The source over altitude and the sun's local elevation.
 #[derive(Clone, Debug)]
 pub(crate) struct SourceTable {
-    pub directions: Directions,
+    pub directions: Arc<Directions>,
     altitude: Vec<f32>,
     /// Sines of the sun's elevation.
     sun: Vec<f32>,
@@ -51,53 +51,20 @@ pub(crate) struct Spot {
 }
 
 impl SourceTable {
-    pub fn new(
-        model: &Model,
-        nodes: Nodes,
-        visibility: f64,
-        sun: f64,
-        ground: &[f64],
-    ) -> Result<Self> {
-        let head = nodes.head;
-        let mut basis = model.source_basis_chunk()?;
-        let channels = nodes.source_channels(&basis);
-        basis.factors[3] = &channels;
-        let altitude = refine(&basis);
-        let sun = sun_nodes(sun, reach(&head.planet));
-        let weights = Weights::new(&basis, &altitude, &sun);
-        let nw = head.wavelengths.len();
-        let mut values = vec![0.0; altitude.len() * sun.len() * nw * basis.ranks[2]];
-        let mut level = vec![0.0; sun.len() * nw];
-        let stencil = hermite(&head.visibility_nodes(), visibility_node(visibility));
-        let mut first = None;
-        for (v, share) in stencil.taps() {
-            let source = model.source_chunk(v)?;
-            source.check_with(&basis, first.get_or_insert(source))?;
-            let source = nodes.source(source);
-            let source = source.view();
-            let levels = weights.levels(&source, nw);
-            for (sum, value) in level.iter_mut().zip(&levels[0]) {
-                *sum += share * value;
-            }
-            weights.add(&basis, &source, share, &levels, ground, &mut values);
-        }
-        let table = Self {
-            directions: Directions::new(&basis),
-            altitude: altitude.iter().map(|&h| h as f32).collect(),
-            sun: sun.iter().map(|&s| s as f32).collect(),
-            blocks: nw.div_ceil(LANES),
+    /// A table at some sines of the sun's elevation and the altitudes of the file; its values come later.
+    pub fn empty(model: &Model, nodes: Nodes, suns: &[f64]) -> Result<Self> {
+        let basis = model.source_basis_chunk()?;
+        let mut table = Self {
+            directions: Arc::clone(&FileTables::of(model)?.directions),
+            altitude: refine(&basis).iter().map(|&h| h as f32).collect(),
+            sun: Vec::new(),
+            blocks: nodes.head.wavelengths.len().div_ceil(LANES),
             pairs: basis.ranks[2].div_ceil(2),
-            values: pack(&values, nw, basis.ranks[2]),
-            level: level.chunks(nw).flat_map(blocks).collect(),
+            values: Vec::new(),
+            level: Vec::new(),
         };
-        let values = table
-            .values
-            .iter()
-            .all(|v| v.0.iter().all(|v| v.is_finite()));
-        if values && table.level.as_flattened().iter().all(|v| v.is_finite()) {
-            return Ok(table);
-        }
-        Err(overflow())
+        table.turn(suns);
+        Ok(table)
     }
 
     pub fn bytes(&self) -> usize {
@@ -256,132 +223,6 @@ pub(super) fn sun_nodes(elevation: f64, reach: f64) -> Vec<f64> {
 
 pub(super) fn sun_coordinate(sine: f64) -> f64 {
     (12.5 * sine).asinh()
-}
-
-/// Rows of the factor matrices at the nodes of a table.
-struct Weights {
-    /// `[altitude][component]`.
-    altitude: Vec<Vec<f64>>,
-    /// `[sun][component]`.
-    sun: Vec<Vec<f64>>,
-    /// Taps of each sun node.
-    taps: Vec<Vec<(usize, f64)>>,
-}
-
-impl Weights {
-    fn new(basis: &SourceBasisView, altitude: &[f64], sun: &[f64]) -> Self {
-        let coordinates = |nodes: &[zerocopy::little_endian::F64],
-                           map: fn(f64) -> f64|
-         -> Vec<f64> { nodes.iter().map(|n| map(n.get())).collect() };
-        let altitudes = coordinates(basis.altitude, altitude_node);
-        let suns = coordinates(basis.sun, sun_coordinate);
-        let row = |mode: usize, taps: &[(usize, f64)]| -> Vec<f64> {
-            let rank = basis.ranks[mode];
-            let value = |i: usize, r: usize| f64::from(basis.factors[mode][i * rank + r].get());
-            let sum = |r: usize| taps.iter().map(|&(i, w)| w * value(i, r)).sum();
-            (0..rank).map(sum).collect()
-        };
-        let taps: Vec<Vec<(usize, f64)>> = sun
-            .iter()
-            .map(|&s| hermite(&suns, sun_coordinate(s)).taps().collect())
-            .collect();
-        let at_altitude = |&h: &f64| {
-            let taps: Vec<_> = hermite(&altitudes, altitude_node(h)).taps().collect();
-            row(0, &taps)
-        };
-        Self {
-            altitude: altitude.iter().map(at_altitude).collect(),
-            sun: taps.iter().map(|taps| row(1, taps)).collect(),
-            taps,
-        }
-    }
-
-    /// Logarithms of the levels per field, `[sun][wavelength]`.
-    fn levels(&self, source: &SourceView, nw: usize) -> [Vec<f64>; SOURCE_FIELDS] {
-        core::array::from_fn(|field| {
-            let table = &source.level[field * source.suns * nw..];
-            let value = |taps: &[(usize, f64)], w: usize| -> f64 {
-                taps.iter()
-                    .map(|&(i, t)| t * f64::from(table[i * nw + w].get()))
-                    .sum()
-            };
-            let row =
-                |taps: &Vec<(usize, f64)>| (0..nw).map(|w| value(taps, w)).collect::<Vec<_>>();
-            self.taps.iter().flat_map(row).collect()
-        })
-    }
-
-    /// Adds `share` times the source of a visibility to `[altitude][sun][component][wavelength]`.
-    fn add(
-        &self,
-        basis: &SourceBasisView,
-        source: &SourceView,
-        share: f64,
-        levels: &[Vec<f64>; SOURCE_FIELDS],
-        ground: &[f64],
-        out: &mut [f64],
-    ) {
-        let [ra, rs, rm, rc] = basis.ranks;
-        let nw = ground.len();
-        let core: Vec<f64> = source.core.iter().map(|&h| f64::from(widen(h))).collect();
-        let suns = self.sun.len();
-        for (j, sun) in self.sun.iter().enumerate() {
-            // `[channel component][wavelength]`: both fields in terms of the sky's level.
-            let mut channel = vec![0.0; rc * nw];
-            for w in 0..nw {
-                let ratio = (levels[1][j * nw + w] - levels[0][j * nw + w]).exp();
-                for c in 0..rc {
-                    let factor = |row: usize| f64::from(basis.factors[3][row * rc + c].get());
-                    channel[c * nw + w] = factor(w) + ground[w] * ratio * factor(nw + w);
-                }
-            }
-            // `[altitude component][moment component][wavelength]`.
-            let mut seen = vec![0.0; ra * nw * rm];
-            for a in 0..ra {
-                for m in 0..rm {
-                    for c in 0..rc {
-                        let at = |s: usize| core[((a * rs + s) * rm + m) * rc + c];
-                        let sum: f64 = (0..rs).map(|s| sun[s] * at(s)).sum();
-                        let row = &mut seen[(a * rm + m) * nw..][..nw];
-                        for (seen, channel) in row.iter_mut().zip(&channel[c * nw..]) {
-                            *seen += sum * channel;
-                        }
-                    }
-                }
-            }
-            let factor = share * f64::from(source.scale);
-            for (i, altitude) in self.altitude.iter().enumerate() {
-                let row = &mut out[(i * suns + j) * nw * rm..][..nw * rm];
-                for (seen, weight) in seen.chunks_exact(nw * rm).zip(altitude) {
-                    for (sum, value) in row.iter_mut().zip(seen) {
-                        *sum += factor * weight * value;
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// `[row][component][wavelength]` as `[row][block][pair of components][component of the pair][wavelength of the
-/// block]`.
-fn pack(values: &[f64], nw: usize, rank: usize) -> Vec<Lanes<8>> {
-    let mut out = Vec::with_capacity(values.len().div_ceil(2 * nw * rank) * nw);
-    for row in values.chunks_exact(nw * rank) {
-        for block in 0..nw.div_ceil(LANES) {
-            for pair in 0..rank.div_ceil(2) {
-                let lane = |i: usize| {
-                    let (w, r) = (block * LANES + i % LANES, 2 * pair + i / LANES);
-                    if w < nw && r < rank {
-                        row[r * nw + w] as f32
-                    } else {
-                        0.0
-                    }
-                };
-                out.push(Lanes(core::array::from_fn(lane)));
-            }
-        }
-    }
-    out
 }
 
 /// A spectrum in vectors.

@@ -7,6 +7,7 @@ use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::LocalFrame;
 use super::fill::Channels;
 use super::grid_choice::BakeError;
+use super::spline_table::Table;
 use crate::bands::ColourSky;
 use crate::conditions::Conditions;
 use crate::error::Result;
@@ -64,6 +65,31 @@ impl Sky {
 }
 
 impl ColourSky {
+    /// Bakes the sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under
+    /// a sun that moves. What takes most of the time of [`ColourSky::bake`], measuring the error and choosing the
+    /// sizes, is left out: the tolerance is kept about as well as `other` keeps it, and
+    /// [`BakedColourSky::bake_error`] is that of `other`. While sizes stay, a small step of the conditions changes no
+    /// pixel by more than it changes the sky.
+    ///
+    /// ```
+    /// use welkin::{BakedSky, Conditions, Model};
+    ///
+    /// let model = Model::default_model()?;
+    /// let mut conditions = Conditions::default();
+    /// let mut frame = model.colour_sky(&conditions)?.bake(BakedSky::TOLERANCE)?;
+    /// for _ in 0..3 {
+    ///     conditions.solar_elevation -= 0.01_f64.to_radians();
+    ///     frame = model.colour_sky(&conditions)?.bake_like(&frame);
+    /// }
+    /// assert_eq!(frame.conditions().solar_elevation, conditions.solar_elevation);
+    /// # Ok::<(), welkin::Error>(())
+    /// ```
+    pub fn bake_like(&self, other: &BakedColourSky) -> BakedColourSky {
+        BakedColourSky {
+            baked: other.baked.like(self.sky(), &Xyz(self.sky())),
+        }
+    }
+
     /// As [`Sky::bake_colour`].
     ///
     /// # Errors
@@ -90,6 +116,10 @@ impl BakedColourSky {
     /// What baking added to the error of X, Y and Z.
     pub fn bake_error(&self) -> BakeError {
         self.baked.error
+    }
+
+    pub(super) fn table(&self) -> &Table<LANES> {
+        &self.baked.table
     }
 
     pub(super) fn frame(&self) -> LocalFrame {

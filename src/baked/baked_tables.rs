@@ -49,6 +49,16 @@ impl<const N: usize> Baked<N> {
         })
     }
 
+    /// With tables of the same sizes, whose error is not measured again.
+    pub fn like(&self, sky: &Sky, channels: &impl Channels<N>) -> Self {
+        Self {
+            conditions: *sky.conditions(),
+            frame: LocalFrame::new(sky),
+            table: fill::table_of(sky, channels, self.table.grid),
+            error: self.error,
+        }
+    }
+
     /// Looks up one direction.
     #[inline(always)]
     pub fn one(&self, direction: [f32; 3], sink: impl Sink<N>) -> Result<()> {

@@ -2,12 +2,13 @@
 
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::{LocalFrame, opaque_length};
-use super::grid_choice::{BakeError, Errors, bake, difference};
+use super::grid_choice::{BakeError, Errors, Refinable, bake, difference};
 use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{grid, joined};
 use super::refinement::Half;
 use super::spline::{Start, coefficients, taps};
-use super::spline_table::{SUN, Spots, Table, envelope};
+use super::spline_size::Size;
+use super::spline_table::{ENVELOPE, Grid, SUN, Spots, Table, envelope};
 use crate::error::Result;
 use crate::geometry::{Ray, Side};
 use crate::kernel::lanes::Lanes;
@@ -51,6 +52,26 @@ pub(super) fn table<const N: usize>(
         envelope,
     };
     Ok((table, up_errors.and(down_errors).summary()))
+}
+
+/// Makes a table of a given size, without measuring its error.
+pub(super) fn table_of<const N: usize>(
+    sky: &Sky,
+    channels: &impl Channels<N>,
+    grid: Grid,
+) -> Table<N> {
+    let envelope = dispatch(Envelope::<_, N> { sky, channels });
+    let half = |side, rows| {
+        let nodes = GridNodes { sky, side };
+        let columns = grid.azimuth;
+        Radiance::unmeasured(nodes, channels, &envelope).surface(Size { rows, columns })
+    };
+    let (up, down) = (half(Side::Up, grid.up), half(Side::Down, grid.down));
+    Table {
+        grid,
+        cells: joined(up, down, grid),
+        envelope,
+    }
 }
 
 /// What the phase functions make of the light that comes from beside the sun: smooth where the sky is not.
@@ -114,13 +135,9 @@ impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
         envelope: &'a [Lanes<N>],
     ) -> Self {
         let mut half = Self {
-            lattice,
-            channels,
-            envelope,
-            brightest: vec![Lanes::splat(f32::MIN_POSITIVE); channels.blocks()],
             sites: sites(lattice, frame),
-            truth: Vec::new(),
-            known: Known::new(channels.blocks()),
+            brightest: vec![Lanes::splat(f32::MIN_POSITIVE); channels.blocks()],
+            ..Self::unmeasured(lattice, channels, envelope)
         };
         half.truth = dispatch(Truth(&half));
         for truth in half.truth.chunks(channels.blocks()) {
@@ -128,6 +145,21 @@ impl<'a, const N: usize, C: Channels<N>> Radiance<'a, C, N> {
             pairs.for_each(|(most, value)| *most = most.max(*value));
         }
         half
+    }
+
+    /// With nothing to compare surfaces with.
+    fn unmeasured(lattice: GridNodes<'a>, channels: &'a C, envelope: &'a [Lanes<N>]) -> Self {
+        // At the sun all light is brightest, or nearly so.
+        let beside_sun = envelope.iter().step_by(ENVELOPE);
+        Self {
+            lattice,
+            channels,
+            envelope,
+            brightest: beside_sun.map(|logarithm| logarithm.exp2()).collect(),
+            sites: Vec::new(),
+            truth: Vec::new(),
+            known: Known::new(channels.blocks()),
+        }
     }
 
     /// Channels along a ray, `[azimuth][block]`, with the angle from the sun.

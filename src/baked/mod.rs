@@ -23,6 +23,7 @@ mod hemisphere_spline;
 mod hero_stokes;
 mod hero_wavelengths;
 mod irradiance;
+mod luminance_lattice;
 mod polarisation_table;
 mod refinement;
 mod sampler;

@@ -4,9 +4,11 @@ use core::f64::consts::TAU;
 
 use super::baked_colour::BakedColourSky;
 use super::coordinates::{LocalFrame, prepared};
+use super::luminance_lattice::LuminanceLattice;
 use crate::error::{Error, Result};
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::finite;
+use crate::kernel::simd::dispatch;
 use crate::sun::SolarDisc;
 
 /// Rows of cells above and below the horizon, and columns from the sun's azimuth to the opposite one.
@@ -129,9 +131,7 @@ impl BakedColourSky {
             sun: None,
             frame,
         };
-        let cells: Vec<[f64; 2]> = (0..ROWS * COLUMNS)
-            .map(|i| sampler.cell(self, i / COLUMNS, i % COLUMNS))
-            .collect();
+        let cells = sampler.cells(self);
         sampler.fill(&cells);
         sampler
     }
@@ -227,24 +227,33 @@ impl SkySampler {
         tables + size_of_val(self.heights.as_slice()) + self.sky.bytes()
     }
 
-    /// Mean luminance and solid angle of a cell, on both sides of the sun.
-    fn cell(&self, sky: &BakedColourSky, row: usize, column: usize) -> [f64; 2] {
-        let [low, high] = self.heights[row];
-        let [cosine, sine] = self.frame.azimuth();
-        let mut luminance = 0.0;
-        for i in 0..4 {
-            let [a, b] = [0.25 + 0.5 * (i / 2) as f32, 0.25 + 0.5 * (i % 2) as f32];
-            let z = low + a * (high - low);
-            let (y, x) = mix(&self.azimuths, column, b).sin_cos();
-            let r = (1.0 - z * z).max(0.0).sqrt();
-            let direction = [r * (x * cosine - y * sine), r * (x * sine + y * cosine), z];
-            luminance += 0.25
-                * sky
-                    .xyz(direction)
-                    .map_or(0.0, |xyz| f64::from(xyz[1].max(0.0)));
-        }
-        let width = f64::from(self.azimuths[column + 1] - self.azimuths[column]);
-        [luminance, 2.0 * width * f64::from((high - low).abs())]
+    /// Mean luminance and solid angle of each cell, on both sides of the sun.
+    fn cells(&self, sky: &BakedColourSky) -> Vec<[f64; 2]> {
+        const PLACES: [f32; 2] = [0.25, 0.75];
+        let heights: Vec<f32> = (self.heights.iter())
+            .flat_map(|[low, high]| PLACES.map(|a| low + a * (high - low)))
+            .collect();
+        let azimuths: Vec<f32> = (0..COLUMNS)
+            .flat_map(|column| PLACES.map(|b| mix(&self.azimuths, column, b)))
+            .collect();
+        let lattice = dispatch(LuminanceLattice {
+            table: sky.table(),
+            frame: &self.frame,
+            heights: &heights,
+            azimuths: &azimuths,
+        });
+        let cell = |i: usize| {
+            let (row, column) = (i / COLUMNS, i % COLUMNS);
+            let at = |k: usize| &lattice[(2 * row + k) * azimuths.len() + 2 * column..][..2];
+            let luminance: f64 = (at(0).iter().chain(at(1))).map(|&y| f64::from(y)).sum();
+            let width = f64::from(self.azimuths[column + 1] - self.azimuths[column]);
+            let [low, high] = self.heights[row];
+            [
+                0.25 * luminance,
+                2.0 * width * f64::from((high - low).abs()),
+            ]
+        };
+        (0..ROWS * COLUMNS).map(cell).collect()
     }
 
     fn fill(&mut self, cells: &[[f64; 2]]) {
@@ -255,16 +264,15 @@ impl SkySampler {
         // A black sky is drawn evenly.
         let black = self.flux <= 0.0;
         let weight = |&[luminance, angle]: &[f64; 2]| if black { angle } else { luminance * angle };
-        let total = if black { 2.0 * TAU } else { self.flux };
+        let share = 1.0 / if black { 2.0 * TAU } else { self.flux };
         let mut rows = Vec::new();
         for row in cells.chunks_exact(COLUMNS) {
             let weights: Vec<f64> = row.iter().map(weight).collect();
             rows.push(weights.iter().sum());
             self.columns.extend(cumulative(&weights));
-            let density = row
-                .iter()
-                .map(|cell| weight(cell) / cell[1].max(1e-12) / total);
-            self.density.extend(density.map(|d| d as f32));
+            let density = |&[luminance, _]: &[f64; 2]| if black { 1.0 } else { luminance };
+            let densities = row.iter().map(|cell| (density(cell) * share) as f32);
+            self.density.extend(densities);
         }
         self.rows = cumulative(&rows);
     }
@@ -274,11 +282,13 @@ impl SkySampler {
 fn cumulative(weights: &[f64]) -> Vec<f32> {
     let total: f64 = weights.iter().sum();
     let even = total <= 0.0;
+    let share = 1.0 / if even { weights.len() as f64 } else { total };
     let mut sum = 0.0;
-    let mut edges = vec![0.0];
+    let mut edges = Vec::with_capacity(weights.len() + 1);
+    edges.push(0.0);
     for weight in weights {
         sum += if even { 1.0 } else { *weight };
-        edges.push((sum / if even { weights.len() as f64 } else { total }).min(1.0) as f32);
+        edges.push((sum * share).min(1.0) as f32);
     }
     let last = edges.len() - 1;
     edges[last] = 1.0;

@@ -13,7 +13,7 @@ mod read_at;
 mod store;
 
 pub(crate) use crate::format::Key;
-pub(crate) use node_subset::{NodeSubset, Nodes};
+pub(crate) use node_subset::{NodeSubset, Nodes, SourceAtNodes};
 #[cfg(feature = "default-model")]
 pub use opened::DEFAULT_MODEL;
 pub use opened::Model;

@@ -1,5 +1,6 @@
 //! A model file, opened: its head in memory, its chunks checked when they are first touched.
 
+use std::any::Any;
 use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -306,6 +307,14 @@ impl Model {
         let head = self.head();
         let bytes = self.chunk(self.find(Kind::Transmittance, None, None)?)?;
         DensityView::new(bytes, head.constituents, head.planet.top)
+    }
+
+    /// What one later room makes of the chunks, kept with them for all that ask after the first.
+    pub(crate) fn derived<T: Any + Send + Sync>(
+        &self,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<Arc<T>> {
+        self.store.derived(make)
     }
 
     pub(crate) fn source_basis_chunk(&self) -> Result<SourceBasisView<'_>> {

@@ -1,7 +1,8 @@
 //! The bytes of a model: in place where they are in memory, otherwise fetched when they are needed, and kept.
 
-use std::sync::OnceLock;
+use std::any::Any;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use super::read_at::ReadAt;
 use crate::error::{Error, Result};
@@ -54,6 +55,8 @@ pub(crate) struct Store {
     chunks: Box<[OnceLock<Loaded>]>,
     requests: AtomicU64,
     received: AtomicU64,
+    /// See [`Store::derived`].
+    derived: OnceLock<Arc<dyn Any + Send + Sync>>,
 }
 
 impl Store {
@@ -89,6 +92,7 @@ impl Store {
             chunks: Box::default(),
             requests: AtomicU64::new(0),
             received: AtomicU64::new(0),
+            derived: OnceLock::new(),
         }
     }
 
@@ -107,6 +111,22 @@ impl Store {
             requests: self.requests.load(Ordering::Relaxed),
             bytes: self.received.load(Ordering::Relaxed),
         }
+    }
+
+    /// What one later room makes of the chunks, kept for all that ask after the first.
+    pub fn derived<T: Any + Send + Sync>(
+        &self,
+        make: impl FnOnce() -> Result<T>,
+    ) -> Result<Arc<T>> {
+        if let Some(kept) = self.derived.get()
+            && let Ok(kept) = Arc::clone(kept).downcast()
+        {
+            return Ok(kept);
+        }
+        let made = Arc::new(make()?);
+        // Another thread may have been faster: what it made is the same.
+        let _ = self.derived.set(made.clone());
+        Ok(made)
     }
 
     /// Whether a chunk was read and found right.
