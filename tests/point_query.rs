@@ -39,16 +39,10 @@ fn differences(interpolation: Interpolation) -> [f64; 3] {
 
 #[test]
 fn fewer_chunks_cost_as_much_accuracy_as_is_said() {
-    let [linear, lean, full] = [
-        Interpolation::Linear,
-        Interpolation::Lean,
-        Interpolation::Full,
-    ]
-    .map(differences);
-    println!("linear {linear:.6?}\nlean   {lean:.6?}\nfull   {full:.8?}");
+    let [linear, full] = [Interpolation::Linear, Interpolation::Full].map(differences);
+    println!("linear {linear:.6?}\nfull   {full:.8?}");
     let below = |got: [f64; 3], limits: [f64; 3]| got.iter().zip(limits).all(|(&g, l)| g < l);
     assert!(below(full, [1e-6, 2e-6, 4e-6]));
-    assert!(below(lean, [8e-4, 8e-3, 1.6e-2]));
     assert!(below(linear, [1e-3, 8e-3, 1.6e-2]));
 }
 
@@ -75,17 +69,15 @@ fn at_the_nodes_all_interpolations_agree() {
             ..Conditions::default()
         };
         let n = model.wavelengths().len();
-        let [mut linear, mut lean, mut full] = [(); 3].map(|()| vec![0.0; n]);
+        let [mut linear, mut full] = [(); 2].map(|()| vec![0.0; n]);
         let direction = [0.3, 0.4, 0.2];
         for (interpolation, out) in [
             (Interpolation::Linear, &mut linear),
-            (Interpolation::Lean, &mut lean),
             (Interpolation::Full, &mut full),
         ] {
             let query = prepared(interpolation);
             query.radiance(&conditions, direction, out).unwrap();
         }
-        assert_eq!(lean, full);
         assert_eq!(linear, full);
     }
 }
@@ -105,11 +97,7 @@ fn nothing_jumps_between_intervals() {
         let inner = &nodes[1..nodes.len() - 1];
         [inner.to_vec(), middles(nodes)].concat()
     });
-    for interpolation in [
-        Interpolation::Linear,
-        Interpolation::Lean,
-        Interpolation::Full,
-    ] {
+    for interpolation in [Interpolation::Linear, Interpolation::Full] {
         let query = PointQuery::new(welkin::DEFAULT_MODEL)
             .unwrap()
             .with_interpolation(interpolation);

@@ -80,22 +80,6 @@ pub(crate) fn sample(samples: &[f32], [start, step]: [f64; 2], x: f64) -> f64 {
     (1.0 - t) * f64::from(samples[i]) + t * f64::from(samples[i + 1])
 }
 
-/// The line between the two coefficients of [`spline`] that count most (free ends): a smoother answer at half the cost.
-#[inline]
-pub(crate) fn chord(u: f64, intervals: usize) -> Taps<2> {
-    let u = if u > 0.0 {
-        u.min(intervals as f64)
-    } else {
-        0.0
-    };
-    let i = (u as usize).min(intervals - 1);
-    let t = (u - i as f64) as f32;
-    Taps {
-        index: [i + 1, i + 2],
-        weight: [1.0 - t, t],
-    }
-}
-
 #[inline]
 fn reflect(m: isize, n: isize) -> usize {
     let m = m.abs();

@@ -19,6 +19,8 @@ pub(super) const MOST_CHANNELS: usize = 256;
 
 /// Numbers that are widened together.
 pub(super) const WIDTH: usize = 8;
+/// Rows that count on an axis.
+const TAPS: usize = 4;
 /// Vectors of channels that are summed together.
 const GROUP: usize = 8;
 
@@ -31,17 +33,17 @@ pub(super) type LevelRows = [Lanes<WIDTH>; 4 * WAVELENGTH_BLOCKS];
 /// A number per wavelength.
 pub(super) type Spectrum = [Lanes<WIDTH>; WAVELENGTH_BLOCKS];
 
-/// `N` rows of a factor matrix and their weights.
-struct Rows<'a, const N: usize> {
-    rows: [&'a [[U16; WIDTH]]; N],
-    weight: [f32; N],
+/// Rows of a factor matrix and their weights.
+struct Rows<'a> {
+    rows: [&'a [[U16; WIDTH]]; TAPS],
+    weight: [f32; TAPS],
 }
 
-impl<'a, const N: usize> Rows<'a, N> {
+impl<'a> Rows<'a> {
     #[inline(always)]
-    fn new(table: &'a [U16], stride: usize, taps: &Taps<N>) -> Self {
-        let mut rows = [[].as_slice(); N];
-        for k in 0..N {
+    fn new(table: &'a [U16], stride: usize, taps: &Taps) -> Self {
+        let mut rows = [[].as_slice(); TAPS];
+        for k in 0..TAPS {
             rows[k] = &table[taps.index[k] * stride..][..stride].as_chunks().0[..stride / WIDTH];
         }
         Self {
@@ -54,7 +56,7 @@ impl<'a, const N: usize> Rows<'a, N> {
     #[inline(always)]
     fn sum<I: Instructions>(&self, instructions: I, b: usize) -> Lanes<WIDTH> {
         let mut sum = instructions.widen(&self.rows[0][b]) * self.weight[0];
-        for k in 1..N {
+        for k in 1..TAPS {
             let row = instructions.widen(&self.rows[k][b]);
             sum = instructions.add_product(sum, row, self.weight[k]);
         }
@@ -64,17 +66,17 @@ impl<'a, const N: usize> Rows<'a, N> {
 
 /// Asks for what [`add_chunk`] will read.
 #[inline(always)]
-pub(super) fn fetch_chunk<const N: usize, I: Instructions>(
+pub(super) fn fetch_chunk<I: Instructions>(
     instructions: I,
     chunk: &FactorsView,
     heights: &[U16],
-    [alpha, elevation]: &[Taps<N>; 2],
+    [alpha, elevation]: &[Taps; 2],
 ) {
     // The rows stand together.
     let stride = chunk.stride;
     instructions.fetch(chunk.scale);
-    instructions.fetch(&heights[alpha.index[0] * stride..][..N * stride]);
-    instructions.fetch(&chunk.elevation[elevation.index[0] * stride..][..N * stride]);
+    instructions.fetch(&heights[alpha.index[0] * stride..][..TAPS * stride]);
+    instructions.fetch(&chunk.elevation[elevation.index[0] * stride..][..TAPS * stride]);
 }
 
 /// Asks for what [`add_level`] will read.
@@ -90,11 +92,11 @@ pub(super) fn fetch_level<I: Instructions>(
 
 /// Adds the components of a chunk at the place of a query, times `weight`.
 #[inline(always)]
-pub(super) fn add_chunk<const N: usize, I: Instructions>(
+pub(super) fn add_chunk<I: Instructions>(
     instructions: I,
     chunk: &FactorsView,
     heights: &[U16],
-    [alpha, elevation]: &[Taps<N>; 2],
+    [alpha, elevation]: &[Taps; 2],
     weight: f32,
     sum: &mut Components,
 ) {
@@ -113,15 +115,15 @@ pub(super) fn add_chunk<const N: usize, I: Instructions>(
 /// The same of a chunk whose padding is not zero, one component after another: no writer makes such.
 #[cold]
 #[inline(never)]
-fn add_padded<const N: usize>(
+fn add_padded(
     chunk: &FactorsView,
     heights: &[U16],
-    [alpha, elevation]: [&Taps<N>; 2],
+    [alpha, elevation]: [&Taps; 2],
     weight: f32,
     sum: &mut Components,
 ) {
     for i in 0..chunk.rank {
-        let at = |table: &[U16], taps: &Taps<N>| -> f32 {
+        let at = |table: &[U16], taps: &Taps| -> f32 {
             let taps = taps.index.iter().zip(taps.weight);
             taps.map(|(row, weight)| weight * widen(table[row * chunk.stride + i]))
                 .sum()

@@ -4,7 +4,6 @@ use zerocopy::little_endian::U16;
 
 use super::capacity::{MOST_CONSTITUENTS, WAVELENGTH_BLOCKS};
 use super::contraction::{self, MOST_CHANNELS, MOST_RANK, WIDTH};
-use super::neighbours::{Interpolation, Share};
 use super::opened::PointQuery;
 use super::query_coordinates::{QueryCoordinates, Question};
 use crate::conditions::Conditions;
@@ -46,7 +45,7 @@ pub(super) struct Query<'a, 'b> {
     model: &'b PointQuery<'a>,
     place: &'b QueryCoordinates,
     columns: [Option<(&'b ColumnView<'a>, f32)>; MOST_ALTITUDES],
-    chunks: [Option<(&'b FactorsView<'a>, Share)>; MOST_AROUND],
+    chunks: [Option<(&'b FactorsView<'a>, f32)>; MOST_AROUND],
 }
 
 impl<'a, 'b> Query<'a, 'b> {
@@ -77,16 +76,12 @@ impl<'a, 'b> Query<'a, 'b> {
             let column = column.ok_or_else(|| model.missing("column", Some(a), None))?;
             *slot = Some((column, weight as f32));
         }
-        for (a, over_altitude, _) in place.altitudes.taps() {
-            for (v, over_visibility, near) in place.visibilities.taps() {
+        for (a, over_altitude) in place.altitudes.taps() {
+            for (v, over_visibility) in place.visibilities.taps() {
                 let chunk = model.chunks.radiance(a, v);
                 let chunk = chunk.ok_or_else(|| model.missing("radiance", Some(a), Some(v)))?;
-                let share = Share {
-                    weight: (over_altitude * over_visibility) as f32,
-                    whole: near || model.interpolation == Interpolation::Full,
-                };
                 if let Some(slot) = slots.next() {
-                    *slot = Some((chunk, share));
+                    *slot = Some((chunk, (over_altitude * over_visibility) as f32));
                 }
             }
         }
@@ -96,14 +91,11 @@ impl<'a, 'b> Query<'a, 'b> {
     /// Asks for the numbers of chunk `i`.
     #[inline(always)]
     fn fetch<I: Instructions>(&self, instructions: I, i: usize) {
-        let Some((chunk, share)) = self.chunks.get(i).copied().flatten() else {
+        let Some((chunk, _)) = self.chunks.get(i).copied().flatten() else {
             return;
         };
         let (rows, n) = (self.heights(chunk), self.model.head.shape.wavelengths);
-        match share.whole {
-            true => contraction::fetch_chunk(instructions, chunk, rows, &self.place.curve),
-            false => contraction::fetch_chunk(instructions, chunk, rows, &self.place.chord),
-        }
+        contraction::fetch_chunk(instructions, chunk, rows, &self.place.curve);
         if !chunk.level.is_empty() {
             contraction::fetch_level(instructions, chunk, n, &self.place.curve[1]);
         }
@@ -138,19 +130,12 @@ impl<'a, 'b> Query<'a, 'b> {
         }
         for i in 0..MOST_AROUND {
             self.fetch(instructions, i + AHEAD);
-            let Some((chunk, Share { weight, whole })) = self.chunks[i] else {
+            let Some((chunk, weight)) = self.chunks[i] else {
                 continue;
             };
             let rows = self.heights(chunk);
             let sum = &mut components;
-            match whole {
-                true => {
-                    contraction::add_chunk(instructions, chunk, rows, &place.curve, weight, sum)
-                }
-                false => {
-                    contraction::add_chunk(instructions, chunk, rows, &place.chord, weight, sum)
-                }
-            }
+            contraction::add_chunk(instructions, chunk, rows, &place.curve, weight, sum);
             let sun = &place.curve[1];
             if !chunk.level.is_empty() {
                 contraction::add_level(instructions, chunk, wavelengths, sun, weight, &mut level);

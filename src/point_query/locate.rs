@@ -5,7 +5,7 @@ use super::query_coordinates::{QueryCoordinates, Question};
 use crate::azimuth_fade::azimuthal;
 use crate::estimate::Sightline;
 use crate::geometry::Side;
-use crate::kernel::axis::{Ends, alpha_coordinate, chord, spline};
+use crate::kernel::axis::{Ends, alpha_coordinate, spline};
 #[cfg(not(feature = "std"))]
 use crate::kernel::real::Real;
 use crate::phase_function::SunAngle;
@@ -14,7 +14,6 @@ impl PointQuery<'_> {
     #[inline(always)]
     pub(super) fn coordinates(&self, question: &Question) -> QueryCoordinates {
         let (head, [altitudes, visibilities]) = (&self.head, &self.axes);
-        let [over_altitude, over_visibility] = self.interpolation.curves();
         let Question {
             conditions,
             view: [x, y, z],
@@ -49,13 +48,12 @@ impl PointQuery<'_> {
         let axis = &head.elevation;
         let sun = axis.coordinate_between(self.suns, conditions.solar_elevation);
         QueryCoordinates {
-            altitudes: altitudes.around(conditions.altitude.cbrt(), over_altitude),
-            visibilities: visibilities.around(1.0 / conditions.visibility, over_visibility),
+            altitudes: altitudes.around(conditions.altitude.cbrt(), self.interpolation),
+            visibilities: visibilities.around(1.0 / conditions.visibility, self.interpolation),
             curve: [
                 spline(alpha, intervals, Ends::Free),
                 spline(sun, axis.intervals, Ends::Free),
             ],
-            chord: [chord(alpha, intervals), chord(sun, axis.intervals)],
             phi: spline(phi, head.phi_intervals, Ends::Mirrored),
             fade: azimuthal(sun_r),
             angle: SunAngle::between(*unit, [sun_r * cosine, sun_r * sine, sun_z]),

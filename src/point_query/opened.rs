@@ -15,12 +15,11 @@ use crate::kernel::real::Real;
 
 /// A model, evaluated where it stands: for queries that share nothing, like those of path vertices at any altitude.
 ///
-/// Costs one to two microseconds per query and no preparation; skies that many queries share are cheaper
+/// Costs some two to three microseconds per query and no preparation; skies that many queries share are cheaper
 /// [prepared](crate::Model::sky). The file must not be larger than 64 altitudes, 256 radiance chunks, rank 512, 256
 /// channels and 64 wavelengths, nor than 64 visibilities. About 75 kB in size, nothing on the heap. `Send + Sync`.
 ///
-/// Between the nodes of the file it differs from [`Sky`](crate::Sky) by what [`Interpolation::Lean`] leaves out; where
-/// the tolerances of the format specification count, ask for [`Interpolation::Full`].
+/// Answers as [`Sky`](crate::Sky) does, but for rounding; [`Interpolation::Linear`] is faster by a sixth and coarser.
 ///
 /// ```
 /// use welkin::{Conditions, PointQuery};
@@ -136,7 +135,7 @@ impl<'a> PointQuery<'a> {
         })
     }
 
-    /// The same with another interpolation between chunks than [`Interpolation::Lean`].
+    /// The same with another interpolation between chunks than [`Interpolation::Full`].
     #[must_use]
     pub fn with_interpolation(mut self, interpolation: Interpolation) -> Self {
         self.interpolation = interpolation;

@@ -20,8 +20,6 @@ pub(super) struct QueryCoordinates {
     pub visibilities: Nodes,
     /// Angle from the horizon, and solar elevation.
     pub curve: [Taps; 2],
-    /// The same, coarser.
-    pub chord: [Taps<2>; 2],
     pub phi: Taps,
     /// What the azimuth counts.
     pub fade: f64,

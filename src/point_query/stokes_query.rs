@@ -142,8 +142,8 @@ impl Polarised<'_, '_> {
     ) -> Result<()> {
         let factors = self.factors;
         let mut components = [Lanes::splat(0.0); MOST_RANK / contraction::WIDTH];
-        for (a, over_altitude, _) in place.altitudes.taps() {
-            for (v, over_visibility, _) in place.visibilities.taps() {
+        for (a, over_altitude) in place.altitudes.taps() {
+            for (v, over_visibility) in place.visibilities.taps() {
                 let chunk = factors.chunks[a * factors.visibilities + v].as_ref();
                 let chunk =
                     chunk.ok_or_else(|| self.model.missing("polarisation", Some(a), Some(v)))?;

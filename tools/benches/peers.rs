@@ -112,7 +112,6 @@ fn general(c: &mut Criterion) {
     let mut out = [0.0; WAVELENGTHS];
     for (name, interpolation) in [
         ("general: 4 chunks", Interpolation::Linear),
-        ("general: 6 chunks", Interpolation::Lean),
         ("general: 16 chunks", Interpolation::Full),
     ] {
         let general = PointQuery::new(welkin::DEFAULT_MODEL)

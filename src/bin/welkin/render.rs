@@ -234,7 +234,7 @@ impl Options {
             ),
             (
                 self.moon.moon().is_some(),
-                "moonlight has no polarisation: --moon-elevation shows radiance only",
+                "the moon's polarisation is not shown: --moon-elevation shows radiance only",
             ),
             (
                 self.sensor.is_wanted(),

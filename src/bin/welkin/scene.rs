@@ -8,6 +8,8 @@ use crate::failure::{Result, plain};
 use crate::sun::Sun;
 use crate::turbidity;
 
+/// The sun at the nadir, rad.
+const QUARTER: f64 = std::f64::consts::FRAC_PI_2 + 1e-9;
 /// Highest camera in orbit, m.
 const FARTHEST: f64 = 5e8;
 
@@ -55,7 +57,7 @@ impl Scene {
         Ok(wished.collect())
     }
 
-    /// The same, but the observer may be above the range of the model, and where `has_moon` the sun below it.
+    /// The same, but the observer may be above the range of the model; there, and where `has_moon`, the sun below it.
     pub fn course_beyond(
         &self,
         model: &Model,
@@ -65,9 +67,12 @@ impl Scene {
         let wished = self.wished(model, steps)?;
         let [lowest, _] = model.solar_elevation_range();
         let [_, ceiling] = model.altitude_range();
-        let is_night = |c: &Conditions| has_moon && c.solar_elevation < lowest;
         let is_beyond =
             |c: &Conditions| !self.clamp && c.altitude > ceiling && c.altitude <= FARTHEST;
+        // Seen from high above, the sun may be below the camera's horizontal and yet above that of the air in view.
+        let is_night = |c: &Conditions| {
+            (has_moon || is_beyond(c)) && c.solar_elevation < lowest && c.solar_elevation > -QUARTER
+        };
         let inside = wished.iter().map(|c| Conditions {
             solar_elevation: if is_night(c) {
                 lowest

@@ -41,7 +41,6 @@ fn main() -> Result<()> {
     points.push(exact(&skies[0]));
     for (name, interpolation) in [
         ("point query of 4 chunks", Interpolation::Linear),
-        ("point query of 6 chunks", Interpolation::Lean),
         ("point query of 16 chunks", Interpolation::Full),
     ] {
         points.push(general(&model, name, interpolation)?);

@@ -78,8 +78,9 @@ impl Block {
         shared: &'a Shared<'a>,
         answerers: &Mutex<Vec<Answerer<'a>>>,
     ) -> Answers {
-        let questions: Vec<_> = (self.rows().par_iter().with_min_len(PORTION))
-            .map(|row| columns.question(row))
+        let [_, highest] = shared.model.altitude_range();
+        let questions: Vec<Result<_, String>> = (self.rows().par_iter().with_min_len(PORTION))
+            .map(|row| Ok(columns.question(row)?.of_air(highest)))
             .collect();
         let mut order: Vec<_> = (questions.iter().enumerate())
             .filter_map(|(i, question)| Some((question.as_ref().ok()?.key(), i)))

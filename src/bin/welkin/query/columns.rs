@@ -137,6 +137,7 @@ fn question(
         ray: Ray {
             direction: direction(zenith, azimuth),
             distance,
+            above: None,
         },
         wavelength,
     })

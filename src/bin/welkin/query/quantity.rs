@@ -45,6 +45,14 @@ impl Quantity {
         )
     }
 
+    /// Whether it is of the air along a ray and not of a sky.
+    fn is_of_air(self, ray: &Ray) -> bool {
+        match self {
+            Self::Transmittance | Self::InScatter => true,
+            _ => self.is_of_segments() && !ray.is_endless(),
+        }
+    }
+
     /// Rows of the same number can share work.
     fn kind(self) -> u64 {
         match self {
@@ -82,7 +90,9 @@ impl Question {
         let Ray {
             direction: [x, y, z],
             distance,
+            above,
         } = self.ray;
+        let altitude = above.unwrap_or(altitude);
         // A ray is known by two of its components and the half that the third is in.
         let half = 2 * u64::from(x < 0.0) + u64::from(y < 0.0);
         let [v, e, r, h, y, z, d] = [
@@ -96,6 +106,16 @@ impl Question {
         ]
         .map(f64::to_bits);
         [4 * self.quantity.kind() + half, v, e, r, h, y, z, d]
+    }
+
+    /// Rays through air alone may begin above the range of the model, as the altitude is not one of its conditions.
+    pub fn of_air(mut self, highest: f64) -> Self {
+        let altitude = self.conditions.altitude;
+        if self.quantity.is_of_air(&self.ray) && altitude > highest && altitude.is_finite() {
+            self.ray.above = Some(altitude);
+            self.conditions.altitude = highest;
+        }
+        self
     }
 
     /// What skies, aerial perspectives and discs are prepared for.
@@ -117,6 +137,8 @@ pub struct Ray {
     pub direction: [f64; 3],
     /// m; infinite up to the ground or to space.
     pub distance: f64,
+    /// Altitude that it begins at, if that is above the range of the model, m.
+    pub above: Option<f64>,
 }
 
 impl Ray {
@@ -131,7 +153,7 @@ impl Ray {
 
     /// Start and end, of which the latter counts for finite distances.
     pub fn ends(&self, conditions: &Conditions) -> [[f64; 3]; 2] {
-        let from = [0.0, 0.0, conditions.altitude];
+        let from = [0.0, 0.0, self.above.unwrap_or(conditions.altitude)];
         let to = core::array::from_fn(|k| from[k] + self.distance * self.direction[k]);
         [from, to]
     }

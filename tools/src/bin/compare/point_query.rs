@@ -27,9 +27,8 @@ pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     })?;
     let mut rows = Vec::new();
     for (name, interpolation) in [
-        ("point_query", Interpolation::Lean),
+        ("point_query", Interpolation::Full),
         ("point_query_linear", Interpolation::Linear),
-        ("point_query_full", Interpolation::Full),
     ] {
         let general = PointQuery::new(welkin::DEFAULT_MODEL)?.with_interpolation(interpolation);
         let error = scene.error_in(&anywhere, |i, d, out| {
