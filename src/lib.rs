@@ -138,8 +138,8 @@ cfg_if::cfg_if! {
         mod transmittance;
 
         pub use aerial_perspective::{
-            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, JoinedAerialPerspective,
-            JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
+            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, ColourAerialPerspective,
+            JoinedAerialPerspective, JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
             BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,

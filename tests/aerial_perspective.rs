@@ -298,6 +298,69 @@ fn batches_and_colours_agree_with_single_queries() {
 }
 
 #[test]
+#[cfg(feature = "default-model")]
+fn along_a_ray_pieces_add_up_to_segments() {
+    let model = Model::default_model().unwrap();
+    let camera = [0.0, 0.0, 1500.0];
+    let distances: Vec<f64> = (0..24).map(|i| 30.0 * 1.4f64.powi(i)).collect();
+    for elevation in [0.6, 0.05, -0.06] {
+        let conditions = conditions(elevation);
+        let aerial = model.aerial_perspective(&conditions).unwrap();
+        let colour = model.colour_aerial_perspective(&conditions).unwrap();
+        let n = aerial.wavelengths().len();
+        for direction in [[3.0, 0.0, 0.2], [-0.5, 0.8, -0.02], [0.0, 0.1, 2.0]] {
+            let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let count = distances.len();
+            let [mut light, mut through] = [(); 2].map(|()| vec![0.0; n * count]);
+            aerial
+                .in_scattering_along(camera, direction, &distances, &mut light, &mut through)
+                .unwrap();
+            let [mut rgb, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; count]);
+            colour
+                .linear_srgb_along(camera, direction, &distances, &mut rgb, &mut factors)
+                .unwrap();
+            for (k, distance) in distances.iter().enumerate() {
+                let to = std::array::from_fn(|i| camera[i] + distance * direction[i] / length);
+                let [mut whole, mut t] = [(); 2].map(|()| vec![0.0; n]);
+                aerial
+                    .in_scattering(camera, to, &mut whole, &mut t)
+                    .unwrap();
+                let brightest = whole.iter().fold(0f32, |a, &b| a.max(b));
+                for w in 0..n {
+                    let (got, expected) = (light[k * n + w], whole[w]);
+                    assert!((got - expected).abs() <= 0.05 * expected + 1e-3 * brightest);
+                    assert!((through[k * n + w] - t[w]).abs() < 1e-3);
+                    if k > 0 {
+                        assert!(got >= light[(k - 1) * n + w]);
+                        assert!(through[k * n + w] <= through[(k - 1) * n + w]);
+                    }
+                }
+                let (single, single_factors) = colour.linear_srgb(camera, to).unwrap();
+                let (full, _) = aerial.linear_srgb(camera, to).unwrap();
+                for c in 0..3 {
+                    assert!((rgb[k][c] - single[c]).abs() <= 0.05 * single[1]);
+                    assert!((factors[k][c] - single_factors[c]).abs() < 2e-3);
+                    assert!((full[c] - single[c]).abs() <= 1e-2 * full[1]);
+                }
+            }
+        }
+        let [mut light, mut factors] = [[[0.0; 3]; 2]; 2];
+        let mut ask = |direction, distances: &[f64]| {
+            colour.linear_srgb_along(camera, direction, distances, &mut light, &mut factors)
+        };
+        let up = [0.0, 0.0, 1.0];
+        assert!(matches!(
+            ask([0.0; 3], &[1.0, 2.0]),
+            Err(Error::Direction { .. })
+        ));
+        for bad in [[2.0, 1.0], [-1.0, 1.0], [1.0, f64::NAN], [1.0, 1e10]] {
+            assert!(matches!(ask(up, &bad), Err(Error::OutOfRange { .. })));
+        }
+        assert!(matches!(ask(up, &[1.0]), Err(Error::Length { .. })));
+    }
+}
+
+#[test]
 fn bad_questions_are_refused() {
     let aerial = aerial(10.0);
     let (mut light, mut through) = ([0.0; NW], [0.0; NW]);

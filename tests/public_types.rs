@@ -30,6 +30,7 @@ all_shared! {
     BakedBandSky,
     BakedPolarisedBandSky,
     BandAerialPerspective,
+    ColourAerialPerspective,
     BandSky,
     BandSolarDisc,
     BandTransmittance,

@@ -4,12 +4,14 @@
 mod aerial_perspective_query;
 mod angular_basis;
 mod band_segments;
+mod colour_segments;
 mod direct_sunlight;
 mod file_tables;
 mod joined;
 mod joined_stokes;
 mod light_estimate;
 mod local_scattering;
+mod marching;
 mod path_points;
 mod prepared;
 mod quadrature_limits;
@@ -31,6 +33,7 @@ mod xyz_sum;
 
 pub use aerial_perspective_query::AerialPerspectiveQuery;
 pub use band_segments::{BandAerialPerspective, JoinedBandAerialPerspective};
+pub use colour_segments::ColourAerialPerspective;
 pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;
 pub use prepared::AerialPerspective;

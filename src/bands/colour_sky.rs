@@ -33,14 +33,18 @@ impl Model {
     /// # Errors
     /// As [`Model::sky`].
     pub fn colour_sky(&self, conditions: &Conditions) -> Result<ColourSky> {
-        let nodes = NodeSubset::new(self, coloured(self.head()));
+        let nodes = coloured(self);
         let sky = Sky::prepare(self, nodes.nodes(), conditions)?;
         Ok(ColourSky { sky })
     }
 }
 
 /// The wavelengths that count.
-fn coloured(head: &Head) -> Vec<usize> {
+pub(crate) fn coloured(model: &Model) -> NodeSubset {
+    NodeSubset::new(model, counting(model.head()))
+}
+
+fn counting(head: &Head) -> Vec<usize> {
     let sums: [f64; 3] = std::array::from_fn(|c| head.xyz.iter().map(|row| row[c].abs()).sum());
     let counts = |row: &[f64; 3]| (0..3).any(|c| row[c].abs() > NEGLIGIBLE * sums[c]);
     let mut kept: Vec<usize> = (0..head.xyz.len())

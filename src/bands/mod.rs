@@ -29,5 +29,6 @@ pub use band_set::Bands;
 pub use band_sky::{BandSky, PolarisedBandSky};
 pub use band_sun::BandSolarDisc;
 pub use colour_sky::ColourSky;
+pub(crate) use colour_sky::coloured;
 pub use residual::Residual;
 pub use response::Response;

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use rayon::prelude::*;
-use welkin::AerialPerspective;
 use welkin::output;
+use welkin::{AerialPerspective, ColourAerialPerspective, Conditions};
 
 use crate::Source;
 use crate::about::{About, LUMINANCE, RADIANCE};
@@ -91,7 +91,11 @@ pub fn run(options: &Options) -> Result<()> {
     };
     target.check()?;
     let model = options.source.open()?;
-    let aerial = model.aerial_perspective(&options.scene.conditions(&model)?)?;
+    let conditions = options.scene.conditions(&model)?;
+    let aerial = match options.spectral {
+        true => Aerial::Spectral(model.aerial_perspective(&conditions)?),
+        false => Aerial::Colour(model.colour_aerial_perspective(&conditions)?),
+    };
     let [width, height, _] = options.size;
     let azimuth = options.heading.azimuth(0.0)?;
     let camera = options.lens.camera(azimuth, width as f64 / height as f64)?;
@@ -122,46 +126,103 @@ impl Options {
     }
 }
 
-fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Result<Volume> {
+/// What the volume is made of.
+enum Aerial {
+    Spectral(AerialPerspective),
+    Colour(ColourAerialPerspective),
+}
+
+impl Aerial {
+    fn conditions(&self) -> &Conditions {
+        match self {
+            Self::Spectral(aerial) => aerial.conditions(),
+            Self::Colour(aerial) => aerial.conditions(),
+        }
+    }
+
+    fn channels(&self) -> Vec<String> {
+        match self {
+            Self::Spectral(aerial) => ["", "T"]
+                .iter()
+                .flat_map(|kind| {
+                    aerial
+                        .wavelengths()
+                        .iter()
+                        .map(move |nm| format!("{kind}{nm}nm"))
+                })
+                .collect(),
+            Self::Colour(_) => COLOURS.map(str::to_owned).to_vec(),
+        }
+    }
+
+    /// All slices along a ray, `[slice][channel]`.
+    fn along(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        distances: &[f64],
+        out: &mut [f32],
+    ) -> welkin::Result<()> {
+        let n = distances.len();
+        let half = out.len() / n / 2;
+        match self {
+            Self::Spectral(aerial) => {
+                let [mut light, mut through] = [(); 2].map(|()| vec![0.0; n * half]);
+                aerial.in_scattering_along(from, direction, distances, &mut light, &mut through)?;
+                let parts = light.chunks_exact(half).zip(through.chunks_exact(half));
+                for (out, (light, through)) in out.chunks_exact_mut(2 * half).zip(parts) {
+                    out[..half].copy_from_slice(light);
+                    out[half..].copy_from_slice(through);
+                }
+            }
+            Self::Colour(aerial) => {
+                let [mut light, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; n]);
+                aerial.linear_srgb_along(from, direction, distances, &mut light, &mut factors)?;
+                for (out, (light, factors)) in
+                    out.chunks_exact_mut(6).zip(light.iter().zip(&factors))
+                {
+                    out[..3].copy_from_slice(light);
+                    out[3..].copy_from_slice(factors);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn fill(options: &Options, aerial: &Aerial, camera: &Camera) -> Result<Volume> {
     let [width, height, depth] = options.size;
     let place = [0.0, 0.0, aerial.conditions().altitude];
-    let wavelengths = aerial.wavelengths();
-    let channels: Vec<String> = match options.spectral {
-        true => ["", "T"]
-            .iter()
-            .flat_map(|kind| wavelengths.iter().map(move |nm| format!("{kind}{nm}nm")))
-            .collect(),
-        false => COLOURS.map(str::to_owned).to_vec(),
-    };
-    let mut values = vec![0.0; width * height * depth * channels.len()];
-    let froxel = |slice: usize, [column, row]: [usize; 2], values: &mut [f32]| {
+    let channels = aerial.channels();
+    let ray = |column: usize, row: usize, out: &mut [f32]| {
         let at = |n: usize, of: usize| (n as f64 + 0.5) / of as f64;
         let direction = camera.direction([at(column, width), at(row, height)]);
-        let distance = options.depth(slice) / camera.depth(direction);
-        let point = std::array::from_fn(|k| place[k] + distance * direction[k]);
-        let (light, through) = values.split_at_mut(channels.len() / 2);
-        if options.spectral {
-            return aerial.in_scattering(place, point, light, through);
-        }
-        let colours = aerial.linear_srgb(place, point)?;
-        light.copy_from_slice(&colours.0);
-        through.copy_from_slice(&colours.1);
-        Ok(())
+        let per_depth = 1.0 / camera.depth(direction);
+        let distances: Vec<f64> = (0..depth)
+            .map(|slice| options.depth(slice) * per_depth)
+            .collect();
+        aerial.along(place, direction, &distances, out)
     };
-    let bar = bar(depth * height, "froxels");
-    let rows = values.par_chunks_mut(width * channels.len()).enumerate();
-    let filled: Vec<welkin::Result<()>> = rows
-        .map(|(row, values)| {
-            let froxels = values.chunks_exact_mut(channels.len()).enumerate();
-            for (column, values) in froxels {
-                froxel(row / height, [column, row % height], values)?;
+    let bar = bar(height, "froxels");
+    let n = depth * channels.len();
+    let rows: Vec<Vec<f32>> = (0..height)
+        .into_par_iter()
+        .map(|row| {
+            let mut values = vec![0.0; width * n];
+            for (column, values) in values.chunks_exact_mut(n).enumerate() {
+                ray(column, row, values)?;
             }
             bar.inc(1);
-            Ok(())
+            Ok(values)
         })
-        .collect();
+        .collect::<welkin::Result<_>>()?;
     bar.finish_and_clear();
-    filled.into_iter().collect::<welkin::Result<()>>()?;
+    let mut values = Vec::with_capacity(height * width * n);
+    for slice in 0..depth {
+        for ray in rows.iter().flat_map(|row| row.chunks_exact(n)) {
+            values.extend_from_slice(&ray[slice * channels.len()..][..channels.len()]);
+        }
+    }
     Ok(Volume {
         size: options.size,
         channels,
@@ -170,7 +231,7 @@ fn fill(options: &Options, aerial: &AerialPerspective, camera: &Camera) -> Resul
 }
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
-fn layers(options: &Options, aerial: &AerialPerspective, volume: &Volume) -> Result<Vec<u8>> {
+fn layers(options: &Options, aerial: &Aerial, volume: &Volume) -> Result<Vec<u8>> {
     let azimuth = options.heading.azimuth(0.0)?;
     let mut about = About::scene(aerial.conditions(), azimuth);
     options.lens.describe(&mut about);
