@@ -340,7 +340,10 @@ fn along_a_ray_pieces_add_up_to_segments() {
                 for c in 0..3 {
                     assert!((rgb[k][c] - single[c]).abs() <= 0.05 * single[1]);
                     assert!((factors[k][c] - single_factors[c]).abs() < 2e-3);
-                    assert!((full[c] - single[c]).abs() <= 0.03 * full[1], "{elevation} {direction:?} {distance} {full:?} {single:?}");
+                    assert!(
+                        (full[c] - single[c]).abs() <= 0.03 * full[1],
+                        "{elevation} {direction:?} {distance} {full:?} {single:?}"
+                    );
                 }
             }
         }

@@ -16,6 +16,8 @@ use crate::scene::{QUERIES, ROUND, SLOW, Scene, span, unwrapped};
 /// Queries, then preparations.
 pub fn rows(scene: &Scene) -> Result<Vec<Row>> {
     let mut rows = vec![sky(scene)?, sample(scene)?, disc(scene)?, joined(scene)?];
+    rows.push(colour_segment(scene)?);
+    rows.push(slices(scene)?);
     rows.push(query(scene)?);
     rows.push(polarised_query(scene)?);
     rows.extend(preparation(scene)?);
@@ -107,6 +109,61 @@ fn joined(scene: &Scene) -> Result<Row> {
     ))
 }
 
+/// Segments in colour alone.
+fn colour_segment(scene: &Scene) -> Result<Row> {
+    let aerial = scene.model.aerial_perspective(&scene.conditions)?;
+    let colour = scene.model.colour_aerial_perspective(&scene.conditions)?;
+    let segments = segments();
+    let ours = |round| {
+        let mut ends = segments[span(round, SLOW)].iter();
+        ends.try_for_each(|&[from, to]| {
+            (colour.linear_srgb(from, black_box(to))).map(|c| _ = black_box(c))
+        })
+    };
+    let theirs = |round| {
+        let mut ends = segments[span(round, SLOW)].iter();
+        ends.try_for_each(|&[from, to]| {
+            (aerial.linear_srgb(from, black_box(to))).map(|c| _ = black_box(c))
+        })
+    };
+    let ns = clock::duel([SLOW; 2], unwrapped(ours), unwrapped(theirs));
+    let bytes = [colour.bytes(), aerial.bytes()];
+    Ok(row("segment_rgb", "the same of all wavelengths", ns, bytes))
+}
+
+/// Slices of a volume along rays, 50 m to 100 km.
+fn slices(scene: &Scene) -> Result<Row> {
+    const SLICES: usize = 64;
+    let colour = scene.model.colour_aerial_perspective(&scene.conditions)?;
+    let growth = |i: usize| (i as f64 / (SLICES - 1) as f64) * 2000f64.ln();
+    let distances: [f64; SLICES] = core::array::from_fn(|i| 50.0 * growth(i).exp());
+    let segments = segments();
+    let rays = |round| span(round, SLOW / SLICES).map(|i| segments[i]);
+    let [mut light, mut factors] = [[[0.0; 3]; SLICES]; 2];
+    let unit = |from: [f64; 3], to: [f64; 3]| -> [f64; 3] {
+        let way: [f64; 3] = core::array::from_fn(|i| to[i] - from[i]);
+        let length = way.iter().map(|v| v * v).sum::<f64>().sqrt().max(1e-9);
+        way.map(|v| v / length)
+    };
+    let ours = |round| {
+        rays(round).try_for_each(|[from, to]| {
+            let direction = black_box(unit(from, to));
+            colour.linear_srgb_along(from, direction, &distances, &mut light, &mut factors)
+        })
+    };
+    let theirs = |round| {
+        rays(round).try_for_each(|[from, to]| {
+            let direction = black_box(unit(from, to));
+            distances.iter().try_for_each(|d| {
+                let end = core::array::from_fn(|i| from[i] + d * direction[i]);
+                colour.linear_srgb(from, end).map(|c| _ = black_box(c))
+            })
+        })
+    };
+    let ns = clock::duel([SLOW; 2], unwrapped(ours), unwrapped(theirs));
+    Ok(row("slice_rgb", "segments in RGB", ns, [colour.bytes(); 2]))
+}
+
 /// Segments each under conditions of their own.
 fn query(scene: &Scene) -> Result<Row> {
     let aerial = scene.model.aerial_perspective(&scene.conditions)?;
@@ -187,6 +244,7 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
     let aerial = model.aerial_perspective(conditions)?;
     let disc = model.solar_disc(conditions)?;
     let colour = model.colour_sky(conditions)?;
+    let colour_aerial = model.colour_aerial_perspective(conditions)?;
     Ok(vec![
         time("prepare_sky", scene.sky.bytes(), &|c| {
             model.sky(c).map(drop)
@@ -196,6 +254,13 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
         }),
         time("bake_colour", scene.colour.bytes(), &|_| {
             colour.bake(BakedSky::TOLERANCE).map(drop)
+        }),
+        time("bake_colour_like", scene.colour.bytes(), &|_| {
+            black_box(colour.bake_like(&scene.colour));
+            Ok(())
+        }),
+        time("prepare_colour_aerial", colour_aerial.bytes(), &|c| {
+            model.colour_aerial_perspective(c).map(drop)
         }),
         time("prepare_colour", colour.bytes(), &|c| {
             model.colour_sky(c).map(drop)
