@@ -32,5 +32,22 @@ fn main() -> Result<()> {
     milliseconds.sort_by(f64::total_cmp);
     let [median, worst] = [milliseconds.len() / 2, milliseconds.len() - 1].map(|i| milliseconds[i]);
     println!("sky and baking per frame: median {median:.2} ms, longest {worst:.2} ms");
+
+    // All skies of an afternoon beforehand: then a frame is a blend of four.
+    let elevations = [5.0, 40.0].map(f64::to_radians);
+    let start = Instant::now();
+    let course = model.sun_course(&Conditions::default(), elevations, BakedSky::TOLERANCE)?;
+    let (skies, kilobytes) = (course.skies(), course.bytes() / 1000);
+    let prepared = start.elapsed().as_secs_f64() * 1e3;
+    println!("a course of {skies} skies, 5 to 40°: {prepared:.0} ms, {kilobytes} kB");
+    let mut sky = course.at(elevations[0], 0.0)?;
+    let start = Instant::now();
+    for frame in 0..FRAMES {
+        let share = f64::from(frame) / f64::from(FRAMES - 1);
+        let elevation = elevations[0] + share * (elevations[1] - elevations[0]);
+        course.write(elevation, share, &mut sky)?;
+    }
+    let microseconds = start.elapsed().as_secs_f64() * 1e6 / f64::from(FRAMES);
+    println!("per frame: {microseconds:.0} µs");
     Ok(())
 }

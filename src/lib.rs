@@ -143,7 +143,7 @@ cfg_if::cfg_if! {
         };
         pub use baked::{
             BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
-            Directions, Part, Sample, SkySampler,
+            Directions, Part, Sample, SkySampler, SunCourse,
         };
         pub use bands::{
             BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,

@@ -31,6 +31,7 @@ all_shared! {
     BakedPolarisedBandSky,
     BandAerialPerspective,
     ColourAerialPerspective,
+    SunCourse,
     BandSky,
     BandSolarDisc,
     BandTransmittance,

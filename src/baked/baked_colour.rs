@@ -32,7 +32,7 @@ const LANES: usize = 4;
 /// ```
 #[derive(Clone, Debug)]
 pub struct BakedColourSky {
-    baked: Baked<LANES>,
+    pub(super) baked: Baked<LANES>,
 }
 
 struct Xyz<'a>(&'a Sky);

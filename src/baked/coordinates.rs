@@ -141,6 +141,13 @@ impl LocalFrame {
         frame
     }
 
+    /// The same observer under another sun.
+    pub fn under(mut self, conditions: &Conditions) -> Self {
+        self.level = conditions.solar_elevation.cos() as f32;
+        self.turn(conditions);
+        self
+    }
+
     /// Follows the azimuth of the sun.
     pub fn turn(&mut self, conditions: &Conditions) {
         self.sun = conditions.sun_direction().map(|v| v as f32);

@@ -28,7 +28,7 @@ pub(crate) trait Channels<const N: usize> {
 
 /// Differences count relative to the radiance, or to this share of the brightest direction where that is more: seen
 /// from the stratosphere at dusk, skies fade by ten powers of ten.
-const DARK: f32 = 1e-5;
+pub(super) const DARK: f32 = 1e-5;
 /// Radiance is not less than this share of the brightest: logarithms need an end where a fit has gone below zero.
 const FLOOR: f32 = 1e-8;
 

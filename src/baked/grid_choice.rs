@@ -35,6 +35,19 @@ pub struct BakeError {
     pub max: f64,
 }
 
+impl BakeError {
+    /// The larger of each.
+    pub(super) fn or_larger(self, other: Self) -> Self {
+        Self {
+            median: self.median.max(other.median),
+            p95: self.p95.max(other.p95),
+            p99: self.p99.max(other.p99),
+            p999: self.p999.max(other.p999),
+            max: self.max.max(other.max),
+        }
+    }
+}
+
 /// Errors of the compared directions, with the parts of the sphere that these stand for. As bits: those of the error,
 /// which order like it, before those of the part, so that sorting takes integers.
 #[derive(Clone, Default)]

@@ -30,6 +30,7 @@ mod sampler;
 mod spline;
 mod spline_size;
 mod spline_table;
+mod sun_course;
 
 pub use baked_bands::{BakedBandSky, BakedPolarisedBandSky};
 pub use baked_colour::BakedColourSky;
@@ -39,6 +40,7 @@ pub(crate) use baked_tables::check_tolerance;
 pub use batch::Directions;
 pub use grid_choice::BakeError;
 pub use sampler::{Part, Sample, SkySampler};
+pub use sun_course::SunCourse;
 
 use crate::format::Head;
 

@@ -117,7 +117,7 @@ impl Stencil {
     }
 
     /// The nodes with a weight other than zero.
-    pub fn taps(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub fn taps(&self) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         (0..self.len)
             .map(|k| (self.first + k, self.weight[k]))
             .filter(|&(_, w)| w != 0.0)

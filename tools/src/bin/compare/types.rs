@@ -244,6 +244,15 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
     let aerial = model.aerial_perspective(conditions)?;
     let disc = model.solar_disc(conditions)?;
     let colour = model.colour_sky(conditions)?;
+    let reach = 0.1;
+    let course = model.sun_course(
+        conditions,
+        [
+            conditions.solar_elevation - reach,
+            conditions.solar_elevation + reach,
+        ],
+        BakedSky::TOLERANCE,
+    )?;
     let colour_aerial = model.colour_aerial_perspective(conditions)?;
     Ok(vec![
         time("prepare_sky", scene.sky.bytes(), &|c| {
@@ -258,6 +267,9 @@ fn preparation(scene: &Scene) -> Result<Vec<Row>> {
         time("bake_colour_like", scene.colour.bytes(), &|_| {
             black_box(colour.bake_like(&scene.colour));
             Ok(())
+        }),
+        time("sun_course_at", course.bytes(), &|c| {
+            course.at(c.solar_elevation, c.solar_azimuth).map(drop)
         }),
         time("prepare_colour_aerial", colour_aerial.bytes(), &|c| {
             model.colour_aerial_perspective(c).map(drop)
