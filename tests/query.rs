@@ -340,3 +340,40 @@ fn a_broken_chunk_spoils_only_the_rows_that_need_it() {
     assert!(answers[0].1.contains("damaged"), "{answers:?}");
     assert!(answers[1].0.is_some(), "{answers:?}");
 }
+
+/// The air is the same from 99 km and from beyond it; a sky is not asked there.
+#[test]
+fn air_is_asked_from_orbit() {
+    let row = |quantity: &str, altitude: f64, distance: &str| {
+        format!("{quantity},59.4,0.2,{altitude},20,180,0,{distance},550\n")
+    };
+    let mut table = format!("{HEADER}\n");
+    for quantity in ["transmittance", "in_scattering"] {
+        for altitude in [99e3, 4e5] {
+            table += &row(quantity, altitude, "");
+        }
+    }
+    table += &row("stokes_q", 99e3, "99000");
+    table += &row("stokes_q", 4e5, "400000");
+    table += &row("radiance", 4e5, "");
+    for arguments in [&[][..], &["--wavelengths", "550"]] {
+        // Bands have no wavelength of their own.
+        let table = match arguments.is_empty() {
+            true => table.clone(),
+            false => table.replace(",wavelength_nm", "").replace(",550\n", "\n"),
+        };
+        let output = query(arguments, table);
+        assert!(output.status.success(), "{output:?}");
+        let mut reader = csv::Reader::from_reader(output.stdout.as_slice());
+        let rows: Vec<_> = reader.records().map(|row| row.unwrap()).collect();
+        let value = |i: usize| -> f64 { rows[i][rows[i].len() - 2].parse().unwrap() };
+        for pair in [[0, 1], [2, 3], [4, 5]] {
+            let [below, beyond] = pair.map(value);
+            assert!(
+                (beyond - below).abs() <= 1e-4 * below.abs() + 1e-9,
+                "{pair:?}"
+            );
+        }
+        assert!(rows[6][rows[6].len() - 1].contains("altitude must be in"));
+    }
+}
