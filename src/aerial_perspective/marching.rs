@@ -1,53 +1,113 @@
 //! Light and transmittance at growing distances along a ray: what lies between two of them is integrated once.
 
-use super::local_scattering::attenuated;
+use super::angular_basis::Sightline;
+use super::local_scattering::UNPOLARISED;
 use super::prepared::AerialPerspective;
-use super::segment_integral::Block;
+use super::quadrature_limits::MOST_PANELS;
+use super::quadrature_panels::{Panels, count};
+use super::segment_integral::{Block, Light, Path, Walk};
 use super::xyz_sum::XyzSum;
 use crate::error::{Error, Result};
 use crate::kernel::math::LANES;
+use crate::kernel::simd::{Instructions, Kernel, dispatch};
+use crate::polarisation::Plane;
 use crate::sky::MOST_WAVELENGTHS;
+use crate::transmittance::Segment;
 
 const MOST_BLOCKS: usize = MOST_WAVELENGTHS.div_ceil(LANES);
+/// The longest slices have as many panels.
+const MOST_PARTS: usize = 4;
 
-/// What lies between a camera and where one has got.
-struct March {
-    blocks: [Gathered; MOST_BLOCKS],
+/// Goes along a ray and hands what lies before each distance to `emit`, with its number, block by block.
+struct March<'a, F> {
+    aerial: &'a AerialPerspective,
+    /// Up to the last distance.
+    segment: &'a Segment,
+    distances: &'a [f64],
+    emit: F,
 }
 
-#[derive(Clone, Copy)]
-struct Gathered {
-    scattered: [f32; LANES],
-    through: [f32; LANES],
-    depth: [f32; LANES],
+/// Panels that are computed together.
+struct Group {
+    panels: usize,
+    /// Distances from the tangent point, m: where it begins, then the ends of panels.
+    ends: [f64; MOST_PANELS + 1],
+    /// The distance that a panel ends at, if one does.
+    slice: [Option<usize>; MOST_PANELS],
 }
 
-impl March {
-    fn start() -> Self {
-        let gathered = Gathered {
-            scattered: [0.0; LANES],
-            through: [1.0; LANES],
-            depth: [0.0; LANES],
-        };
+impl Group {
+    fn from(start: f64) -> Self {
         Self {
-            blocks: [gathered; MOST_BLOCKS],
+            panels: 0,
+            ends: [start; MOST_PANELS + 1],
+            slice: [None; MOST_PANELS],
         }
     }
 
-    /// Goes on through a block of the next piece; returns the light and depth of all pieces together.
+    /// Returns whether there is room for more.
     #[inline(always)]
-    fn step(&mut self, block: usize, piece: &Block) -> Block {
-        let gathered = &mut self.blocks[block];
-        for i in 0..LANES {
-            gathered.scattered[i] += gathered.through[i] * piece.scattered[i];
-            gathered.depth[i] += piece.depth[i];
+    fn push(&mut self, end: f64, slice: Option<usize>) -> bool {
+        self.slice[self.panels] = slice;
+        self.panels += 1;
+        self.ends[self.panels] = end;
+        self.panels < MOST_PANELS
+    }
+}
+
+impl<F: FnMut(usize, usize, &Block)> Kernel for March<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<I: Instructions>(mut self, _: I) {
+        let (layers, sky) = (&self.aerial.air.layers, self.aerial.sun_estimate());
+        let line = Sightline::new(self.segment, self.aerial.sun);
+        let mut walks = [Walk::start(); MOST_BLOCKS];
+        let from = self.segment.from;
+        let (mut before, mut group) = (from, Group::from(from));
+        for (k, distance) in self.distances.iter().enumerate() {
+            let to = from + distance;
+            let parts = count(layers, [before, to], &sky).min(MOST_PARTS);
+            for part in 1..=parts {
+                let end = before + (to - before) * (part as f64 / parts as f64);
+                if !group.push(end, (part == parts).then_some(k)) {
+                    self.go(&line, &group, &mut walks);
+                    group = Group::from(end);
+                }
+            }
+            before = to;
         }
-        gathered.through = attenuated(&gathered.depth);
-        Block {
-            scattered: gathered.scattered,
-            depth: gathered.depth,
-            linear: [[0.0; LANES]; 2],
-            beyond: [0.0; LANES],
+        if group.panels > 0 {
+            self.go(&line, &group, &mut walks);
+        }
+    }
+}
+
+impl<F: FnMut(usize, usize, &Block)> March<'_, F> {
+    /// Goes on along a group of panels.
+    #[inline(always)]
+    fn go(&mut self, line: &Sightline, group: &Group, walks: &mut [Walk; MOST_BLOCKS]) {
+        let (aerial, segment) = (self.aerial, self.segment);
+        let ends = &group.ends[..=group.panels];
+        let panels = Panels::between(&aerial.air.layers, segment.line, ends);
+        let places = aerial.places(segment, &panels, line);
+        let path = Path::<UNPOLARISED>::new(aerial, panels, &places, line);
+        let mut light = Light::new(aerial, segment.direction, &Plane::default());
+        let emit = &mut self.emit;
+        for (block, walk) in walks.iter_mut().enumerate().take(aerial.irradiance.len()) {
+            light.select::<UNPOLARISED>(aerial, block);
+            path.walk(aerial, block, &light, walk, |panel, walk| {
+                // A panel that only fills up a pair is the end of nothing.
+                if let Some(Some(k)) = group.slice[..group.panels].get(panel) {
+                    let whole = Block {
+                        scattered: walk.scattered.0,
+                        depth: walk.depth.0,
+                        linear: [[0.0; LANES]; 2],
+                        beyond: [0.0; LANES],
+                    };
+                    emit(*k, block, &whole);
+                }
+            });
         }
     }
 }
@@ -61,8 +121,8 @@ impl AerialPerspective {
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`] for a vector that is zero or not finite;
-    /// [`Error::OutOfRange`] for distances that are negative, not finite or less than the one before. What precedes a
-    /// bad point is written.
+    /// [`Error::OutOfRange`] for distances that are negative, not finite or less than the one before. Nothing is written
+    /// then.
     pub fn in_scattering_along(
         &self,
         from: [f64; 3],
@@ -96,11 +156,13 @@ impl AerialPerspective {
             crate::sky::check_length(got, distances.len())?;
         }
         let last = self.xyz.len() - 1;
-        let mut colours = XyzSum::default();
+        // Of the slices of a group, which are no more than its panels.
+        let mut sums: [XyzSum; MOST_PANELS] = Default::default();
         self.march((from, direction, distances), |k, block, result| {
-            colours.add(&self.xyz[block], result);
+            let sum = &mut sums[k % MOST_PANELS];
+            sum.add(&self.xyz[block], result);
             if block == last {
-                let (xyz, through) = core::mem::take(&mut colours).finish(&self.white);
+                let (xyz, through) = core::mem::take(sum).finish(&self.white);
                 light[k] = crate::sky::xyz_to_linear_srgb(xyz);
                 factors[k] = self.srgb_factors(through);
             }
@@ -111,17 +173,10 @@ impl AerialPerspective {
     fn march(
         &self,
         (from, direction, distances): ([f64; 3], [f64; 3], &[f64]),
-        mut emit: impl FnMut(usize, usize, &Block),
+        emit: impl FnMut(usize, usize, &Block),
     ) -> Result<()> {
-        let square = direction.iter().map(|v| v * v).sum::<f64>();
-        if !(square > 0.0 && square.is_finite()) {
-            let got = direction.map(|v| v as f32);
-            return Err(Error::Direction { got });
-        }
-        let unit = direction.map(|v| v / square.sqrt());
-        let at = |distance: f64| core::array::from_fn(|i| from[i] + distance * unit[i]);
-        let (mut march, mut before) = (March::start(), 0.0);
-        for (k, &distance) in distances.iter().enumerate() {
+        let mut before = 0.0;
+        for &distance in distances {
             if !(distance >= before && distance <= 1e9) {
                 return Err(Error::OutOfRange {
                     parameter: "distances",
@@ -131,12 +186,17 @@ impl AerialPerspective {
                     unit: "m",
                 });
             }
-            let piece = self.segment(at(before), at(distance))?;
-            self.integrate(&piece, |block, result| {
-                emit(k, block, &march.step(block, &result));
-            });
             before = distance;
         }
+        let planet = self.air.planet();
+        let segment = Segment::of_length(&planet, from, direction, before)?;
+        self.reach.check(&planet, &segment)?;
+        dispatch(March {
+            aerial: self,
+            segment: &segment,
+            distances,
+            emit,
+        });
         Ok(())
     }
 }

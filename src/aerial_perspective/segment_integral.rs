@@ -56,60 +56,18 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
         let (aerial, segment) = (self.aerial, self.segment);
         let layers = &aerial.air.layers;
         let (panels, places, line) = aerial.panels(segment);
-        let pairs = panels.count.div_ceil(2);
-        let stations = panels.stations;
-        let sunlight = Sunlight::new(aerial, &places, panels.count);
-        let mut views = [View::<M>::default(); MOST_SOURCE_NODES];
-        let views = &mut views[..stations.shares.len()];
-        for (i, view) in views.iter_mut().enumerate() {
-            let i = panels.count + 1 + i;
-            let places = &places[i / BATCH];
-            view.look(aerial, &line, places, i % BATCH);
-        }
+        let path = Path::<M>::new(aerial, panels, &places, &line);
         let beyond = self
             .beyond
             .then(|| layers.columns(segment.line, segment.to(), f64::INFINITY));
-        let angle = SunAngle::between(segment.direction, aerial.sun);
-        let mut sunlit = [[0.0; LANES]; MOST_CONSTITUENTS];
-        let sunlit = &mut sunlit[..layers.quads * LANES];
-        let mut dipoles = [[0.0; LANES]; MOST_CONSTITUENTS];
-        let dipoles = &mut dipoles[..layers.quads * LANES];
-        let single = self.plane.single().map(|part| part as f32);
+        let mut light = Light::new(aerial, segment.direction, &self.plane);
         for block in 0..aerial.irradiance.len() {
-            aerial.species.sunlit(block, angle, sunlit);
-            if M == POLARISED {
-                aerial.species.dipoles(block, dipoles);
-            }
-            let mut diffuse = [[Pair::splat(0.0); M]; MOST_SOURCE_NODES];
-            for (out, view) in diffuse.iter_mut().zip(views.iter()) {
-                let source = aerial.source.scattered(&view.spot, &view.seen, block);
-                *out = source.map(|half| Pair::twice(&half));
-            }
+            light.select::<M>(aerial, block);
             let mut walk = Walk::start();
-            let mut near = DirectSunlight::new(aerial, block, &sunlight.columns[0]);
-            for (i, weights) in stations.weights.iter().enumerate().take(pairs) {
-                let mut light = [Pair::splat(0.0); M];
-                for (at, weight) in diffuse.iter().zip(weights) {
-                    for (light, at) in light.iter_mut().zip(at) {
-                        *light = *light + *at * *weight;
-                    }
-                }
-                for light in &mut light[..2] {
-                    *light = light.max(Pair::splat(0.0));
-                }
-                let far = DirectSunlight::new(aerial, block, &sunlight.columns[i + 1]);
-                let sun = Sun {
-                    start: near,
-                    end: near.shift(&far),
-                    share: sunlight.shares[i],
-                };
-                let air = PanelAir::new::<M>(aerial, block, &panels.columns[i], sunlit, dipoles);
-                walk.step::<M>(air.scatter(&sun, single, &light));
-                near = far;
-            }
+            path.walk(aerial, block, &light, &mut walk, |_, _| {});
             let beyond = beyond
                 .as_ref()
-                .map(|columns| sunlit_beyond(aerial, block, columns, sunlit, walk.depth));
+                .map(|columns| sunlit_beyond(aerial, block, columns, light.sunlit(), walk.depth));
             (self.emit)(
                 block,
                 Block {
@@ -123,6 +81,119 @@ impl<const M: usize, F: FnMut(usize, Block)> Kernel for Integral<'_, M, F> {
     }
 }
 
+/// How constituents scatter sunlight along a line, in one block of wavelengths.
+pub(super) struct Light {
+    angle: SunAngle,
+    /// Q and U of light that is scattered once.
+    single: [f32; 2],
+    quads: usize,
+    sunlit: [[f32; LANES]; MOST_CONSTITUENTS],
+    dipoles: [[f32; LANES]; MOST_CONSTITUENTS],
+}
+
+impl Light {
+    #[inline(always)]
+    pub fn new(aerial: &AerialPerspective, direction: [f64; 3], plane: &Plane) -> Self {
+        Self {
+            angle: SunAngle::between(direction, aerial.sun),
+            single: plane.single().map(|part| part as f32),
+            quads: aerial.air.layers.quads,
+            sunlit: [[0.0; LANES]; MOST_CONSTITUENTS],
+            dipoles: [[0.0; LANES]; MOST_CONSTITUENTS],
+        }
+    }
+
+    /// Goes over to a block.
+    #[inline(always)]
+    pub fn select<const M: usize>(&mut self, aerial: &AerialPerspective, block: usize) {
+        let n = self.quads * LANES;
+        (aerial.species).sunlit(block, self.angle, &mut self.sunlit[..n]);
+        if M == POLARISED {
+            aerial.species.dipoles(block, &mut self.dipoles[..n]);
+        }
+    }
+
+    #[inline(always)]
+    fn sunlit(&self) -> &[[f32; LANES]] {
+        &self.sunlit[..self.quads * LANES]
+    }
+}
+
+/// Panels with what all wavelengths share.
+pub(super) struct Path<const M: usize> {
+    panels: Panels,
+    sunlight: Sunlight,
+    views: [View<M>; MOST_SOURCE_NODES],
+}
+
+impl<const M: usize> Path<M> {
+    #[inline(always)]
+    pub fn new(
+        aerial: &AerialPerspective,
+        panels: Panels,
+        places: &AllPlaces,
+        line: &Sightline,
+    ) -> Self {
+        let mut views = [View::<M>::default(); MOST_SOURCE_NODES];
+        let count = panels.stations.shares.len();
+        for (i, view) in views[..count].iter_mut().enumerate() {
+            let i = panels.count + 1 + i;
+            view.look(aerial, line, &places[i / BATCH], i % BATCH);
+        }
+        Self {
+            sunlight: Sunlight::new(aerial, places, panels.count),
+            panels,
+            views,
+        }
+    }
+
+    /// Goes on along all panels in a block of wavelengths; `after` sees each panel's number and where the walk is then.
+    #[inline(always)]
+    pub fn walk(
+        &self,
+        aerial: &AerialPerspective,
+        block: usize,
+        light: &Light,
+        walk: &mut Walk,
+        mut after: impl FnMut(usize, &Walk),
+    ) {
+        let Self {
+            panels, sunlight, ..
+        } = self;
+        let stations = panels.stations;
+        let (sunlit, dipoles) = (light.sunlit(), &light.dipoles);
+        let mut diffuse = [[Pair::splat(0.0); M]; MOST_SOURCE_NODES];
+        let views = &self.views[..stations.shares.len()];
+        for (out, view) in diffuse.iter_mut().zip(views) {
+            let source = aerial.source.scattered(&view.spot, &view.seen, block);
+            *out = source.map(|half| Pair::twice(&half));
+        }
+        let mut near = DirectSunlight::new(aerial, block, &sunlight.columns[0]);
+        let pairs = panels.count.div_ceil(2);
+        for (i, weights) in stations.weights.iter().enumerate().take(pairs) {
+            let mut source = [Pair::splat(0.0); M];
+            for (at, weight) in diffuse.iter().zip(weights) {
+                for (source, at) in source.iter_mut().zip(at) {
+                    *source = *source + *at * *weight;
+                }
+            }
+            for source in &mut source[..2] {
+                *source = source.max(Pair::splat(0.0));
+            }
+            let far = DirectSunlight::new(aerial, block, &sunlight.columns[i + 1]);
+            let sun = Sun {
+                start: near,
+                end: near.shift(&far),
+                share: sunlight.shares[i],
+            };
+            let air = PanelAir::new::<M>(aerial, block, &panels.columns[i], sunlit, dipoles);
+            let two = air.scatter(&sun, light.single, &source);
+            walk.step::<M>(&two, |half, walk| after(2 * i + half, walk));
+            near = far;
+        }
+    }
+}
+
 /// Ends of panels, then stations, in batches.
 pub(super) type AllPlaces = [PathPoints; MOST_PATH_POINTS / BATCH];
 
@@ -130,34 +201,46 @@ impl AerialPerspective {
     /// Where light is evaluated along a segment.
     #[inline(always)]
     pub(super) fn panels(&self, segment: &Segment) -> (Panels, AllPlaces, Sightline) {
-        let layers = &self.air.layers;
-        let sky = SunEstimate {
+        let panels = Panels::place(&self.air.layers, segment, &self.grey, &self.sun_estimate());
+        let line = Sightline::new(segment, self.sun);
+        let places = self.places(segment, &panels, &line);
+        (panels, places, line)
+    }
+
+    #[inline(always)]
+    pub(super) fn sun_estimate(&self) -> SunEstimate {
+        SunEstimate {
             sun: self.sun,
             low: self.conditions.solar_elevation < LOW_SUN,
-        };
-        let panels = Panels::place(layers, segment, &self.grey, &sky);
-        let line = Sightline::new(segment, self.sun);
+        }
+    }
+
+    /// Where the panels of a segment and their stations are.
+    #[inline(always)]
+    pub(super) fn places(&self, segment: &Segment, panels: &Panels, line: &Sightline) -> AllPlaces {
+        let planet = self.air.layers.planet();
         let mut places = [PathPoints::default(); MOST_PATH_POINTS / BATCH];
         let used = panels.count + 1 + panels.stations.shares.len();
         let (at, _) = panels.places.as_chunks();
         for (places, at) in places.iter_mut().zip(at).take(used.div_ceil(BATCH)) {
-            *places = PathPoints::new(&layers.planet(), segment, self.sun, line.nearest, at);
+            *places = PathPoints::new(&planet, segment, self.sun, line.nearest, at);
         }
-        (panels, places, line)
+        places
     }
 }
 
 /// Light and optical depth from the start of a segment to where one has got.
-struct Walk {
-    scattered: Lanes<LANES>,
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
+    pub scattered: Lanes<LANES>,
     linear: [Lanes<LANES>; 2],
     through: Lanes<LANES>,
-    depth: Lanes<LANES>,
+    pub depth: Lanes<LANES>,
 }
 
 impl Walk {
     #[inline(always)]
-    fn start() -> Self {
+    pub fn start() -> Self {
         let [zero, one] = [0.0, 1.0].map(Lanes::splat);
         Self {
             scattered: zero,
@@ -167,9 +250,9 @@ impl Walk {
         }
     }
 
-    /// Goes on through two panels.
+    /// Goes on through two panels; `after` sees where it is after each.
     #[inline(always)]
-    fn step<const M: usize>(&mut self, two: Scattered) {
+    fn step<const M: usize>(&mut self, two: &Scattered, mut after: impl FnMut(usize, &Self)) {
         let pass = two.through.halves();
         let (light, depth) = (two.light.halves(), two.depth.halves());
         let linear = two.linear.map(Pair::halves);
@@ -182,6 +265,7 @@ impl Walk {
             self.scattered = self.scattered + Lanes(light[i]) * self.through;
             self.through = self.through * Lanes(pass[i]);
             self.depth = self.depth + Lanes(depth[i]);
+            after(i, self);
         }
     }
 }

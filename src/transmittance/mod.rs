@@ -4,7 +4,7 @@ mod layers;
 mod segment;
 mod spectral_transmittance;
 
-pub(crate) use layers::{Amounts, Layers, Piece, QUADS};
+pub(crate) use layers::{Amounts, Layers, Line, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
 use std::sync::Arc;

@@ -36,16 +36,19 @@ impl Segment {
         Ok(Self::along(planet, a, direction, length))
     }
 
+    /// In a direction (a vector of any length) up to a distance, m.
+    pub fn of_length(planet: &Planet, a: Point, direction: [f64; 3], length: f64) -> Result<Self> {
+        let a = checked(a)?;
+        let unit = unit(direction)?;
+        checked(core::array::from_fn(|i| a[i] + length * unit[i]))?;
+        Ok(Self::along(planet, a, unit, length))
+    }
+
     /// To the top of the atmosphere, or to the ground where the line meets it: then the second value is true. A point
     /// on the ground or under it is met at once by lines that go down, and never by others.
     pub fn to_end(planet: &Planet, a: Point, direction: [f64; 3]) -> Result<(Self, bool)> {
         let a = checked(a)?;
-        let square = dot(direction, direction);
-        if !(square > 0.0 && square.is_finite()) {
-            let got = direction.map(|v| v as f32);
-            return Err(Error::Direction { got });
-        }
-        let unit = direction.map(|v| v / square.sqrt());
+        let unit = unit(direction)?;
         let endless = Self::along(planet, a, unit, 0.0);
         let lowest = endless.line.lowest;
         let reach = |w: f64| (w - lowest) * (2.0 * planet.radius);
@@ -113,6 +116,15 @@ pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 const FARTHEST: f64 = 1e9;
 
 #[inline(always)]
+fn unit(direction: [f64; 3]) -> Result<[f64; 3]> {
+    let square = dot(direction, direction);
+    if square > 0.0 && square.is_finite() {
+        return Ok(direction.map(|v| v / square.sqrt()));
+    }
+    let got = direction.map(|v| v as f32);
+    Err(Error::Direction { got })
+}
+
 fn checked(point: Point) -> Result<Point> {
     if point.iter().all(|v| v.abs() <= FARTHEST) {
         return Ok(point);
