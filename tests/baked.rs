@@ -336,6 +336,41 @@ fn neighbours_of_the_horizon_agree_on_its_own_side() {
     }
 }
 
+/// The next frame keeps the tolerance that the last one keeps, and says whose error it gives.
+#[test]
+fn what_is_baked_like_another_is_about_as_good() {
+    for (elevation, altitude) in [(35f64, 0.0), (6.0, 1500.0), (0.5, 8e3)] {
+        let conditions = |step: f64| Conditions {
+            solar_elevation: (elevation + step).to_radians(),
+            altitude,
+            ..Conditions::default()
+        };
+        let sky = |step| MODEL.colour_sky(&conditions(step)).unwrap();
+        let first = sky(0.0).bake(BakedSky::TOLERANCE).unwrap();
+        let moved = sky(0.2);
+        let next = moved.bake_like(&first);
+        assert_eq!(next.bytes(), first.bytes());
+        assert_eq!(next.bake_error(), first.bake_error());
+        assert_eq!(next.conditions(), moved.conditions());
+        let directions: Vec<[f32; 3]> = (0..1500)
+            .map(|i| {
+                on_sphere(
+                    (2.0 * f64::from(i) + 1.0) / 1500.0 - 1.0,
+                    f64::from(i) * 2.399_963,
+                )
+            })
+            .filter(|d| altitude > 0.0 || d[2] > 0.0)
+            .collect();
+        let errors = directions.iter().flat_map(|&d| {
+            let (got, expected) = (next.xyz(d).unwrap(), moved.xyz(d).unwrap());
+            (0..3).map(move |c| error(got[c], expected[c]))
+        });
+        let p95 = percentile(errors.collect(), 0.95);
+        println!("{elevation}°: {p95:.5}");
+        assert!(p95 < BakedSky::TOLERANCE, "{elevation}: {p95}");
+    }
+}
+
 #[test]
 fn nothing_is_below_an_observer_on_the_ground() {
     let baked = bake(&MODEL.sky(&Conditions::default()).unwrap());

@@ -98,6 +98,10 @@ fn cameras_beyond_the_air_see_the_planet() {
         near > far && far > 2.0 * farther && lit > 1.1 * far,
         "{near} {far} {lit} {farther}"
     );
+    // The limb towards a sun that is below the camera's horizontal, but not below that of the air there.
+    let sunrise = "render --size 64 --projection lat-long --sun-elevation -15 --altitude 400000 --out sunrise.exr";
+    works(folder, sunrise);
+    assert!(picture(folder, "sunrise.exr", "altitude").0 > 0.0);
     for (line, word) in [
         ("--altitude 400000 --sun", "beyond the air"),
         ("--altitude 400000 --spectral", "beyond the air"),

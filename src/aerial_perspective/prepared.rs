@@ -92,7 +92,8 @@ impl AerialPerspective {
         model.prefetch(sources.chain(shared).chain(nodes.spectrum()))?;
         let air = Transmittance::prepare(model, head, conditions.visibility)?;
         let linear = linear(&visibilities, x);
-        let expansion = Expansion::new(model, nodes, cubic.taps().map(|(v, _)| v))?;
+        let around = cubic.taps().chain(linear.taps()).map(|(v, _)| v);
+        let expansion = Expansion::new(model, nodes, around)?;
         let around: Vec<_> = (linear.taps())
             .map(|(v, weight)| (expansion.source(v), weight))
             .collect();

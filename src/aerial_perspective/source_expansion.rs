@@ -47,6 +47,9 @@ impl<'a> Expansion<'a> {
         let mut sources: Vec<_> = nodes.head.visibilities.iter().map(|_| None).collect();
         let mut first = None;
         for v in visibilities {
+            if sources[v].is_some() {
+                continue;
+            }
             let source = model.source_chunk(v)?;
             source.check_with(&basis, first.get_or_insert(source))?;
             sources[v] = Some(nodes.source(source));

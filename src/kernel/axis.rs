@@ -15,11 +15,11 @@ use crate::kernel::real::Real;
 /// assert!((taps.weight[1] - 2.0 / 3.0).abs() < 1e-6 && taps.weight[3] == 0.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taps<const N: usize = 4> {
+pub struct Taps {
     /// Index of each coefficient.
-    pub index: [usize; N],
+    pub index: [usize; 4],
     /// Weight of each coefficient; the weights sum to 1.
-    pub weight: [f32; N],
+    pub weight: [f32; 4],
 }
 
 /// What happens beyond the ends of a spline axis.
