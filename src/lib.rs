@@ -132,14 +132,15 @@ cfg_if::cfg_if! {
         mod model;
         mod moon;
         pub mod output;
+        mod parallel;
         mod polarisation;
         mod sky;
         mod sun;
         mod transmittance;
 
         pub use aerial_perspective::{
-            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, ColourAerialPerspective,
-            JoinedAerialPerspective, JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
+            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, CameraVolume,
+            ColourAerialPerspective, JoinedAerialPerspective, JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
             BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,

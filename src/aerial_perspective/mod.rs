@@ -4,6 +4,7 @@
 mod aerial_perspective_query;
 mod angular_basis;
 mod band_segments;
+mod camera_volume;
 mod colour_segments;
 mod direct_sunlight;
 mod file_tables;
@@ -33,6 +34,7 @@ mod xyz_sum;
 
 pub use aerial_perspective_query::AerialPerspectiveQuery;
 pub use band_segments::{BandAerialPerspective, JoinedBandAerialPerspective};
+pub use camera_volume::CameraVolume;
 pub use colour_segments::ColourAerialPerspective;
 pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;

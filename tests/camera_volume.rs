@@ -1,0 +1,180 @@
+//! Volumes of aerial perspective against their rays marched one by one.
+#![cfg(feature = "default-model")]
+
+use welkin::{CameraVolume, ColourAerialPerspective, Conditions, Error, Model};
+
+const SIZE: [usize; 2] = [80, 45];
+
+/// A camera that looks towards +x, and the sun.
+struct View {
+    altitude: f64,
+    pitch: f64,
+    sun: [f64; 2],
+}
+
+const VIEWS: [View; 7] = [
+    view(2.0, 0.0, [40.0, 90.0]),
+    view(2.0, 5.0, [20.0, 10.0]),
+    view(2.0, 5.0, [5.0, 0.0]),
+    view(2.0, 5.0, [-3.0, 0.0]),
+    view(2.0, 60.0, [-8.0, 0.0]),
+    view(2.0, 80.0, [89.0, 0.0]),
+    view(9000.0, -5.0, [2.0, 30.0]),
+];
+
+const fn view(altitude: f64, pitch: f64, sun: [f64; 2]) -> View {
+    View {
+        altitude,
+        pitch,
+        sun,
+    }
+}
+
+fn depths() -> Vec<f64> {
+    (0..24)
+        .map(|k| 50.0 * 2000f64.powf(f64::from(k) / 23.0))
+        .collect()
+}
+
+fn camera<'a>(view: &View, size: [usize; 2], depths: &'a [f64]) -> CameraVolume<'a> {
+    let (sin, cos) = view.pitch.to_radians().sin_cos();
+    let tan = 0.6;
+    CameraVolume {
+        from: [0.0, 0.0, view.altitude],
+        axis: [cos, 0.0, sin],
+        right: [0.0, -tan * 16.0 / 9.0, 0.0],
+        up: [-sin * tan, 0.0, cos * tan],
+        size,
+        depths,
+    }
+}
+
+fn aerial(view: &View) -> ColourAerialPerspective {
+    let [elevation, azimuth] = view.sun.map(f64::to_radians);
+    let conditions = Conditions {
+        altitude: view.altitude,
+        solar_elevation: elevation,
+        solar_azimuth: azimuth,
+        ..Conditions::default()
+    };
+    let model = Model::default_model().unwrap();
+    model.colour_aerial_perspective(&conditions).unwrap()
+}
+
+type Volume = [Vec<[f32; 3]>; 2];
+
+fn filled(aerial: &ColourAerialPerspective, volume: &CameraVolume) -> Volume {
+    let n = volume.size[0] * volume.size[1] * volume.depths.len();
+    let [mut light, mut factors] = [(); 2].map(|()| vec![[f32::NAN; 3]; n]);
+    aerial
+        .linear_srgb_volume(volume, &mut light, &mut factors)
+        .unwrap();
+    [light, factors]
+}
+
+fn marched(aerial: &ColourAerialPerspective, volume: &CameraVolume) -> Volume {
+    let slices = volume.depths.len();
+    let n = volume.size[0] * volume.size[1];
+    let [mut light, mut factors] = [(); 2].map(|()| vec![[f32::NAN; 3]; n * slices]);
+    let rays = light
+        .chunks_mut(slices)
+        .zip(factors.chunks_mut(slices))
+        .enumerate();
+    for (i, (light, factors)) in rays {
+        let direction =
+            volume.direction([i % volume.size[0], i / volume.size[0]].map(|n| n as f64));
+        let length = direction.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let distances: Vec<_> = volume.depths.iter().map(|d| d * length).collect();
+        aerial
+            .linear_srgb_along(volume.from, direction, &distances, light, factors)
+            .unwrap();
+    }
+    [light, factors]
+}
+
+fn difference(a: &[f32; 3], b: &[f32; 3]) -> f32 {
+    (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn volumes_are_their_rays() {
+    let depths = depths();
+    for view in &VIEWS {
+        let (aerial, volume) = (aerial(view), camera(view, SIZE, &depths));
+        let [light, factors] = filled(&aerial, &volume);
+        let [exact, exact_factors] = marched(&aerial, &volume);
+        let mut errors: Vec<f32> = light
+            .iter()
+            .zip(&exact)
+            .map(|(a, b)| difference(a, b) / b[1].max(1e-9))
+            .collect();
+        errors.sort_by(f32::total_cmp);
+        let [p99, most, max] =
+            [0.99, 0.999, 1.0].map(|share| errors[((errors.len() - 1) as f64 * share) as usize]);
+        println!(
+            "sun {:?}° from {} m: p99 {p99:.1e}, p99.9 {most:.1e}, max {max:.1e}",
+            view.sun, view.altitude
+        );
+        assert!(p99 < 4.5e-3 && most < 1e-2 && max < 5e-2);
+        for (a, b) in factors.iter().zip(&exact_factors) {
+            assert!(difference(a, b) < 4e-3 && a.iter().all(|f| (0.0..=1.0).contains(f)));
+        }
+    }
+}
+
+#[test]
+fn small_volumes_are_exactly_their_rays() {
+    let depths = depths();
+    for size in [[1, 1], [3, 7], [6, 6]] {
+        let (aerial, volume) = (aerial(&VIEWS[1]), camera(&VIEWS[1], size, &depths));
+        assert_eq!(filled(&aerial, &volume), marched(&aerial, &volume));
+    }
+    // Sizes that are no multiples of the lattice are filled to the last ray.
+    for size in [[41, 30], [64, 27], [38, 39]] {
+        let (aerial, volume) = (aerial(&VIEWS[1]), camera(&VIEWS[1], size, &depths));
+        let [light, _] = filled(&aerial, &volume);
+        let [exact, _] = marched(&aerial, &volume);
+        let mut worst = 0.0f32;
+        for (a, b) in light.iter().zip(&exact) {
+            worst = worst.max(difference(a, b) / b[1]);
+        }
+        println!("{size:?}: at most {worst:.1e}");
+        assert!(worst < 2e-2);
+    }
+}
+
+#[test]
+fn bad_volumes_are_refused() {
+    let aerial = aerial(&VIEWS[0]);
+    let ask = |volume: &CameraVolume, n: usize| {
+        let [mut light, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; n]);
+        aerial.linear_srgb_volume(volume, &mut light, &mut factors)
+    };
+    for size in [[4, 4], [64, 64]] {
+        let good = camera(&VIEWS[0], size, &[10.0, 20.0]);
+        let n = size[0] * size[1] * 2;
+        ask(&good, n).unwrap();
+        assert!(matches!(ask(&good, n - 1), Err(Error::Length { .. })));
+        let falling = CameraVolume {
+            depths: &[20.0, 10.0],
+            ..good
+        };
+        assert!(matches!(ask(&falling, n), Err(Error::OutOfRange { .. })));
+        let flat = CameraVolume {
+            axis: [f64::NAN; 3],
+            ..good
+        };
+        assert!(ask(&flat, n).is_err());
+        let nowhere = CameraVolume {
+            from: [0.0, f64::INFINITY, 0.0],
+            ..good
+        };
+        assert!(matches!(ask(&nowhere, n), Err(Error::Point { .. })));
+    }
+    let huge = CameraVolume {
+        size: [usize::MAX, 3],
+        ..camera(&VIEWS[0], [1, 1], &[1.0])
+    };
+    assert!(matches!(ask(&huge, 1), Err(Error::Length { .. })));
+    ask(&camera(&VIEWS[0], [0, 5], &[1.0]), 0).unwrap();
+}
