@@ -158,7 +158,7 @@ cfg_if::cfg_if! {
         pub use polarisation::{
             PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,
         };
-        pub use sky::{Sky, xyz_to_linear_srgb};
+        pub use sky::{ColourSpace, Sky, xyz_to_linear_srgb};
         pub use spectrum::{SpectralInterpolation, between_wavelengths};
         pub use sun::{SOLAR_ANGULAR_RADIUS, SolarDisc};
         pub use transmittance::Transmittance;

@@ -5,6 +5,7 @@ use crate::bands::coloured;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::model::Model;
+use crate::sky::ColourSpace;
 
 /// An [`AerialPerspective`] for colour alone: only the wavelengths that X, Y and Z are made of are prepared and asked.
 /// Queries do not allocate. `Send + Sync`.
@@ -77,6 +78,19 @@ impl ColourAerialPerspective {
     /// As [`AerialPerspective::xyz`].
     pub fn linear_srgb(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
         self.aerial.linear_srgb(from, to)
+    }
+
+    /// As [`AerialPerspective::rgb`].
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::xyz`].
+    pub fn rgb(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        space: ColourSpace,
+    ) -> Result<([f32; 3], [f32; 3])> {
+        self.aerial.rgb(from, to, space)
     }
 
     /// As [`AerialPerspective::linear_srgb_along`].

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::kernel::math::{LANES, bound};
 use crate::kernel::simd::dispatch;
 use crate::polarisation::Plane;
+use crate::sky::ColourSpace;
 use crate::transmittance::Segment;
 
 impl AerialPerspective {
@@ -95,9 +96,21 @@ impl AerialPerspective {
     /// # Errors
     /// As [`AerialPerspective::xyz`].
     pub fn linear_srgb(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        self.rgb(from, to, ColourSpace::Srgb)
+    }
+
+    /// As [`AerialPerspective::linear_srgb`], in any colour space.
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::xyz`].
+    pub fn rgb(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        space: ColourSpace,
+    ) -> Result<([f32; 3], [f32; 3])> {
         let (light, through) = self.xyz(from, to)?;
-        let light = crate::sky::xyz_to_linear_srgb(light);
-        Ok((light, self.srgb_factors(through)))
+        Ok((space.from_xyz(light), self.factors(through, space)))
     }
 
     /// A segment within reach.
@@ -111,8 +124,12 @@ impl AerialPerspective {
 
     /// Factors of red, green and blue from those of X, Y and Z.
     pub(super) fn srgb_factors(&self, through: [f32; 3]) -> [f32; 3] {
+        self.factors(through, ColourSpace::Srgb)
+    }
+
+    fn factors(&self, through: [f32; 3], space: ColourSpace) -> [f32; 3] {
         let seen = core::array::from_fn(|c| through[c] * self.white[c]);
-        let [seen, white] = [seen, self.white].map(crate::sky::xyz_to_linear_srgb);
+        let [seen, white] = [seen, self.white].map(|xyz| space.from_xyz(xyz));
         core::array::from_fn(|c| bound(seen[c] / white[c], 0.0, 1.0))
     }
 

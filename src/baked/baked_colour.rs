@@ -1,7 +1,5 @@
 //! A baked sky in colour.
 
-use core::marker::PhantomData;
-
 use super::baked_tables::Baked;
 use super::batch::{Directions, Group, Sink, check_length};
 use super::coordinates::LocalFrame;
@@ -12,7 +10,7 @@ use crate::bands::ColourSky;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::kernel::lanes::Lanes;
-use crate::sky::{Sky, XYZ_TO_SRGB};
+use crate::sky::{ColourSpace, Sky};
 
 /// X, Y, Z and nothing: the width of a vector.
 const LANES: usize = 4;
@@ -137,7 +135,7 @@ impl BakedColourSky {
     /// [`crate::Error::Direction`] for a vector that is zero or not finite.
     #[inline]
     pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
-        self.one::<CieXyz>(direction)
+        self.one(direction, CieXyz)
     }
 
     /// As [`Sky::linear_srgb`].
@@ -146,7 +144,7 @@ impl BakedColourSky {
     /// [`crate::Error::Direction`] for a vector that is zero or not finite.
     #[inline]
     pub fn linear_srgb(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
-        self.one::<LinearSrgb>(direction)
+        self.one(direction, Rgb(ColourSpace::Srgb.matrix()))
     }
 
     /// [`BakedColourSky::xyz`] for many directions.
@@ -155,7 +153,7 @@ impl BakedColourSky {
     /// [`crate::Error::Direction`]; [`crate::Error::Length`] for components of different lengths, or unless `out` has
     /// one element per direction. What precedes a bad direction may or may not be written.
     pub fn xyz_batch(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
-        self.batch::<CieXyz>(directions, out)
+        self.batch(directions, out, CieXyz)
     }
 
     /// [`BakedColourSky::linear_srgb`] for many directions.
@@ -163,40 +161,65 @@ impl BakedColourSky {
     /// # Errors
     /// As [`BakedColourSky::xyz_batch`].
     pub fn linear_srgb_batch(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
-        self.batch::<LinearSrgb>(directions, out)
+        self.batch(directions, out, Rgb(ColourSpace::Srgb.matrix()))
+    }
+
+    /// As [`BakedColourSky::linear_srgb`], in any colour space.
+    ///
+    /// # Errors
+    /// [`crate::Error::Direction`] for a vector that is zero or not finite.
+    #[inline]
+    pub fn rgb(&self, direction: [f32; 3], space: ColourSpace) -> Result<[f32; 3]> {
+        match space {
+            ColourSpace::Xyz => self.xyz(direction),
+            _ => self.one(direction, Rgb(space.matrix())),
+        }
+    }
+
+    /// [`BakedColourSky::rgb`] for many directions.
+    ///
+    /// # Errors
+    /// As [`BakedColourSky::xyz_batch`].
+    pub fn rgb_batch(
+        &self,
+        directions: &Directions,
+        space: ColourSpace,
+        out: &mut [[f32; 3]],
+    ) -> Result<()> {
+        match space {
+            ColourSpace::Xyz => self.xyz_batch(directions, out),
+            _ => self.batch(directions, out, Rgb(space.matrix())),
+        }
     }
 
     #[inline(always)]
-    fn one<C: Space>(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
+    fn one(&self, direction: [f32; 3], space: impl Space) -> Result<[f32; 3]> {
         let mut out = [[0.0; 3]];
-        self.baked.one(
-            direction,
-            Colours::<C> {
-                out: &mut out,
-                space: PhantomData,
-            },
-        )?;
+        let sink = Colours {
+            out: &mut out,
+            space,
+        };
+        self.baked.one(direction, sink)?;
         Ok(out[0])
     }
 
     #[inline(always)]
-    fn batch<C: Space>(&self, directions: &Directions, out: &mut [[f32; 3]]) -> Result<()> {
+    fn batch(
+        &self,
+        directions: &Directions,
+        out: &mut [[f32; 3]],
+        space: impl Space,
+    ) -> Result<()> {
         directions.check()?;
         check_length("output", out.len(), directions.len())?;
-        self.baked.each(
-            directions,
-            Colours::<C> {
-                out,
-                space: PhantomData,
-            },
-        )
+        self.baked.each(directions, Colours { out, space })
     }
 }
 
 /// Colours one after another.
 struct Colours<'a, C> {
     out: &'a mut [[f32; 3]],
-    space: PhantomData<C>,
+    space: C,
 }
 
 impl<C: Space> Sink<LANES> for Colours<'_, C> {
@@ -209,7 +232,7 @@ impl<C: Space> Sink<LANES> for Colours<'_, C> {
         let [x, y, z, _] = transpose(&logarithms);
         let opacity = group.spots.opacity;
         let xyz = [x.exp2() * opacity, y.exp2() * opacity, z.exp2() * opacity];
-        let [r, g, b] = C::from_xyz(xyz);
+        let [r, g, b] = self.space.convert(xyz);
         let (r, g, b) = (r.0, g.0, b.0);
         for (i, out) in self.out[group.first..][..group.count]
             .iter_mut()
@@ -222,24 +245,25 @@ impl<C: Space> Sink<LANES> for Colours<'_, C> {
 
 /// A colour space.
 trait Space {
-    fn from_xyz<const W: usize>(xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3];
+    fn convert<const W: usize>(&self, xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3];
 }
 
 struct CieXyz;
 
 impl Space for CieXyz {
     #[inline(always)]
-    fn from_xyz<const W: usize>(xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
+    fn convert<const W: usize>(&self, xyz: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
         xyz
     }
 }
 
-struct LinearSrgb;
+/// By a matrix.
+struct Rgb([[f32; 3]; 3]);
 
-impl Space for LinearSrgb {
+impl Space for Rgb {
     #[inline(always)]
-    fn from_xyz<const W: usize>([x, y, z]: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
-        let [r, g, b] = XYZ_TO_SRGB;
+    fn convert<const W: usize>(&self, [x, y, z]: [Lanes<W>; 3]) -> [Lanes<W>; 3] {
+        let [r, g, b] = self.0;
         [weigh(x, y, z, r), weigh(x, y, z, g), weigh(x, y, z, b)]
     }
 }

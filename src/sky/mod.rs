@@ -15,8 +15,7 @@ use crate::kernel::math::{LANES, finite};
 use crate::phase_function::SunAngle;
 pub(crate) use crate::spectrum::MOST_WAVELENGTHS;
 use crate::spectrum::SpectralInterpolation;
-pub(crate) use colour_space::XYZ_TO_SRGB;
-pub use colour_space::xyz_to_linear_srgb;
+pub use colour_space::{ColourSpace, xyz_to_linear_srgb};
 use tables::{Lookup, Row, Tables, azimuth};
 
 /// The clear sky at one set of conditions.
