@@ -136,8 +136,9 @@ __all__ = [
 ]
 
 # As methods, too: sky.plot(), sky.to_xarray().
-for _kind in (Sky, BakedSky, ColourSky, BakedColourSky, PolarisedSky, BakedPolarisedSky, SkySum):
-    _kind.plot = plot
-for _kind in (Sky, BakedSky, ColourSky, BakedColourSky, PolarisedSky, BakedPolarisedSky, BandSky, BakedBandSky):
-    _kind.to_xarray = to_xarray
-del _kind
+_COLOURED = (Sky, BakedSky, ColourSky, BakedColourSky, PolarisedSky, BakedPolarisedSky)
+_kind: type
+for _kind in (*_COLOURED, SkySum):
+    setattr(_kind, "plot", plot)
+for _kind in (*_COLOURED, BandSky, BakedBandSky):
+    setattr(_kind, "to_xarray", to_xarray)

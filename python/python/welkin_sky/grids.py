@@ -1,6 +1,7 @@
 """Grids of directions for images, with the solid angle of each pixel."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +23,7 @@ class Grid:
         """Directions of the pixels inside: (N, 3)."""
         return self.directions[self.inside]
 
-    def image(self, values: ArrayLike, outside: float = np.nan) -> NDArray:
+    def image(self, values: ArrayLike, outside: float = np.nan) -> NDArray[Any]:
         """Values (N, …) of `visible` in their places: (rows, columns, …)."""
         values = np.asarray(values)
         image = np.full(self.inside.shape + values.shape[1:], outside, values.dtype)
@@ -31,7 +32,7 @@ class Grid:
 
 
 def fish_eye(size: int) -> Grid:
-    """The upper hemisphere as an equidistant fish-eye of (size, size): the zenith in the middle, the horizon at the rim.
+    """The upper hemisphere as an equidistant fish-eye of (size, size): zenith in the middle, horizon at the rim.
 
     +x is to the right and +y up, as on a map; who lies on the ground and looks up sees it mirrored.
     """
@@ -52,7 +53,7 @@ def fish_eye(size: int) -> Grid:
 def lat_long(height: int) -> Grid:
     """The whole sphere as an equirectangular map of (height, 2 height).
 
-    The top row is at the zenith, the middle of the columns looks along +x, and columns run clockwise as seen from above:
+    The top row is at the zenith, the middle of the columns looks along +x, and columns run clockwise seen from above:
     the environment map that renderers expect.
     """
     _require(height, 2)

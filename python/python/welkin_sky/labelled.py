@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .grids import directions
 
@@ -16,6 +16,7 @@ _RADIANCE = {"long_name": "spectral radiance", "units": "W m-2 sr-1 nm-1"}
 
 def to_xarray(
     sky: Any,
+    /,
     elevation: ArrayLike | None = None,
     azimuth: ArrayLike | None = None,
     wavelengths: ArrayLike | None = None,
@@ -47,7 +48,7 @@ def to_xarray(
     return data
 
 
-def _add_spectra(data: Any, sky: Any, towards: np.ndarray, wavelengths: ArrayLike | None) -> None:
+def _add_spectra(data: Any, sky: Any, towards: NDArray[np.float32], wavelengths: ArrayLike | None) -> None:
     place = ("elevation", "azimuth")
     if hasattr(sky, "bands"):
         data["radiance"] = ((*place, "band"), sky.radiance(towards))
@@ -66,7 +67,7 @@ def _add_spectra(data: Any, sky: Any, towards: np.ndarray, wavelengths: ArrayLik
     data["radiance"] = ((*place, "wavelength"), radiance, _RADIANCE)
 
 
-def _add_colours(data: Any, sky: Any, towards: np.ndarray) -> None:
+def _add_colours(data: Any, sky: Any, towards: NDArray[np.float32]) -> None:
     if hasattr(sky, "xyz"):
         name = {"units": "cd m-2", "long_name": "CIE 1931 XYZ"}
         data["xyz"] = (("elevation", "azimuth", "primary"), sky.xyz(towards), name)

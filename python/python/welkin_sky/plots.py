@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._native import colour_space_matrix
 from .exposure import expose
 from .grids import fish_eye
 from .stokes import degree_of_polarisation
@@ -12,9 +13,12 @@ from .stokes import degree_of_polarisation
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Floats = NDArray[np.floating[Any]]
+
 
 def plot(
     sky: Any,
+    /,
     wavelength: float | None = None,
     *,
     quantity: str = "radiance",
@@ -47,8 +51,8 @@ def plot(
 
 
 def _values(
-    sky: Any, directions: NDArray, wavelength: float | None, quantity: str
-) -> tuple[str | None, NDArray]:
+    sky: Any, directions: Floats, wavelength: float | None, quantity: str
+) -> tuple[str | None, Floats]:
     """What is shown of directions, with the label of its scale; none for colours."""
     if quantity == "degree":
         at = 550.0 if wavelength is None else wavelength
@@ -62,30 +66,30 @@ def _values(
     return None, _linear_srgb(sky, directions)
 
 
-def _radiance_at(sky: Any, directions: NDArray, wavelength: float) -> NDArray:
+def _radiance_at(sky: Any, directions: Floats, wavelength: float) -> Floats:
     if hasattr(sky, "radiance_at"):
-        return sky.radiance_at(directions, wavelength)[..., 0]
+        return np.asarray(sky.radiance_at(directions, wavelength))[..., 0]
     if hasattr(sky, "stokes"):
         return _stokes_at(sky, directions, wavelength)[..., 0, 0]
     raise TypeError(f"a {type(sky).__name__} does not tell wavelengths apart")
 
 
-def _linear_srgb(sky: Any, directions: NDArray) -> NDArray:
+def _linear_srgb(sky: Any, directions: Floats) -> Floats:
     if hasattr(sky, "rgb"):
-        return sky.rgb(directions)
+        return np.asarray(sky.rgb(directions))
     if hasattr(sky, "xyz_stokes"):
-        from ._native import colour_space_matrix
-
-        return sky.xyz_stokes(directions)[..., 0, :] @ np.transpose(colour_space_matrix("srgb"))
+        xyz = np.asarray(sky.xyz_stokes(directions))[..., 0, :]
+        return np.asarray(xyz @ np.transpose(colour_space_matrix("srgb")))
     raise TypeError(f"a {type(sky).__name__} has no colour: give a wavelength")
 
 
-def _stokes_at(sky: Any, directions: NDArray, wavelength: float) -> NDArray:
+def _stokes_at(sky: Any, directions: Floats, wavelength: float) -> Floats:
     """Stokes vectors (N, 3, 1)."""
     if hasattr(sky, "stokes_at"):
-        return sky.stokes_at(directions, wavelength)
+        return np.asarray(sky.stokes_at(directions, wavelength))
     if hasattr(sky, "hero"):
-        return sky.hero(directions, np.full(4, wavelength, np.float32))[..., :1]
+        four = np.full(4, wavelength, np.float32)
+        return np.asarray(sky.hero(directions, four))[..., :1]
     raise TypeError(f"a {type(sky).__name__} is not polarised")
 
 
