@@ -94,7 +94,7 @@ fn describe(attributes: &Bound<'_, PyDict>, error: Error) -> PyResult<Option<PyE
         }
         Error::Io { path, source } => {
             attributes.set_item("errno", source.raw_os_error())?;
-            attributes.set_item("filename", path)?;
+            attributes.set_item("filename", path.into_os_string())?;
             attributes.set_item("missing", source.kind() == io::ErrorKind::NotFound)?;
         }
         Error::Read { offset, source } => {
