@@ -103,7 +103,7 @@ def test_files_that_are_none(tmp_path):
         welkin_sky.open(tmp_path)
     data = bytearray(MODEL_FILE.read_bytes())
     for damaged, kind in (
-        (b"", welkin_sky.LengthError),
+        (b"", welkin_sky.MagicError),
         (b"no welkin file at all" * 100, welkin_sky.MagicError),
         (bytes(data[:100]), welkin_sky.LengthError),
         (bytes(data[:-1]), welkin_sky.LengthError),

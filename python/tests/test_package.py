@@ -56,7 +56,7 @@ def test_signatures_show_conditions():
 def test_stubs_are_right(tmp_path):
     command = [sys.executable, "-m", "mypy.stubtest", "welkin_sky"]
     package = pathlib.Path(welkin_sky.__file__).resolve().parents[1]
-    path = {} if package.name == "site-packages" else {"MYPYPATH": str(package)}
+    path = {} if package.name == "site-packages" else {"MYPYPATH": str(package), "PYTHONPATH": str(package)}
     environment = {**os.environ, **path}
     done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=environment)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -33,7 +33,7 @@ def _within_gamut(rgb: NDArray[np.float64]) -> NDArray[np.float64]:
     off = rgb - grey
     room = np.where(off > 0, 1.0 - grey, grey)
     share = np.min(room / np.maximum(np.abs(off), room + 1e-30), axis=-1, keepdims=True)
-    return np.clip(grey + share * off, 0.0, 1.0)
+    return np.asarray(np.clip(grey + share * off, 0.0, 1.0))
 
 
 def _encode(linear: NDArray[np.float64]) -> NDArray[np.float64]:
