@@ -15,8 +15,8 @@ use crate::rows::alone;
 /// The clear sky of one scene. Made by `Model.sky`.
 ///
 /// Directions are arrays (…, 3) that point away from the observer, of any length: +z zenith, azimuth counter-clockwise
-/// from +x seen from above. Looking down gives the light of the air before black ground; the sun's disc is not included.
-/// `threads`: 1 is the calling thread; None all cores, or as many as the environment's RAYON_NUM_THREADS says.
+/// from +x seen from above. Looking down gives the light of the air before black ground; the sun's disc is not
+/// included. `threads`: 1 is the calling thread; None all cores, or as many as RAYON_NUM_THREADS says.
 #[pyclass(frozen, name = "Sky", module = "welkin_sky")]
 pub struct PySky {
     pub sky: Arc<Sky>,

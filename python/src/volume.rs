@@ -13,9 +13,9 @@ use crate::threads::pool;
 impl PyColourAerialPerspective {
     /// A camera-aligned volume ("froxels") in linear sRGB: light, cd m⁻², and factors: (rows, columns, D, 3) each.
     ///
-    /// camera (m), axis, right, up: (3,). size: columns, rows. depths: (D,), growing, in lengths of `axis`. Row r, column
-    /// c, slice k ends at camera + depths[k] (axis + x right + y up) with x = (2c + 1) / columns − 1 and y = 1 − (2r + 1)
-    /// / rows. Rays between marched ones are interpolated where that is good enough.
+    /// camera (m), axis, right, up: (3,). size: columns, rows. depths: (D,), growing, in lengths of `axis`. Row r,
+    /// column c, slice k ends at camera + depths[k] (axis + x right + y up) with x = (2c + 1) / columns − 1 and
+    /// y = 1 − (2r + 1) / rows. Rays between marched ones are interpolated where that is good enough.
     #[pyo3(signature = (camera, axis, right, up, size, depths, *, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "a camera has so many")]
     fn linear_srgb_volume<'py>(

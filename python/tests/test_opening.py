@@ -30,6 +30,7 @@ def test_all_ways_give_the_same(sky):
         model.verify()
         assert model.file_bytes == len(data)
         assert np.array_equal(model.sky(**SCENE).radiance(UP), expected)
+        assert np.allclose(model.radiance(UP, **SCENE), expected, rtol=1e-4)
 
 
 class Remote:

@@ -278,6 +278,13 @@ def test_moonlight(model, directions):
     assert both.parts == 1
     assert np.allclose(both.xyz(directions), moonlit.xyz(directions), rtol=1e-5)
     assert np.array_equal(both.rgb(directions, "xyz"), both.xyz(directions))
+    by_moon, conditions = model.moonlit(moon), moon.conditions(welkin_sky.Conditions())
+    up, at = np.abs(directions), [450.0, 555.0]
+    assert np.allclose(by_moon.radiance(up, conditions), moonlit.radiance(up), rtol=1e-3)
+    assert np.allclose(by_moon.radiance_at(up, at, conditions), moonlit.radiance_at(up, at), rtol=1e-3)
+    stokes = by_moon.polarised_sky(conditions).stokes(up)
+    room = 1e-3 * stokes[:, :1]
+    assert np.all(np.abs(by_moon.stokes(up, conditions) - stokes) <= room)
     day = model.sky_with_moon(moon, **SCENE).radiance(directions)
     assert np.all(day > model.sky(**SCENE).radiance(directions) * 0.999999)
     full = welkin_sky.Moon.phase_angle_between((0, 0, 1), (0, 0, -1))

@@ -11,7 +11,8 @@ use crate::sampler::PySkySampler;
 use crate::sky::space;
 use crate::solar_disc::PySolarDisc;
 
-/// A sky as tables of its colour, the fastest of all. Made by `ColourSky.bake` or `SunCourse.at`. Directions as of `Sky`.
+/// A sky as tables of its colour, the fastest of all. Made by `ColourSky.bake` or `SunCourse.at`. Directions as of
+/// `Sky`.
 #[pyclass(frozen, name = "BakedColourSky", module = "welkin_sky")]
 pub struct PyBakedColourSky {
     pub sky: BakedColourSky,

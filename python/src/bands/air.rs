@@ -8,7 +8,8 @@ use crate::arrays::Array;
 use crate::conditions;
 use crate::transmittance::Lines;
 
-/// The air at one visibility in the bands of a sensor. Made by `Model.band_transmittance`. Points as of `Transmittance`.
+/// The air at one visibility in the bands of a sensor. Made by `Model.band_transmittance`. Points as of
+/// `Transmittance`.
 #[pyclass(frozen, name = "BandTransmittance", module = "welkin_sky")]
 pub struct PyBandTransmittance {
     air: BandTransmittance,

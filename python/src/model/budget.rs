@@ -19,7 +19,13 @@ impl PyModel {
     ///
     /// altitude, visibility (m), solar_elevation (rad): lowest and highest; the whole range of the model if not given.
     /// tolerance: as of `Sky.bake`. channels: "spectral", "colour" or "stokes".
-    #[pyo3(signature = (*, altitude=None, visibility=None, solar_elevation=None, tolerance=BakedSky::TOLERANCE, channels="spectral"), text_signature = "($self, *, altitude=None, visibility=None, solar_elevation=None, tolerance=0.0025, channels='spectral')")]
+    #[pyo3(
+        signature = (
+            *, altitude=None, visibility=None, solar_elevation=None, tolerance=BakedSky::TOLERANCE, channels="spectral"
+        ),
+        text_signature = "($self, *, \
+            altitude=None, visibility=None, solar_elevation=None, tolerance=0.0025, channels='spectral')"
+    )]
     fn plan(
         &self,
         py: Python<'_>,

@@ -18,7 +18,11 @@ impl PyModel {
     ///
     /// Every condition may be an array: all are broadcast against each other and the leading shape of the directions.
     /// Nothing is prepared, so that conditions may differ from row to row; for one set of conditions `sky` is faster.
-    #[pyo3(signature = (directions, conditions=None, *, threads=None, **keywords), text_signature = "($self, directions, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)")]
+    #[pyo3(
+        signature = (directions, conditions=None, *, threads=None, **keywords),
+        text_signature = "($self, directions, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)"
+    )]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
@@ -30,14 +34,24 @@ impl PyModel {
         let scene = Scene::read(py, directions, conditions, keywords)?;
         let rows = scene.rows()?;
         let query = alone(py, || point_query(&self.model, rows))?;
-        let width = self.model.wavelengths().len();
-        scene.fill(py, threads, &[width], |conditions, direction, out| {
-            query.radiance(conditions, direction, out)
+        let nodes = self.model.wavelengths();
+        let own = self.moonlight(py, nodes)?;
+        scene.fill(py, threads, &[nodes.len()], |conditions, direction, out| {
+            let Some(irradiance) = &own else {
+                return query.radiance(conditions, direction, out);
+            };
+            query.relative_radiance(conditions, direction, out)?;
+            out.iter_mut().zip(irradiance).for_each(|(v, e)| *v *= e);
+            Ok(())
         })
     }
 
     /// The same per unit of solar spectral irradiance, sr⁻¹: (…, 3) → (…, W).
-    #[pyo3(signature = (directions, conditions=None, *, threads=None, **keywords), text_signature = "($self, directions, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)")]
+    #[pyo3(
+        signature = (directions, conditions=None, *, threads=None, **keywords),
+        text_signature = "($self, directions, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)"
+    )]
     fn relative_radiance<'py>(
         &self,
         py: Python<'py>,
@@ -56,7 +70,11 @@ impl PyModel {
     }
 
     /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K).
-    #[pyo3(signature = (directions, wavelengths, conditions=None, *, threads=None, **keywords), text_signature = "($self, directions, wavelengths, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)")]
+    #[pyo3(
+        signature = (directions, wavelengths, conditions=None, *, threads=None, **keywords),
+        text_signature = "($self, directions, wavelengths, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)"
+    )]
     fn radiance_at<'py>(
         &self,
         py: Python<'py>,
@@ -70,20 +88,31 @@ impl PyModel {
         let scene = Scene::read(py, directions, conditions, keywords)?;
         let rows = scene.rows()?;
         let query = alone(py, || point_query(&self.model, rows))?;
+        let own = self.moonlight(py, &asked)?;
         scene.fill(py, threads, &[asked.len()], |conditions, direction, out| {
-            out.iter_mut()
-                .zip(&asked)
-                .try_for_each(|(value, &wavelength)| {
-                    *value = query.radiance_at(conditions, direction, wavelength)?;
-                    Ok(())
-                })
+            for (k, (value, &wavelength)) in out.iter_mut().zip(&asked).enumerate() {
+                *value = match &own {
+                    None => query.radiance_at(conditions, direction, wavelength)?,
+                    Some(irradiance) => {
+                        let relative =
+                            query.relative_radiance_at(conditions, direction, wavelength)?;
+                        relative * irradiance[k]
+                    }
+                };
+            }
+            Ok(())
         })
     }
 
     /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, under any conditions: (…, 3) → (…, 3, W). Broadcasts as `radiance`.
     ///
     /// frame: as of `PolarisedSky.stokes`.
-    #[pyo3(signature = (directions, conditions=None, *, frame=None, threads=None, **keywords), text_signature = "($self, directions, conditions=None, *, frame=None, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)")]
+    #[pyo3(
+        signature = (directions, conditions=None, *, frame=None, threads=None, **keywords),
+        text_signature = "($self, directions, conditions=None, *, \
+            frame=None, solar_elevation=None, solar_azimuth=None, \
+             visibility=None, albedo=None, altitude=None, threads=None)"
+    )]
     fn stokes<'py>(
         &self,
         py: Python<'py>,
@@ -100,13 +129,53 @@ impl PyModel {
             let plan = self.model.plan(&budget)?;
             self.model.polarised_point_query(&plan)
         })?;
-        let width = self.model.wavelengths().len();
+        let nodes = self.model.wavelengths();
+        let (own, width) = (self.moonlight(py, nodes)?, nodes.len());
         scene.fill(py, threads, &[3, width], |conditions, direction, out| {
             let mut stokes = vec![Stokes::default(); width];
             query.stokes(conditions, direction, frame, &mut stokes)?;
+            if let Some(irradiance) = &own {
+                let mut radiance = vec![0.0; width];
+                let plain = query.point_query();
+                plain.relative_radiance(conditions, direction, &mut radiance)?;
+                radiance
+                    .iter_mut()
+                    .zip(irradiance)
+                    .for_each(|(v, e)| *v *= e);
+                in_other_light(&mut stokes, &radiance);
+            }
             crate::polarised::part(&stokes, out);
             Ok(())
         })
+    }
+}
+
+impl PyModel {
+    /// Irradiance (W m⁻² nm⁻¹) by the moon at wavelengths, if the model is moonlit: point queries, which look at the
+    /// file alone, know only that of the sun.
+    fn moonlight(&self, py: Python<'_>, wavelengths: &[f64]) -> PyResult<Option<Vec<f32>>> {
+        if !self.model.is_moonlit() {
+            return Ok(None);
+        }
+        let rule = alone(py, || self.model.spectral_interpolation())?;
+        let irradiance = wavelengths.iter().map(|&l| rule.solar_irradiance(l) as f32);
+        Ok(Some(irradiance.collect()))
+    }
+}
+
+/// The same polarisation of other radiances.
+fn in_other_light(stokes: &mut [Stokes], radiance: &[f32]) {
+    for (stokes, &radiance) in stokes.iter_mut().zip(radiance) {
+        let share = if stokes.i > 0.0 {
+            radiance / stokes.i
+        } else {
+            0.0
+        };
+        *stokes = Stokes {
+            i: radiance,
+            q: stokes.q * share,
+            u: stokes.u * share,
+        };
     }
 }
 

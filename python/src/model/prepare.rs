@@ -18,7 +18,11 @@ use crate::transmittance::PyTransmittance;
 #[pymethods]
 impl PyModel {
     /// The sky of one scene. conditions: a `Conditions`; keywords take the place of its fields, or of the defaults.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn sky(
         &self,
         py: Python<'_>,
@@ -37,7 +41,11 @@ impl PyModel {
     }
 
     /// The sky of one scene with its polarisation. Conditions as of `sky`.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn polarised_sky(
         &self,
         py: Python<'_>,
@@ -49,7 +57,11 @@ impl PyModel {
     }
 
     /// The sky of one scene for colour alone, which is prepared and asked in less time. Conditions as of `sky`.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn colour_sky(
         &self,
         py: Python<'_>,
@@ -61,7 +73,11 @@ impl PyModel {
     }
 
     /// The disc of the sun as seen through the air. Conditions as of `sky`; the albedo does not count.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn solar_disc(
         &self,
         py: Python<'_>,
@@ -74,7 +90,11 @@ impl PyModel {
 
     /// Transmittance and in-scattered light of segments in one scene. Conditions as of `sky`; they hold at the origin
     /// of the points, and their altitude does not count.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn aerial_perspective(
         &self,
         py: Python<'_>,
@@ -86,7 +106,11 @@ impl PyModel {
     }
 
     /// The same for colour alone, prepared and asked in half the time.
-    #[pyo3(signature = (conditions=None, **keywords), text_signature = "($self, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (conditions=None, **keywords),
+        text_signature = "($self, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn colour_aerial_perspective(
         &self,
         py: Python<'_>,
@@ -98,7 +122,11 @@ impl PyModel {
     }
 
     /// The sky in the light of sun and moon together. moon: a `Moon`; conditions as of `sky`.
-    #[pyo3(signature = (moon, conditions=None, **keywords), text_signature = "($self, moon, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (moon, conditions=None, **keywords),
+        text_signature = "($self, moon, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn sky_with_moon(
         &self,
         py: Python<'_>,
@@ -127,7 +155,11 @@ impl PyModel {
     ///
     /// elevations: lowest and highest elevation of the sun, rad. tolerance: as of `Sky.bake`. Conditions as of `sky`;
     /// the sun's elevation does not count.
-    #[pyo3(signature = (elevations, tolerance=welkin::BakedSky::TOLERANCE, conditions=None, **keywords), text_signature = "($self, elevations, tolerance=0.0025, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (elevations, tolerance=welkin::BakedSky::TOLERANCE, conditions=None, **keywords),
+        text_signature = "($self, elevations, tolerance=0.0025, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn sun_course(
         &self,
         py: Python<'_>,

@@ -22,7 +22,11 @@ impl PyModel {
     }
 
     /// A sky in bands. Conditions as of `sky`.
-    #[pyo3(signature = (bands, conditions=None, **keywords), text_signature = "($self, bands, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (bands, conditions=None, **keywords),
+        text_signature = "($self, bands, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn band_sky(
         &self,
         py: Python<'_>,
@@ -35,7 +39,11 @@ impl PyModel {
     }
 
     /// A sky in bands with its polarisation. Conditions as of `sky`.
-    #[pyo3(signature = (bands, conditions=None, **keywords), text_signature = "($self, bands, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (bands, conditions=None, **keywords),
+        text_signature = "($self, bands, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn polarised_band_sky(
         &self,
         py: Python<'_>,
@@ -49,7 +57,11 @@ impl PyModel {
     }
 
     /// The disc of the sun in bands. Conditions as of `sky`.
-    #[pyo3(signature = (bands, conditions=None, **keywords), text_signature = "($self, bands, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (bands, conditions=None, **keywords),
+        text_signature = "($self, bands, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn band_solar_disc(
         &self,
         py: Python<'_>,
@@ -63,7 +75,11 @@ impl PyModel {
     }
 
     /// Transmittance and in-scattered light of segments in bands. Conditions as of `aerial_perspective`.
-    #[pyo3(signature = (bands, conditions=None, **keywords), text_signature = "($self, bands, conditions=None, *, solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)")]
+    #[pyo3(
+        signature = (bands, conditions=None, **keywords),
+        text_signature = "($self, bands, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None)"
+    )]
     fn band_aerial_perspective(
         &self,
         py: Python<'_>,
