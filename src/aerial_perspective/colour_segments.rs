@@ -108,4 +108,21 @@ impl ColourAerialPerspective {
         self.aerial
             .linear_srgb_along(from, direction, distances, light, factors)
     }
+
+    /// As [`AerialPerspective::rgb_along`].
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::in_scattering_along`].
+    pub fn rgb_along(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        distances: &[f64],
+        space: ColourSpace,
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
+        self.aerial
+            .rgb_along(from, direction, distances, space, light, factors)
+    }
 }

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kernel::math::LANES;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::polarisation::Plane;
-use crate::sky::MOST_WAVELENGTHS;
+use crate::sky::{ColourSpace, MOST_WAVELENGTHS};
 use crate::transmittance::Segment;
 
 const MOST_BLOCKS: usize = MOST_WAVELENGTHS.div_ceil(LANES);
@@ -151,6 +151,29 @@ impl AerialPerspective {
         light: &mut [[f32; 3]],
         factors: &mut [[f32; 3]],
     ) -> Result<()> {
+        self.rgb_along(
+            from,
+            direction,
+            distances,
+            ColourSpace::Srgb,
+            light,
+            factors,
+        )
+    }
+
+    /// As [`AerialPerspective::linear_srgb_along`], in any colour space.
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::in_scattering_along`].
+    pub fn rgb_along(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        distances: &[f64],
+        space: ColourSpace,
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
         for got in [light.len(), factors.len()] {
             crate::sky::check_length(got, distances.len())?;
         }
@@ -162,8 +185,8 @@ impl AerialPerspective {
             sum.add(&self.xyz[block], result);
             if block == last {
                 let (xyz, through) = core::mem::take(sum).finish(&self.white);
-                light[k] = crate::sky::xyz_to_linear_srgb(xyz);
-                factors[k] = self.srgb_factors(through);
+                light[k] = space.from_xyz(xyz);
+                factors[k] = self.factors(through, space);
             }
         })
     }
