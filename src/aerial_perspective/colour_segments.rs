@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::sky::ColourSpace;
 
 /// An [`AerialPerspective`] for colour alone: only the wavelengths that X, Y and Z are made of are prepared and asked.
-/// Queries do not allocate. `Send + Sync`.
+/// Queries do not allocate, but that of a whole volume. `Send + Sync`.
 ///
 /// ```
 /// use welkin::{Conditions, Model};

@@ -116,7 +116,8 @@ impl AerialPerspective {
     /// As [`AerialPerspective::in_scattering`], from `from` to the points at growing `distances` (m) in a `direction`
     /// (need not be normalised), as the slices of a camera-aligned volume ask for; the outputs are
     /// `[distances][wavelengths]`. Each piece between two distances is integrated once, so that many of them cost a
-    /// fraction of as many segments; light is within some 0.3 % of theirs (p95; 1.2 % p99).
+    /// fraction of as many segments, and 64 of them are exacter than single segments: those, with few panels, are some
+    /// 1 % off by day and 2 % in twilight (p95; p99 2 and 5 %), and jump by up to 3 % where their number changes.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`] for a vector that is zero or not finite;
