@@ -3,7 +3,8 @@
 #![cfg(feature = "default-model")]
 
 use welkin::{
-    BakedSky, BufferHeader, Conditions, Model, PolarisationFrame, SkyBuffers, Stokes, StokesSpectra,
+    BakedSky, BufferHeader, Conditions, Model, PolarisationFrame, Response, SkyBuffers, Stokes,
+    StokesSpectra,
 };
 
 /// Four weights, and the first cell that they belong to.
@@ -214,4 +215,30 @@ fn headers_are_laid_out_as_shaders_do() {
         [word(60), word(64), word(68), word(76)],
         [32, 1, 3, SkyBuffers::LAYOUT]
     );
+}
+
+#[test]
+fn bands_are_those_of_the_buffers() {
+    let model = Model::default_model().unwrap();
+    let responses: Vec<_> = (0..17)
+        .map(|i| Response::wavelength(400.0 + 20.0 * f64::from(i)))
+        .collect();
+    let bands = model.bands(&responses).unwrap();
+    for conditions in scenes() {
+        let baked = model
+            .band_sky(&conditions, &bands)
+            .unwrap()
+            .bake(BakedSky::TOLERANCE)
+            .unwrap();
+        let buffers = baked.buffers();
+        let mut radiance = vec![0.0; responses.len()];
+        for direction in directions().into_iter().filter(|d| d[2] > 0.01) {
+            let single = direction.map(|v| v as f32);
+            baked.radiance(single, &mut radiance).unwrap();
+            let place = locate(&buffers.header, single.map(f64::from));
+            for (band, expected) in radiance.iter().enumerate() {
+                assert!((value(&buffers, &place, band) / f64::from(*expected) - 1.0).abs() < 2e-3);
+            }
+        }
+    }
 }

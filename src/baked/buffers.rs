@@ -2,6 +2,7 @@
 
 use zerocopy::{Immutable, IntoBytes};
 
+use super::baked_bands::{BakedBandSky, BakedPolarisedBandSky};
 use super::baked_colour::BakedColourSky;
 use super::baked_polarised::BakedPolarisedSky;
 use super::baked_spectral::{BakedSky, LANES};
@@ -38,7 +39,7 @@ pub struct BufferHeader {
     pub sun_intervals: u32,
     /// Groups of four channels.
     pub groups: u32,
-    /// Channels: three for colours (X, Y, Z in cd m⁻²), otherwise the wavelengths.
+    /// Channels: three for colours (X, Y, Z in cd m⁻²), otherwise the wavelengths or the bands.
     pub channels: u32,
     /// Whether there is a table of the polarisation: 0 or 1.
     pub polarised: u32,
@@ -89,7 +90,7 @@ pub struct SkyBuffers {
     pub cells: Vec<[f32; 4]>,
     /// `[group][2][row][column]`, or nothing.
     pub polarisation: Vec<[f32; 4]>,
-    /// `[group]`: solar spectral irradiance, W m⁻² nm⁻¹; 1 for colours.
+    /// `[group]`: solar spectral irradiance, W m⁻² nm⁻¹; 1 for colours and bands.
     pub scale: Vec<[f32; 4]>,
 }
 
@@ -143,6 +144,20 @@ impl BakedPolarisedSky {
         buffers.polarisation = pairs.flat_map(|(q, u)| [q, u].concat()).collect();
         buffers.header.polarised = 1;
         buffers
+    }
+}
+
+impl BakedBandSky {
+    /// The tables, for evaluation elsewhere; the channels are the bands.
+    pub fn buffers(&self) -> SkyBuffers {
+        self.sky.buffers()
+    }
+}
+
+impl BakedPolarisedBandSky {
+    /// The tables, for evaluation elsewhere; the channels are the bands.
+    pub fn buffers(&self) -> SkyBuffers {
+        self.sky.buffers()
     }
 }
 
