@@ -163,7 +163,8 @@ typedef struct welkin_baked {
     const welkin_file *file;
     welkin_resolution resolution;
     uint32_t channels;
-    double dip, sun_height, cos_azimuth, sin_azimuth;
+    double dip, cos_azimuth, sin_azimuth;
+    double sun_height, sun_at, turn_at; /* of the sun above the horizon; coordinates of it and of half of it */
     double up_end, down_end, azimuth_end; /* coordinates of zenith, nadir and the azimuth opposite to the sun */
     float *root;                          /* square roots, [up + 1 + down + 1][azimuths + 1][channels] */
     float *marginal, *conditional;        /* [up + down + 1], [up + down][azimuths + 1]; cumulative */
@@ -2746,9 +2747,16 @@ WELKIN_API welkin_error welkin_rgb(welkin_colour_space space, const double xyz[3
 #define WELKIN__BESIDE_HORIZON 1e-11 /* rad: where the sides of the horizon are looked at */
 #define WELKIN__EVEN_SHARE 1e-3     /* of samples, over all cells alike: what is dark at the corners may not be within */
 
-/* From an angle above or below the horizon to a coordinate, and back. The square root resolves rays that graze the
- * ground, whose length has an infinite slope there. */
-static double welkin__from_horizon(double angle) { return 2 * asinh(sqrt(angle / WELKIN__HEIGHT_SCALE)); }
+/* asinh, faster and less exact near 0, where nothing depends on it. */
+static double welkin__asinh(double x) { return log(x + sqrt(x * x + 1)); }
+
+/* From an angle above or below the horizon to a coordinate, 2 asinh sqrt(angle / scale), and back. The square root
+ * resolves rays that graze the ground, whose length has an infinite slope there. */
+static double welkin__from_horizon(double angle)
+{
+    double x = angle / WELKIN__HEIGHT_SCALE;
+    return log(1 + 2 * x + 2 * sqrt(x * (x + 1)));
+}
 
 static double welkin__horizon_angle(double coordinate)
 {
@@ -2756,18 +2764,24 @@ static double welkin__horizon_angle(double coordinate)
     return WELKIN__HEIGHT_SCALE * s * s;
 }
 
-/* From half the height of the sun on the coordinate is about the sun. */
+/* From half the height of the sun on, the coordinate is about the sun. */
+static void welkin__place_sun(welkin_baked *b, double height)
+{
+    b->sun_height = fmax(0, height);
+    b->turn_at = welkin__from_horizon(b->sun_height / 2);
+    b->sun_at = b->turn_at + welkin__asinh(b->sun_height / 2 / WELKIN__HEIGHT_SCALE);
+}
+
 static double welkin__up_coordinate(const welkin_baked *b, double height)
 {
-    double half = b->sun_height / 2, sun = welkin__from_horizon(half) + asinh(half / WELKIN__HEIGHT_SCALE);
-    return height < half ? welkin__from_horizon(height) : sun + asinh((height - b->sun_height) / WELKIN__HEIGHT_SCALE);
+    if (height < b->sun_height / 2) return welkin__from_horizon(height);
+    return b->sun_at + welkin__asinh((height - b->sun_height) / WELKIN__HEIGHT_SCALE);
 }
 
 static double welkin__up_height(const welkin_baked *b, double coordinate)
 {
-    double half = b->sun_height / 2, turn = welkin__from_horizon(half), sun = turn + asinh(half / WELKIN__HEIGHT_SCALE);
-    if (coordinate < turn) return welkin__horizon_angle(coordinate);
-    return b->sun_height + WELKIN__HEIGHT_SCALE * sinh(coordinate - sun);
+    if (coordinate < b->turn_at) return welkin__horizon_angle(coordinate);
+    return b->sun_height + WELKIN__HEIGHT_SCALE * sinh(coordinate - b->sun_at);
 }
 
 /* Elevation of a row of nodes: `up` + 1 of them from the horizon to the zenith, then those from it to the nadir. */
@@ -2806,7 +2820,7 @@ static welkin_error welkin__find_place(const welkin_baked *b, const double direc
     place->row = place->up
                      ? welkin__intervals_before(welkin__up_coordinate(b, height), b->up_end, b->resolution.up)
                      : welkin__intervals_before(welkin__from_horizon(-height), b->down_end, b->resolution.down);
-    place->column = welkin__intervals_before(asinh(atan2(fabs(across), along) / WELKIN__AZIMUTH_SCALE), b->azimuth_end,
+    place->column = welkin__intervals_before(welkin__asinh(atan2(fabs(across), along) / WELKIN__AZIMUTH_SCALE), b->azimuth_end,
                                              b->resolution.azimuths);
     return WELKIN_OK;
 }
@@ -3006,12 +3020,12 @@ WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, 
     baked->resolution = *resolution;
     baked->channels = (uint32_t)welkin__bake_channels(sky->file, resolution);
     baked->dip = sky->dip;
-    baked->sun_height = fmax(0, asin(sky->sun[2]) + sky->dip);
+    welkin__place_sun(baked, asin(sky->sun[2]) + sky->dip);
     baked->cos_azimuth = sky->cos_azimuth;
     baked->sin_azimuth = sky->sin_azimuth;
     baked->up_end = welkin__up_coordinate(baked, WELKIN__HALF_PI + sky->dip);
     baked->down_end = welkin__from_horizon(WELKIN__HALF_PI - sky->dip);
-    baked->azimuth_end = asinh(WELKIN__PI / WELKIN__AZIMUTH_SCALE);
+    baked->azimuth_end = welkin__asinh(WELKIN__PI / WELKIN__AZIMUTH_SCALE);
     baked->root = memory;
     baked->marginal = memory + welkin__baked_nodes(resolution) * baked->channels;
     baked->conditional = baked->marginal + rows + 1;
