@@ -133,14 +133,14 @@ static int bake(const welkin_sky *sky, welkin_resolution resolution, double (*di
     return error != WELKIN_OK;
 }
 
-static int bake_all(const welkin_file *file, double (*directions)[3])
+static int bake_all(const welkin_file *file, const welkin_conditions *conditions, double (*directions)[3])
 {
     static const welkin_resolution resolutions[5] = {{32, 16, 24, 0}, {48, 24, 32, 0}, {96, 48, 64, 0}, {48, 24, 32, 1}, {96, 48, 64, 1}};
     size_t floats = welkin_scratch_floats(file, WELKIN_DENSE);
     float *scratch = malloc(floats * sizeof *scratch);
-    welkin_conditions conditions = choose_conditions(file);
     welkin_sky sky;
-    int failed = !scratch || welkin_prepare(&sky, file, &conditions, WELKIN_DENSE, scratch, floats), i;
+    int failed = !scratch || welkin_prepare(&sky, file, conditions, WELKIN_DENSE, scratch, floats), i;
+    if (failed) printf("baked skies: no sky\n");
     for (i = 0; i < 5 && !failed; i++) failed = bake(&sky, resolutions[i], directions);
     free(scratch);
     return failed;
@@ -150,12 +150,13 @@ int main(int count, char **arguments)
 {
     static double directions[DIRECTIONS][3];
     size_t length = 0;
-    unsigned char *bytes = count == 2 ? read_all(arguments[1], &length) : NULL;
+    unsigned char *bytes = count == 2 || count == 4 ? read_all(arguments[1], &length) : NULL;
     welkin_file file;
     welkin_error error;
+    welkin_conditions conditions;
     int failed;
     if (!bytes) {
-        fprintf(stderr, "usage: bench FILE\n");
+        fprintf(stderr, "usage: bench FILE [ALTITUDE SOLAR_ELEVATION] (of baked skies; m, degrees)\n");
         return 2;
     }
     error = welkin_open(&file, bytes, length);
@@ -171,7 +172,12 @@ int main(int count, char **arguments)
         failed |= time_mode(&file, WELKIN_POLARISED, "Stokes", directions);
         failed |= time_mode(&file, WELKIN_POLARISED | WELKIN_DENSE, "Stokes, dense", directions);
     }
-    failed |= bake_all(&file, directions);
+    conditions = choose_conditions(&file);
+    if (count == 4) {
+        conditions.altitude = strtod(arguments[2], NULL);
+        conditions.solar_elevation = strtod(arguments[3], NULL) * 3.141592653589793 / 180;
+    }
+    failed |= bake_all(&file, &conditions, directions);
     free(bytes);
     return failed;
 }
