@@ -1,4 +1,6 @@
-/* Times all wavelengths of random directions in one sky, and baked skies with their errors. SPDX-License-Identifier: MIT OR Apache-2.0 */
+/* Times all wavelengths of random directions in one sky, and baked skies with their errors.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0 */
 #define WELKIN_IMPLEMENTATION
 #include "welkin.h"
 
@@ -126,16 +128,19 @@ static int bake(const welkin_sky *sky, welkin_resolution resolution, double (*di
     if (error)
         printf("a baked sky: %s\n", welkin_error_name(error));
     else
-        printf("baked %s %3u + %2u x %2u %7.0f KiB, %5.1f ms, %4.0f ns per direction, %4.0f ns per sample, errors: p99 %.3f %%, largest %.2f %%\n",
-               resolution.spectral ? "spectral" : "colour  ", resolution.up, resolution.down, resolution.azimuths, (double)floats / 256,
-               1e3 * spent, time_table(&baked, directions, 0), time_table(&baked, directions, 1), 100 * p99, 100 * largest);
+        printf("baked %s %3u + %2u x %2u %7.0f KiB, %5.1f ms, %4.0f ns per direction, %4.0f ns per sample, errors: p99 "
+               "%.3f %%, largest %.2f %%\n",
+               resolution.spectral ? "spectral" : "colour  ", resolution.up, resolution.down, resolution.azimuths,
+               (double)floats / 256, 1e3 * spent, time_table(&baked, directions, 0), time_table(&baked, directions, 1),
+               100 * p99, 100 * largest);
     free(memory);
     return error != WELKIN_OK;
 }
 
 static int bake_all(const welkin_file *file, const welkin_conditions *conditions, double (*directions)[3])
 {
-    static const welkin_resolution resolutions[5] = {{32, 16, 24, 0}, {48, 24, 32, 0}, {96, 48, 64, 0}, {48, 24, 32, 1}, {96, 48, 64, 1}};
+    static const welkin_resolution resolutions[5] = {
+        {32, 16, 24, 0}, {48, 24, 32, 0}, {96, 48, 64, 0}, {48, 24, 32, 1}, {96, 48, 64, 1}};
     size_t floats = welkin_scratch_floats(file, WELKIN_DENSE);
     float *scratch = malloc(floats * sizeof *scratch);
     welkin_sky sky;

@@ -71,14 +71,16 @@ static void ask_table(const welkin_sky *sky, int spectral)
     resolution.spectral = spectral;
     if (welkin_bake(&baked, sky, &resolution, memory, sizeof memory / sizeof *memory)) return;
     for (i = 0; i < 3; i++) {
-        if (spectral && !welkin_baked_radiance(&baked, directions[i], light)) check(light, sky->file->wavelengths, 0, FLT_MAX);
+        if (spectral && !welkin_baked_radiance(&baked, directions[i], light))
+            check(light, sky->file->wavelengths, 0, FLT_MAX);
         if (welkin_baked_xyz(&baked, directions[i], xyz) || welkin_rgb(WELKIN_ACESCG, xyz, rgb)) abort();
         if (welkin_sample_pdf(&baked, directions[i], &pdf) || !(pdf > 0 && pdf <= DBL_MAX)) abort();
         if (welkin_sample(&baked, shares[i], shares[4 - i], sample, &pdf) || !(pdf > 0 && pdf <= DBL_MAX)) abort();
         for (k = 0; k < 3; k++)
             if (!(fabs(sample[k]) <= 1.000001)) abort();
     }
-    if (!welkin_baked_error(&baked, sky, 2, &p99, &largest) && !(p99 >= 0 && largest >= p99 && largest <= DBL_MAX)) abort();
+    if (!welkin_baked_error(&baked, sky, 2, &p99, &largest) && !(p99 >= 0 && largest >= p99 && largest <= DBL_MAX))
+        abort();
 }
 
 static void ask_sky(const welkin_file *file, const welkin_conditions *conditions, unsigned flags, float *scratch, size_t floats)

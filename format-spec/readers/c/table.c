@@ -64,7 +64,8 @@ static void from_chromaticity(const double xy[2], double xyz[3])
 static void derive(double xy[4][2], const double lit[2], const double xyz[3], double rgb[3])
 {
     static double bradford[3][3] = {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}};
-    double primaries[3][3], inverse[3][3], back[3][3], white[3], source[3], cone[3], cone_white[3], cone_source[3], size[3], adapted[3];
+    double primaries[3][3], inverse[3][3], back[3][3], white[3], source[3], cone[3], cone_white[3], cone_source[3],
+        size[3], adapted[3];
     int i, j;
     for (i = 0; i < 3; i++) {
         double primary[3];
@@ -96,7 +97,8 @@ static void test_colour_spaces(void)
     int i, j;
     for (i = 0; i < 4; i++) {
         const char *name = welkin_colour_space_name((welkin_colour_space)i);
-        check(name && !welkin_colour_space_named(name, &space) && space == (welkin_colour_space)i, "names of spaces", i);
+        check(name && !welkin_colour_space_named(name, &space) && space == (welkin_colour_space)i, "names of spaces",
+              i);
         check(!welkin_rgb((welkin_colour_space)i, colour, rgb), "a colour", i);
         if (i < 3) derive(chromaticities[i], lit, colour, expected);
         for (j = 0; j < 3; j++) check(fabs(rgb[j] - (i < 3 ? expected[j] : colour[j])) < 5e-7, "components", rgb[j]);
@@ -127,7 +129,8 @@ static float *floats(size_t count)
 }
 
 /* Memory of just the sizes that are asked for: an access beyond them is seen by sanitizers. */
-static void open_scene(scene *s, const welkin_file *file, double altitude, double elevation, welkin_resolution resolution)
+static void open_scene(scene *s, const welkin_file *file, double altitude, double elevation,
+                       welkin_resolution resolution)
 {
     welkin_conditions conditions = {0, 50e3, 0.3, 0, 1};
     size_t size = welkin_scratch_floats(file, WELKIN_DENSE), table = welkin_bake_floats(file, &resolution);
@@ -136,7 +139,8 @@ static void open_scene(scene *s, const welkin_file *file, double altitude, doubl
     s->scratch = floats(size);
     s->memory = floats(table);
     check(!welkin_prepare(&s->sky, file, &conditions, WELKIN_DENSE, s->scratch, size), "a sky", elevation);
-    check(welkin_bake(&s->baked, &s->sky, &resolution, s->memory, table - 1) == WELKIN_ERROR_SCRATCH, "too little memory", 0);
+    check(welkin_bake(&s->baked, &s->sky, &resolution, s->memory, table - 1) == WELKIN_ERROR_SCRATCH,
+          "too little memory", 0);
     check(!welkin_bake(&s->baked, &s->sky, &resolution, s->memory, table), "a baked sky", elevation);
 }
 
@@ -189,7 +193,8 @@ static double measure_p99(const scene *s)
         check(!welkin_baked_xyz(&s->baked, direction, baked), "a baked colour", 0);
         errors[i] = 0;
         for (k = 0; k < 3; k++)
-            if (exact[k] > 0) errors[i] = fmax(errors[i], fabs(baked[k] - exact[k]) / fmax(exact[k], 1e-4 * brightest[k]));
+            if (exact[k] > 0)
+                errors[i] = fmax(errors[i], fabs(baked[k] - exact[k]) / fmax(exact[k], 1e-4 * brightest[k]));
     }
     qsort(errors, 4000, sizeof *errors, compare);
     return errors[3959];
@@ -239,7 +244,8 @@ static void test_horizon(const welkin_file *file)
             direction[1] = cos(elevation) * sin(azimuth);
             direction[2] = sin(elevation);
             exact[side] = luminance(&s.sky, direction);
-            check(fabs(baked_luminance(&s.baked, direction) / exact[side] - 1) < 0.01, "a side of the horizon", elevation);
+            check(fabs(baked_luminance(&s.baked, direction) / exact[side] - 1) < 0.01, "a side of the horizon",
+                  elevation);
         }
         jump = fmax(jump, exact[1] / exact[0]);
     }
@@ -286,7 +292,8 @@ static double integrate(const scene *s, double *share)
     for (i = 0; i < ROWS * COLUMNS; i++) share[i] = 0;
     for (i = 0; i < ROWS * POINTS; i++)
         for (j = 0; j < COLUMNS * POINTS; j++) {
-            double z = 2 * (i + uniform()) / (ROWS * POINTS) - 1, azimuth = 2 * PI * ((j + uniform()) / (COLUMNS * POINTS) - 0.5);
+            double z = 2 * (i + uniform()) / (ROWS * POINTS) - 1,
+                   azimuth = 2 * PI * ((j + uniform()) / (COLUMNS * POINTS) - 0.5);
             direction[0] = sqrt(1 - z * z) * cos(azimuth);
             direction[1] = sqrt(1 - z * z) * sin(azimuth);
             direction[2] = z;
@@ -314,7 +321,8 @@ static void test_distribution(const welkin_file *file, double altitude, double e
         check(!welkin_sample(&s.baked, u1, u2, direction, &pdf), "a sample", 0);
         check(!welkin_sample_pdf(&s.baked, direction, &again), "the density of a sample", 0);
         check(fabs(again / pdf - 1) < 1e-9, "one density of a sample", again / pdf);
-        check(fabs(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2] - 1) < 1e-12, "a unit vector", 0);
+        check(fabs(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2] - 1) < 1e-12,
+              "a unit vector", 0);
         count[bin_of(direction)]++;
         below += direction[2] < 0;
         if (i % 10) continue;
@@ -332,8 +340,9 @@ static void test_distribution(const welkin_file *file, double altitude, double e
     }
     estimate /= SAMPLES / 10;
     squares = sqrt(fmax(squares / (SAMPLES / 10) - estimate * estimate, 0)) / estimate;
-    printf("h %6.0f m, sun %3.0f deg, %s: density %.5f, chi^2 %.0f of %ld bins, estimate %.4f, deviation of a sample %.3f\n", altitude,
-           elevation, spectral ? "spectral" : "colour", total, chi, bins, estimate / light, squares);
+    printf("h %6.0f m, sun %3.0f deg, %s: density %.5f, chi^2 %.0f of %ld bins, estimate %.4f, deviation of a sample "
+           "%.3f\n",
+           altitude, elevation, spectral ? "spectral" : "colour", total, chi, bins, estimate / light, squares);
     check(fabs(total - 1) < 2e-3, "the integral of the density", total);
     check(bins > 100 && chi < (double)bins + 5 * sqrt(2.0 * (double)bins), "chi squared", chi);
     check(fabs(estimate / light - 1) < 5e-3, "the integral of the luminance", estimate / light);
@@ -346,7 +355,8 @@ static void test_distribution(const welkin_file *file, double altitude, double e
 
 static void test_refusals(const welkin_file *file)
 {
-    static const welkin_resolution bad[6] = {{0, 1, 1, 0}, {1, 0, 1, 0}, {1, 1, 0, 1}, {513, 1, 1, 0}, {1, UINT32_MAX, 1, 1}, {1, 1, 513, 0}};
+    static const welkin_resolution bad[6] = {{0, 1, 1, 0},   {1, 0, 1, 0},          {1, 1, 0, 1},
+                                             {513, 1, 1, 0}, {1, UINT32_MAX, 1, 1}, {1, 1, 513, 0}};
     static const welkin_resolution least[3] = {{1, 1, 1, 0}, {2, 1, 2, 1}, {3, 2, 1, 0}};
     static const double numbers[4] = {-1e-9, 1.0000001, HUGE_VAL, -HUGE_VAL};
     const double nowhere[3] = {0, 0, 0}, up[3] = {0, 0, 1}, unknown[3] = {0, HUGE_VAL - HUGE_VAL, 1};
@@ -362,7 +372,8 @@ static void test_refusals(const welkin_file *file)
             random_direction(direction);
             check(baked_luminance(&s.baked, direction) >= 0, "the light of a tiny table", i);
             check(!welkin_sample_pdf(&s.baked, direction, &pdf) && pdf > 0, "the density of a tiny table", i);
-            check(!welkin_sample(&s.baked, j / 1999.0, 1 - j / 1999.0, direction, &pdf) && pdf > 0, "a sample of a tiny table", i);
+            check(!welkin_sample(&s.baked, j / 1999.0, 1 - j / 1999.0, direction, &pdf) && pdf > 0,
+                  "a sample of a tiny table", i);
         }
         if (i < 2) close_scene(&s);
     }
@@ -372,8 +383,10 @@ static void test_refusals(const welkin_file *file)
     }
     for (i = 0; i < 5; i++) {
         double number = i < 4 ? numbers[i] : unknown[1];
-        check(welkin_sample(&s.baked, number, 0.5, direction, &pdf) == WELKIN_ERROR_RANGE, "a bad first number", number);
-        check(welkin_sample(&s.baked, 0.5, number, direction, &pdf) == WELKIN_ERROR_RANGE, "a bad second number", number);
+        check(welkin_sample(&s.baked, number, 0.5, direction, &pdf) == WELKIN_ERROR_RANGE, "a bad first number",
+              number);
+        check(welkin_sample(&s.baked, 0.5, number, direction, &pdf) == WELKIN_ERROR_RANGE, "a bad second number",
+              number);
     }
     check(welkin_baked_xyz(&s.baked, nowhere, xyz) == WELKIN_ERROR_DIRECTION, "no direction", 0);
     check(welkin_baked_xyz(&s.baked, unknown, xyz) == WELKIN_ERROR_DIRECTION, "a direction that is no number", 0);
@@ -381,7 +394,8 @@ static void test_refusals(const welkin_file *file)
     check(welkin_baked_radiance(&s.baked, up, radiance) == WELKIN_ERROR_MISSING, "radiance of a table of colour", 0);
     check(welkin_baked_error(&s.baked, &s.sky, 0, &pdf, &largest) == WELKIN_ERROR_RANGE, "an error at no direction", 0);
     s.sky.file = &copy;
-    check(welkin_baked_error(&s.baked, &s.sky, 9, &pdf, &largest) == WELKIN_ERROR_RANGE, "an error with another file", 0);
+    check(welkin_baked_error(&s.baked, &s.sky, 9, &pdf, &largest) == WELKIN_ERROR_RANGE, "an error with another file",
+          0);
     close_scene(&s);
 }
 

@@ -147,8 +147,8 @@ typedef struct welkin_aerial_perspective {
     float *extinction, *bounce, *parameter, *scattering;
 } welkin_aerial_perspective;
 
-/* Linear colour spaces: sRGB and Rec. 2020, white D65; ACEScg, white of ACES, by Bradford's adaptation from D65 (what is
- * white in sRGB is white there); CIE 1931 XYZ as it is. */
+/* Linear colour spaces: sRGB and Rec. 2020, white D65; ACEScg, white of ACES, by Bradford's adaptation from D65 (what
+ * is white in sRGB is white there); CIE 1931 XYZ as it is. */
 typedef enum welkin_colour_space { WELKIN_SRGB, WELKIN_REC2020, WELKIN_ACESCG, WELKIN_XYZ } welkin_colour_space;
 
 /* Of a baked sky: how many intervals, 1..=WELKIN_MAX_INTERVALS, lie above the geometric horizon, below it, and between
@@ -164,7 +164,7 @@ typedef struct welkin_baked {
     welkin_resolution resolution;
     uint32_t channels;
     double dip, cos_azimuth, sin_azimuth;
-    double sun_height, sun_at, turn_at; /* of the sun above the horizon; coordinates of it and of half of it */
+    double sun_height, sun_at, turn_at;   /* of the sun above the horizon; coordinates of it and of half of it */
     double up_end, down_end, azimuth_end; /* coordinates of zenith, nadir and the azimuth opposite to the sun */
     float *root;                          /* square roots, [up + 1 + down + 1][azimuths + 1][channels] */
     float *marginal, *conditional;        /* [up + down + 1], [up + down][azimuths + 1]; cumulative */
@@ -238,7 +238,7 @@ WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *file, double wav
 WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *resolution);
 
 /* Fills a table with a prepared sky, of (up + down + 2) (azimuths + 1) directions. The memory and the file must outlive
- * the table, the sky need not. */
+ * the table, the sky need not. WELKIN_ERROR_SCRATCH for too little memory. */
 WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
                                     float *memory, size_t memory_floats);
 
@@ -254,9 +254,10 @@ WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const d
 WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welkin_sky *sky, uint32_t directions,
                                            double *p99, double *largest);
 
-/* A unit vector for two uniform random numbers in 0..=1, and its density per steradian, which is about proportional to
- * the luminance of the sky and never 0; welkin_sample_pdf gives that of any direction. */
-WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3], double *pdf);
+/* A unit vector for two uniform random numbers in 0..=1 (others: WELKIN_ERROR_RANGE), and its density per steradian,
+ * about proportional to the luminance of the sky and never 0; welkin_sample_pdf gives that of any direction. */
+WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3],
+                                      double *pdf);
 WELKIN_API welkin_error welkin_sample_pdf(const welkin_baked *baked, const double direction[3], double *pdf);
 
 /* Reads and checks the profiles of the air. */
@@ -2712,11 +2713,16 @@ WELKIN_API welkin_error welkin_colour_space_named(const char *name, welkin_colou
 WELKIN_API welkin_error welkin_rgb(welkin_colour_space space, const double xyz[3], double rgb[3])
 {
     /* Rows of red, green and blue; inverses of primaries and white, the third after Bradford's adaptation. */
-    static const double matrix[4][3][3] = {
-        {{3.24097, -1.5373832, -0.49861076}, {-0.96924365, 1.8759675, 0.04155506}, {0.05563008, -0.20397696, 1.0569715}},
-        {{1.7166512, -0.35567078, -0.2533663}, {-0.6666843, 1.6164812, 0.015768546}, {0.017639857, -0.042770613, 0.9421031}},
-        {{1.6605853, -0.31529556, -0.24150933}, {-0.65992606, 1.6083915, 0.017298595}, {0.009002569, -0.0035668764, 0.9136433}},
-        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    static const double matrix[4][3][3] = {{{3.24097, -1.5373832, -0.49861076},
+                                            {-0.96924365, 1.8759675, 0.04155506},
+                                            {0.05563008, -0.20397696, 1.0569715}},
+                                           {{1.7166512, -0.35567078, -0.2533663},
+                                            {-0.6666843, 1.6164812, 0.015768546},
+                                            {0.017639857, -0.042770613, 0.9421031}},
+                                           {{1.6605853, -0.31529556, -0.24150933},
+                                            {-0.65992606, 1.6083915, 0.017298595},
+                                            {0.009002569, -0.0035668764, 0.9136433}},
+                                           {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     double x = xyz[0], y = xyz[1], z = xyz[2]; /* the caller may convert in place */
     int good = 1, i;
     if ((unsigned)space >= 4) return WELKIN_ERROR_RANGE;
@@ -2745,7 +2751,7 @@ WELKIN_API welkin_error welkin_rgb(welkin_colour_space space, const double xyz[3
 #define WELKIN__HEIGHT_SCALE 0.06 /* rad: how wide the dense parts of the coordinates are */
 #define WELKIN__AZIMUTH_SCALE 0.8
 #define WELKIN__BESIDE_HORIZON 1e-11 /* rad: where the sides of the horizon are looked at */
-#define WELKIN__EVEN_SHARE 1e-3     /* of samples, over all cells alike: what is dark at the corners may not be within */
+#define WELKIN__EVEN_SHARE 1e-3 /* of samples, over all cells alike: what is dark at the corners may not be within */
 
 /* asinh, faster and less exact near 0, where nothing depends on it. */
 static double welkin__asinh(double x) { return log(x + sqrt(x * x + 1)); }
@@ -2817,11 +2823,10 @@ static welkin_error welkin__find_place(const welkin_baked *b, const double direc
     along = v[0] * b->cos_azimuth + v[1] * b->sin_azimuth;
     across = v[1] * b->cos_azimuth - v[0] * b->sin_azimuth;
     place->up = height >= 0;
-    place->row = place->up
-                     ? welkin__intervals_before(welkin__up_coordinate(b, height), b->up_end, b->resolution.up)
-                     : welkin__intervals_before(welkin__from_horizon(-height), b->down_end, b->resolution.down);
-    place->column = welkin__intervals_before(welkin__asinh(atan2(fabs(across), along) / WELKIN__AZIMUTH_SCALE), b->azimuth_end,
-                                             b->resolution.azimuths);
+    place->row = place->up ? welkin__intervals_before(welkin__up_coordinate(b, height), b->up_end, b->resolution.up)
+                           : welkin__intervals_before(welkin__from_horizon(-height), b->down_end, b->resolution.down);
+    place->column = welkin__intervals_before(welkin__asinh(atan2(fabs(across), along) / WELKIN__AZIMUTH_SCALE),
+                                             b->azimuth_end, b->resolution.azimuths);
     return WELKIN_OK;
 }
 
@@ -2876,7 +2881,8 @@ static welkin_error welkin__look_up(const welkin_baked *b, const double directio
         float weight[4];
         for (j = 0; j < 4; j++) weight[j] = (float)(row.weight[i] * column.weight[j]);
         welkin__add_rows(values, b->root + (first + column.row[0]) * nc, b->root + (first + column.row[1]) * nc,
-                         b->root + (first + column.row[2]) * nc, b->root + (first + column.row[3]) * nc, weight, b->channels);
+                         b->root + (first + column.row[2]) * nc, b->root + (first + column.row[3]) * nc, weight,
+                         b->channels);
     }
     for (c = 0; c < nc; c++) values[c] = welkin__narrow((double)values[c] * (double)values[c]);
     return WELKIN_OK;
@@ -2900,9 +2906,15 @@ WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const d
     return baked->resolution.spectral ? welkin__look_up(baked, direction, radiance) : WELKIN_ERROR_MISSING;
 }
 
-static size_t welkin__baked_nodes(const welkin_resolution *r) { return (size_t)(r->up + r->down + 2) * (r->azimuths + 1); }
+static size_t welkin__baked_nodes(const welkin_resolution *r)
+{
+    return (size_t)(r->up + r->down + 2) * (r->azimuths + 1);
+}
 
-static size_t welkin__bake_channels(const welkin_file *f, const welkin_resolution *r) { return r->spectral ? f->wavelengths : 3; }
+static size_t welkin__bake_channels(const welkin_file *f, const welkin_resolution *r)
+{
+    return r->spectral ? f->wavelengths : 3;
+}
 
 WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *r)
 {
@@ -3044,7 +3056,8 @@ static void welkin__spread(uint32_t index, double direction[3])
     direction[2] = sine;
 }
 
-static double welkin__direction_error(const welkin_baked *b, const double *exact, const float *baked, const double *least)
+static double welkin__direction_error(const welkin_baked *b, const double *exact, const float *baked,
+                                      const double *least)
 {
     double largest = 0;
     uint32_t c;
@@ -3115,11 +3128,13 @@ static uint32_t welkin__invert(const float *cumulative, uint32_t n, double u, do
 
 WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3], double *pdf)
 {
-    uint32_t rows = baked->resolution.up + baked->resolution.down, columns = baked->resolution.azimuths, row, column, node;
+    uint32_t rows = baked->resolution.up + baked->resolution.down, columns = baked->resolution.azimuths;
+    uint32_t row, column, node;
     double side = u2 < 0.5 ? 1 : -1, along, across, low, sine, azimuth;
     if (!welkin__within(u1, 0, 1) || !welkin__within(u2, 0, 1)) return WELKIN_ERROR_RANGE;
     row = welkin__invert(baked->marginal, rows, u1, &along);
-    column = welkin__invert(baked->conditional + (size_t)row * (columns + 1), columns, u2 < 0.5 ? 2 * u2 : 2 * u2 - 1, &across);
+    column = welkin__invert(baked->conditional + (size_t)row * (columns + 1), columns, u2 < 0.5 ? 2 * u2 : 2 * u2 - 1,
+                            &across);
     node = welkin__node_row(baked, row);
     low = sin(welkin__row_elevation(baked, node));
     sine = low + along * (sin(welkin__row_elevation(baked, node + 1)) - low);
