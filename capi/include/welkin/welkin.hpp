@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -94,6 +95,19 @@ private:
     T *data_;
     std::size_t size_;
 };
+
+namespace detail {
+
+// The common size of two arrays.
+inline std::size_t same(std::size_t a, std::size_t b) {
+    if (a == b) return a;
+    WelkinError error{};
+    error.status = WELKIN_STATUS_LENGTH;
+    std::snprintf(error.text, sizeof error.text, "arrays of %zu and %zu elements belong together", a, b);
+    throw Error(error);
+}
+
+}  // namespace detail
 
 // Directions as three arrays, the fastest way for batches.
 struct Directions {
@@ -302,9 +316,11 @@ public:
         return radiance;
     }
     // As many wavelengths and radiances as directions.
-    void hero(const Directions &d, const Four *wavelengths, Four *radiance) const {
-        detail::call(welkin_baked_sky_hero_soa, get(), d.x, d.y, d.z, reinterpret_cast<const float *>(wavelengths),
-                     d.size, reinterpret_cast<float *>(radiance));
+    void hero(const Directions &d, Span<const Four> wavelengths, Span<Four> radiance) const {
+        const std::size_t size = detail::same(detail::same(d.size, wavelengths.size()), radiance.size());
+        detail::call(welkin_baked_sky_hero_soa, get(), d.x, d.y, d.z,
+                     reinterpret_cast<const float *>(wavelengths.data()), size,
+                     reinterpret_cast<float *>(radiance.data()));
     }
     void irradiance(const Vec3 &normal, Span<float> out) const {
         detail::call(welkin_baked_sky_irradiance, get(), normal.data(), out.data(), out.size());
@@ -353,9 +369,9 @@ public:
         detail::call(welkin_sky_sampler_sample, get(), point.data(), &sample);
         return sample;
     }
-    void sample(Span<const std::array<float, 2>> points, Sample *samples) const {
+    void sample(Span<const std::array<float, 2>> points, Span<Sample> samples) const {
         detail::call(welkin_sky_sampler_sample_batch, get(), reinterpret_cast<const float *>(points.data()),
-                     points.size(), samples);
+                     detail::same(points.size(), samples.size()), samples.data());
     }
     float pdf(const Vec3 &direction) const {
         float pdf = 0;
@@ -392,13 +408,14 @@ public:
         return rgb;
     }
     // As many colours as directions.
-    void rgb(Span<const Vec3> directions, Vec3 *out, Space space = Space::srgb) const {
+    void rgb(Span<const Vec3> directions, Span<Vec3> out, Space space = Space::srgb) const {
         detail::call(welkin_baked_colour_sky_rgb_batch, get(), reinterpret_cast<const float *>(directions.data()),
-                     directions.size(), static_cast<std::int32_t>(space), reinterpret_cast<float *>(out));
+                     detail::same(directions.size(), out.size()), static_cast<std::int32_t>(space),
+                     reinterpret_cast<float *>(out.data()));
     }
-    void rgb(const Directions &d, Vec3 *out, Space space = Space::srgb) const {
-        detail::call(welkin_baked_colour_sky_rgb_soa, get(), d.x, d.y, d.z, d.size, static_cast<std::int32_t>(space),
-                     reinterpret_cast<float *>(out));
+    void rgb(const Directions &d, Span<Vec3> out, Space space = Space::srgb) const {
+        detail::call(welkin_baked_colour_sky_rgb_soa, get(), d.x, d.y, d.z, detail::same(d.size, out.size()),
+                     static_cast<std::int32_t>(space), reinterpret_cast<float *>(out.data()));
     }
     SkySampler sampler() const { return SkySampler(SkySampler::make(welkin_baked_colour_sky_sampler, get(), no_disc())); }
     SkySampler sampler(const SolarDisc &disc) const {
@@ -593,11 +610,11 @@ public:
     // Both outputs have an element per wavelength.
     void in_scattering(const Point &from, const Point &to, Span<float> in_scattering, Span<float> transmittance) const {
         detail::call(welkin_aerial_perspective_in_scattering, get(), from.data(), to.data(), in_scattering.data(),
-                     transmittance.data(), same(in_scattering, transmittance));
+                     transmittance.data(), detail::same(in_scattering.size(), transmittance.size()));
     }
     void joined(const Sky &sky, const Point &to, Span<float> in_scattering, Span<float> transmittance) const {
         detail::call(welkin_aerial_perspective_joined_in_scattering, get(), sky.get(), to.data(), in_scattering.data(),
-                     transmittance.data(), same(in_scattering, transmittance));
+                     transmittance.data(), detail::same(in_scattering.size(), transmittance.size()));
     }
     float in_scattering_at(const Point &from, const Point &to, double wavelength) const {
         float value = 0;
@@ -622,10 +639,6 @@ public:
                      static_cast<const WelkinPolarisationFrame *>(&frame), seen.light.data(), seen.factors.data());
         return seen;
     }
-
-private:
-    // Outputs of different sizes are refused by the library, as no model has so many wavelengths.
-    static std::size_t same(Span<float> a, Span<float> b) noexcept { return a.size() == b.size() ? a.size() : SIZE_MAX; }
 };
 
 class ColourAerialPerspective
@@ -641,16 +654,18 @@ public:
         return seen;
     }
     // As many lights and factors as distances.
-    void srgb_along(const Point &from, const Point &direction, Span<const double> distances, Vec3 *light,
-                    Vec3 *factors) const {
+    void srgb_along(const Point &from, const Point &direction, Span<const double> distances, Span<Vec3> light,
+                    Span<Vec3> factors) const {
+        const std::size_t size = detail::same(detail::same(distances.size(), light.size()), factors.size());
         detail::call(welkin_colour_aerial_perspective_srgb_along, get(), from.data(), direction.data(),
-                     distances.data(), distances.size(), reinterpret_cast<float *>(light),
-                     reinterpret_cast<float *>(factors));
+                     distances.data(), size, reinterpret_cast<float *>(light.data()),
+                     reinterpret_cast<float *>(factors.data()));
     }
-    void srgb_volume(const CameraVolume &volume, Vec3 *light, Vec3 *factors, std::size_t count) const {
+    // Rows × columns × depths lights and factors.
+    void srgb_volume(const CameraVolume &volume, Span<Vec3> light, Span<Vec3> factors) const {
         detail::call(welkin_colour_aerial_perspective_srgb_volume, get(),
-                     static_cast<const WelkinCameraVolume *>(&volume), reinterpret_cast<float *>(light),
-                     reinterpret_cast<float *>(factors), count);
+                     static_cast<const WelkinCameraVolume *>(&volume), reinterpret_cast<float *>(light.data()),
+                     reinterpret_cast<float *>(factors.data()), detail::same(light.size(), factors.size()));
     }
 };
 
