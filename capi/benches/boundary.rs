@@ -15,12 +15,15 @@ const ROUNDS: usize = 41;
 
 type Error = *mut WelkinError;
 
-/// A function of the shared library.
+/// A function of the shared library, which must have this type.
+fn find<'a, T>(library: &'a Library, name: &str) -> Symbol<'a, T> {
+    // SAFETY: the types below are those of the functions.
+    unsafe { library.get(name.as_bytes()).unwrap() }
+}
+
 macro_rules! symbol {
-    ($library:ident, $name:ident: fn($($argument:ty),*) $(-> $result:ty)?) => {
-        // SAFETY: the type is that of the function.
-        let $name: Symbol<unsafe extern "C" fn($($argument),*) $(-> $result)?> =
-            unsafe { $library.get(stringify!($name).as_bytes()).unwrap() };
+    ($library:ident, $name:ident: fn($($argument:ty),*) -> $result:ty) => {
+        let $name = find::<unsafe extern "C" fn($($argument),*) -> $result>(&$library, stringify!($name));
     };
 }
 

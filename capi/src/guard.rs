@@ -91,9 +91,10 @@ impl fmt::Display for Failure {
 #[inline(always)]
 pub fn guard(error: *mut WelkinError, body: impl FnOnce() -> Outcome<()>) -> WelkinStatus {
     let outcome = catch_unwind(AssertUnwindSafe(body));
-    // SAFETY: the caller of each function hands over null or a WelkinError; one that is not aligned is left alone.
     let error = match error.is_aligned() {
+        // SAFETY: the caller of each function hands over null or a WelkinError.
         true => unsafe { error.as_mut() },
+        // Left alone.
         false => None,
     };
     match outcome {

@@ -100,7 +100,7 @@ fn arrays_of_wrong_lengths_alignments_and_places_are_refused() {
     }
     bad!(Length: welkin_sky_wavelengths(scene.sky, [0.0; 1].as_mut_ptr(), 1));
     bad!(Length: welkin_sky_radiance_batch(scene.sky, d, 1, p, scene.count + 1));
-    bad!(Length: welkin_baked_colour_sky_rgb_batch(scene.baked, d, usize::MAX / 2, 0, p));
+    bad!(Length: welkin_sky_radiance(scene.sky, d, p, usize::MAX / 2));
     let crooked = p.wrapping_byte_add(1);
     bad!(Alignment: welkin_sky_radiance(scene.sky, d, crooked, scene.count));
     bad!(Alignment: welkin_sky_xyz(scene.sky, crooked, p));
