@@ -67,7 +67,7 @@ fn main() {
     let so = unsafe { Library::new(path()) }.expect("cargo build --release comes first");
     symbol!(so, welkin_model_default: fn(*mut *mut WelkinModel, Error) -> i32);
     symbol!(so, welkin_conditions_init: fn(*mut WelkinConditions, u64, Error) -> i32);
-    symbol!(so, welkin_sky_prepare: fn(*mut WelkinModel, *const WelkinConditions, *mut *mut WelkinSky, Error) -> i32);
+    symbol!(so, welkin_sky_new: fn(*mut WelkinModel, *const WelkinConditions, *mut *mut WelkinSky, Error) -> i32);
     symbol!(so, welkin_sky_bake: fn(*mut WelkinSky, f64, *mut *mut WelkinBakedSky, Error) -> i32);
     symbol!(so, welkin_sky_bake_colour: fn(*mut WelkinSky, f64, *mut *mut WelkinBakedColourSky, Error) -> i32);
     type Colour = *mut WelkinBakedColourSky;
@@ -123,7 +123,7 @@ fn main() {
         let statuses = [
             welkin_conditions_init(&mut given, size_of::<WelkinConditions>() as u64, e),
             welkin_model_default(&mut model, e),
-            welkin_sky_prepare(model, &given, &mut sky, e),
+            welkin_sky_new(model, &given, &mut sky, e),
             welkin_sky_bake(sky, BakedSky::TOLERANCE, &mut spectral, e),
             welkin_sky_bake_colour(sky, BakedSky::TOLERANCE, &mut colour, e),
             welkin_model_plan(model, &budget, &mut plan, e),

@@ -29,7 +29,7 @@ int main(void)
 
     WelkinColourSky *sky;
     WelkinBakedColourSky *baked;
-    check(welkin_colour_sky_prepare(model, &conditions, &sky, &error), &error);
+    check(welkin_colour_sky_new(model, &conditions, &sky, &error), &error);
     check(welkin_colour_sky_bake(sky, WELKIN_BAKE_TOLERANCE, &baked, &error), &error);
 
     puts("elevation    linear sRGB, cd/m2, away from the sun");
@@ -44,7 +44,7 @@ int main(void)
     /* What the model does not cover is refused. */
     conditions.visibility = 50.0;
     WelkinSky *fog;
-    if (welkin_sky_prepare(model, &conditions, &fog, &error) != WELKIN_STATUS_RANGE || fog != NULL) {
+    if (welkin_sky_new(model, &conditions, &fog, &error) != WELKIN_STATUS_RANGE || fog != NULL) {
         return EXIT_FAILURE;
     }
     printf("fog: %s\n", error.text);

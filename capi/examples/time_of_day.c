@@ -27,7 +27,7 @@ static float baked_anew(const WelkinModel *model, WelkinConditions conditions, d
     WelkinBakedColourSky *baked;
     float xyz[3];
     conditions.solar_elevation = elevation;
-    check(welkin_colour_sky_prepare(model, &conditions, &sky, &error), &error);
+    check(welkin_colour_sky_new(model, &conditions, &sky, &error), &error);
     check(welkin_colour_sky_bake(sky, WELKIN_BAKE_TOLERANCE, &baked, &error), &error);
     check(welkin_baked_colour_sky_xyz(baked, zenith, xyz, &error), &error);
     welkin_baked_colour_sky_free(baked);
@@ -46,7 +46,7 @@ int main(void)
 
     const double elevations[2] = {5.0 * DEGREE, 30.0 * DEGREE};
     WelkinSunCourse *course;
-    check(welkin_sun_course_prepare(model, &conditions, elevations, WELKIN_BAKE_TOLERANCE, &course, &error), &error);
+    check(welkin_sun_course_new(model, &conditions, elevations, WELKIN_BAKE_TOLERANCE, &course, &error), &error);
     printf("%zu skies, %zu kB\n", welkin_sun_course_skies(course), welkin_sun_course_bytes(course) / 1000);
 
     WelkinBakedColourSky *sky;

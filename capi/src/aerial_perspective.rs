@@ -21,9 +21,9 @@ pub struct WelkinAerialPerspective(pub(crate) AerialPerspective);
 
 /// Prepares the air of a scene, of which the altitude of the conditions plays no part.
 ///
-/// Errors as of welkin_sky_prepare.
+/// Errors as of welkin_sky_new.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_aerial_perspective_prepare(
+pub unsafe extern "C" fn welkin_aerial_perspective_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     aerial: *mut *mut WelkinAerialPerspective,

@@ -44,9 +44,9 @@ unsafe impl Sized64 for WelkinCameraVolume {
     const LEAST: usize = size_of::<Self>();
 }
 
-/// Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_prepare.
+/// Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_new.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_colour_aerial_perspective_prepare(
+pub unsafe extern "C" fn welkin_colour_aerial_perspective_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     aerial: *mut *mut WelkinColourAerialPerspective,

@@ -11,9 +11,9 @@ use library::ColourSky;
 /// A sky for colour alone: only the wavelengths that X, Y and Z are made of are prepared, in half the time.
 pub struct WelkinColourSky(pub(crate) ColourSky);
 
-/// Prepares a sky for colour alone. Errors as of welkin_sky_prepare.
+/// Prepares a sky for colour alone. Errors as of welkin_sky_new.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_colour_sky_prepare(
+pub unsafe extern "C" fn welkin_colour_sky_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     sky: *mut *mut WelkinColourSky,

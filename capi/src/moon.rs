@@ -118,9 +118,9 @@ pub struct WelkinSkySum(SkySum);
 
 /// Prepares the sky of sun and moon. One that is too far below the horizon adds nothing.
 ///
-/// Errors as of welkin_sky_prepare and welkin_model_moonlit.
+/// Errors as of welkin_sky_new and welkin_model_moonlit.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_sky_sum_prepare(
+pub unsafe extern "C" fn welkin_sky_sum_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     moon: *const WelkinMoon,

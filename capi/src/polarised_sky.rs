@@ -13,9 +13,9 @@ use library::{PolarisedSky, Stokes};
 /// A sky with its linear polarisation.
 pub struct WelkinPolarisedSky(pub(crate) PolarisedSky);
 
-/// Prepares a polarised sky. Errors as of welkin_sky_prepare; WELKIN_STATUS_MISSING if the model is not polarised.
+/// Prepares a polarised sky. Errors as of welkin_sky_new; WELKIN_STATUS_MISSING if the model is not polarised.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_polarised_sky_prepare(
+pub unsafe extern "C" fn welkin_polarised_sky_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     sky: *mut *mut WelkinPolarisedSky,

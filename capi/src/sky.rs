@@ -19,7 +19,7 @@ pub struct WelkinSky(pub(crate) Sky);
 /// Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they need;
 /// those of a damaged file. The new handle does not need the model any more.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_sky_prepare(
+pub unsafe extern "C" fn welkin_sky_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     sky: *mut *mut WelkinSky,

@@ -11,9 +11,9 @@ use library::SolarDisc;
 /// The sun's disc as an observer sees it through the air, with limb darkening, as far as it is above the horizon.
 pub struct WelkinSolarDisc(pub(crate) SolarDisc);
 
-/// Prepares the sun's disc. Errors as of welkin_sky_prepare.
+/// Prepares the sun's disc. Errors as of welkin_sky_new.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_solar_disc_prepare(
+pub unsafe extern "C" fn welkin_solar_disc_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     disc: *mut *mut WelkinSolarDisc,

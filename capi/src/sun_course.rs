@@ -12,9 +12,9 @@ use library::SunCourse;
 pub struct WelkinSunCourse(pub(crate) SunCourse);
 
 /// Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does not
-/// count. Takes as long as baking some tens of skies. Errors as of welkin_sky_prepare and welkin_sky_bake.
+/// count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn welkin_sun_course_prepare(
+pub unsafe extern "C" fn welkin_sun_course_new(
     model: *const WelkinModel,
     conditions: *const WelkinConditions,
     elevations: *const f64,

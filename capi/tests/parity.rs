@@ -1,5 +1,10 @@
 //! What comes through the interface is what the library says, bit for bit.
 
+#![allow(
+    clippy::macro_metavars_in_unsafe,
+    reason = "the macros of the tests are such calls"
+)]
+
 mod common;
 
 use std::ptr::{null, null_mut};
@@ -69,7 +74,7 @@ fn same(a: &[f32], b: &[f32]) {
 fn skies() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
-    let sky = make!(welkin_sky_prepare(model, &given));
+    let sky = make!(welkin_sky_new(model, &given));
     let expected = library.sky(&own).unwrap();
     // SAFETY: the handles are alive.
     let n = unsafe { welkin_sky_wavelength_count(sky) };
@@ -142,7 +147,7 @@ fn skies() {
 fn baked_spectra() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
-    let sky = make!(welkin_sky_prepare(model, &given));
+    let sky = make!(welkin_sky_new(model, &given));
     let baked = make!(welkin_sky_bake(sky, WELKIN_BAKE_TOLERANCE));
     let expected = library
         .sky(&own)
@@ -249,7 +254,7 @@ fn baked_spectra() {
 fn baked_colours_and_draws() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
-    let sky = make!(welkin_colour_sky_prepare(model, &given));
+    let sky = make!(welkin_colour_sky_new(model, &given));
     let baked = make!(welkin_colour_sky_bake(sky, WELKIN_BAKE_TOLERANCE));
     let expected_sky = library.colour_sky(&own).unwrap();
     let expected = expected_sky.bake(BakedSky::TOLERANCE).unwrap();
@@ -318,7 +323,7 @@ fn baked_colours_and_draws() {
             same(&rgb, &space.from_xyz(expected_sky.xyz(direction).unwrap()));
         }
     }
-    let disc = make!(welkin_solar_disc_prepare(model, &given));
+    let disc = make!(welkin_solar_disc_new(model, &given));
     let expected_disc = library.solar_disc(&own).unwrap();
     for (disc, sampler) in [
         (null(), expected.sampler()),
@@ -421,7 +426,7 @@ fn baked_colours_and_draws() {
 fn polarisation() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
-    let sky = make!(welkin_polarised_sky_prepare(model, &given));
+    let sky = make!(welkin_polarised_sky_new(model, &given));
     let baked = make!(welkin_polarised_sky_bake(sky, WELKIN_BAKE_TOLERANCE));
     let expected = library.polarised_sky(&own).unwrap();
     let expected_baked = expected.bake(BakedSky::TOLERANCE).unwrap();
@@ -467,10 +472,8 @@ fn polarisation() {
                 expected.stokes_at(direction, frame, 512.5).unwrap().into()
             );
             // SAFETY: a struct of the test.
-            assert_eq!(
-                unsafe { welkin_stokes_degree(&one) },
-                stokes(&[one])[0].degree()
-            );
+            let degree = unsafe { welkin_stokes_degree(&one) };
+            assert_eq!(degree, stokes(&[one])[0].degree());
             let mut xyz = [WelkinStokes::default(); 3];
             good!(welkin_polarised_sky_xyz(
                 sky,
@@ -612,8 +615,8 @@ fn air() {
         &[expected.transmittance_at(from, to, 555.5).unwrap()],
     );
 
-    let aerial = make!(welkin_aerial_perspective_prepare(model, &given));
-    let sky = make!(welkin_sky_prepare(model, &given));
+    let aerial = make!(welkin_aerial_perspective_new(model, &given));
+    let sky = make!(welkin_sky_new(model, &given));
     let expected = library.aerial_perspective(&own).unwrap();
     let expected_sky = library.sky(&own).unwrap();
     let joined = expected.joined_to(&expected_sky).unwrap();
@@ -775,7 +778,7 @@ fn air() {
         same(&q, &wq);
         same(&left, &wl);
     }
-    let polarised = make!(welkin_polarised_sky_prepare(model, &given));
+    let polarised = make!(welkin_polarised_sky_new(model, &given));
     let mut three = [WelkinStokes::default(); 3];
     let (s, k) = (three.as_mut_ptr(), factors.as_mut_ptr());
     good!(welkin_aerial_perspective_joined_srgb_stokes(
@@ -806,7 +809,7 @@ fn air() {
 fn air_in_colour() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
-    let aerial = make!(welkin_colour_aerial_perspective_prepare(model, &given));
+    let aerial = make!(welkin_colour_aerial_perspective_new(model, &given));
     let expected = library.colour_aerial_perspective(&own).unwrap();
     let (from, direction, distances) = ([0.0, 0.0, 100.0], [1.0, 0.3, 0.1], [1e2, 1e3, 1e4]);
     let [mut light, mut factors, mut wanted, mut wanted_factors] = [[[0.0; 3]; 3]; 4];
@@ -873,7 +876,7 @@ fn suns_that_move_and_the_moon() {
     let (given, own) = conditions();
     let (model, library) = (default_model(), model());
     let elevations = [0.3, 0.45];
-    let course = make!(welkin_sun_course_prepare(
+    let course = make!(welkin_sun_course_new(
         model,
         &given,
         elevations.as_ptr(),
@@ -911,7 +914,7 @@ fn suns_that_move_and_the_moon() {
         (moon.elevation, moon.distance),
         (own_moon.elevation, own_moon.distance)
     );
-    let sum = make!(welkin_sky_sum_prepare(model, &given, &moon));
+    let sum = make!(welkin_sky_sum_new(model, &given, &moon));
     let wanted = library.sky_with_moon(&own, &own_moon).unwrap();
     good!(welkin_sky_sum_xyz(
         sum,
@@ -920,7 +923,7 @@ fn suns_that_move_and_the_moon() {
     ));
     same(&rgb, &wanted.xyz(DIRECTIONS[1]).unwrap());
     let moonlit = make!(welkin_model_moonlit(model, &moon));
-    let night = make!(welkin_sky_prepare(moonlit, &given));
+    let night = make!(welkin_sky_new(moonlit, &given));
     let wanted = library.moonlit(&own_moon).unwrap().sky(&own).unwrap();
     good!(welkin_sky_xyz(
         night,

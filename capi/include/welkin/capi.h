@@ -737,12 +737,12 @@ WelkinStatus welkin_check_abi(const struct WelkinAbi *compiled, struct WelkinErr
 /**
  * Prepares the air of a scene, of which the altitude of the conditions plays no part.
  *
- * Errors as of welkin_sky_prepare.
+ * Errors as of welkin_sky_new.
  */
-WelkinStatus welkin_aerial_perspective_prepare(const struct WelkinModel *model,
-                                               const struct WelkinConditions *conditions,
-                                               struct WelkinAerialPerspective **aerial,
-                                               struct WelkinError *error);
+WelkinStatus welkin_aerial_perspective_new(const struct WelkinModel *model,
+                                           const struct WelkinConditions *conditions,
+                                           struct WelkinAerialPerspective **aerial,
+                                           struct WelkinError *error);
 
 /**
  * Frees an aerial perspective; null is none.
@@ -1331,12 +1331,12 @@ WelkinStatus welkin_baked_sky_irradiance(const struct WelkinBakedSky *baked,
                                          struct WelkinError *error);
 
 /**
- * Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_prepare.
+ * Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_new.
  */
-WelkinStatus welkin_colour_aerial_perspective_prepare(const struct WelkinModel *model,
-                                                      const struct WelkinConditions *conditions,
-                                                      struct WelkinColourAerialPerspective **aerial,
-                                                      struct WelkinError *error);
+WelkinStatus welkin_colour_aerial_perspective_new(const struct WelkinModel *model,
+                                                  const struct WelkinConditions *conditions,
+                                                  struct WelkinColourAerialPerspective **aerial,
+                                                  struct WelkinError *error);
 
 /**
  * Frees an aerial perspective; null is none.
@@ -1411,12 +1411,12 @@ WelkinStatus welkin_colour_aerial_perspective_srgb_volume(const struct WelkinCol
                                                           struct WelkinError *error);
 
 /**
- * Prepares a sky for colour alone. Errors as of welkin_sky_prepare.
+ * Prepares a sky for colour alone. Errors as of welkin_sky_new.
  */
-WelkinStatus welkin_colour_sky_prepare(const struct WelkinModel *model,
-                                       const struct WelkinConditions *conditions,
-                                       struct WelkinColourSky **sky,
-                                       struct WelkinError *error);
+WelkinStatus welkin_colour_sky_new(const struct WelkinModel *model,
+                                   const struct WelkinConditions *conditions,
+                                   struct WelkinColourSky **sky,
+                                   struct WelkinError *error);
 
 /**
  * Frees a sky; null is none. What was baked of it lives on.
@@ -1591,13 +1591,13 @@ WelkinStatus welkin_model_moonlit(const struct WelkinModel *model,
 /**
  * Prepares the sky of sun and moon. One that is too far below the horizon adds nothing.
  *
- * Errors as of welkin_sky_prepare and welkin_model_moonlit.
+ * Errors as of welkin_sky_new and welkin_model_moonlit.
  */
-WelkinStatus welkin_sky_sum_prepare(const struct WelkinModel *model,
-                                    const struct WelkinConditions *conditions,
-                                    const struct WelkinMoon *moon,
-                                    struct WelkinSkySum **sum,
-                                    struct WelkinError *error);
+WelkinStatus welkin_sky_sum_new(const struct WelkinModel *model,
+                                const struct WelkinConditions *conditions,
+                                const struct WelkinMoon *moon,
+                                struct WelkinSkySum **sum,
+                                struct WelkinError *error);
 
 /**
  * Frees a sky; null is none.
@@ -1725,12 +1725,12 @@ WelkinStatus welkin_polarised_point_query_stokes_at(const struct WelkinPolarised
                                                     struct WelkinError *error);
 
 /**
- * Prepares a polarised sky. Errors as of welkin_sky_prepare; WELKIN_STATUS_MISSING if the model is not polarised.
+ * Prepares a polarised sky. Errors as of welkin_sky_new; WELKIN_STATUS_MISSING if the model is not polarised.
  */
-WelkinStatus welkin_polarised_sky_prepare(const struct WelkinModel *model,
-                                          const struct WelkinConditions *conditions,
-                                          struct WelkinPolarisedSky **sky,
-                                          struct WelkinError *error);
+WelkinStatus welkin_polarised_sky_new(const struct WelkinModel *model,
+                                      const struct WelkinConditions *conditions,
+                                      struct WelkinPolarisedSky **sky,
+                                      struct WelkinError *error);
 
 /**
  * Frees a sky; null is none. What was baked of it lives on.
@@ -1866,10 +1866,10 @@ WelkinStatus welkin_sky_sampler_xyz(const struct WelkinSkySampler *sampler,
  * Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they need;
  * those of a damaged file. The new handle does not need the model any more.
  */
-WelkinStatus welkin_sky_prepare(const struct WelkinModel *model,
-                                const struct WelkinConditions *conditions,
-                                struct WelkinSky **sky,
-                                struct WelkinError *error);
+WelkinStatus welkin_sky_new(const struct WelkinModel *model,
+                            const struct WelkinConditions *conditions,
+                            struct WelkinSky **sky,
+                            struct WelkinError *error);
 
 /**
  * Frees a sky; null is none. What was baked of it lives on.
@@ -1977,12 +1977,12 @@ WelkinStatus welkin_sky_rgb(const struct WelkinSky *sky,
                             struct WelkinError *error);
 
 /**
- * Prepares the sun's disc. Errors as of welkin_sky_prepare.
+ * Prepares the sun's disc. Errors as of welkin_sky_new.
  */
-WelkinStatus welkin_solar_disc_prepare(const struct WelkinModel *model,
-                                       const struct WelkinConditions *conditions,
-                                       struct WelkinSolarDisc **disc,
-                                       struct WelkinError *error);
+WelkinStatus welkin_solar_disc_new(const struct WelkinModel *model,
+                                   const struct WelkinConditions *conditions,
+                                   struct WelkinSolarDisc **disc,
+                                   struct WelkinError *error);
 
 /**
  * Frees a disc; null is none.
@@ -2073,14 +2073,14 @@ const char *welkin_status_name(int32_t status);
 
 /**
  * Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does not
- * count. Takes as long as baking some tens of skies. Errors as of welkin_sky_prepare and welkin_sky_bake.
+ * count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
  */
-WelkinStatus welkin_sun_course_prepare(const struct WelkinModel *model,
-                                       const struct WelkinConditions *conditions,
-                                       const double *elevations,
-                                       double tolerance,
-                                       struct WelkinSunCourse **course,
-                                       struct WelkinError *error);
+WelkinStatus welkin_sun_course_new(const struct WelkinModel *model,
+                                   const struct WelkinConditions *conditions,
+                                   const double *elevations,
+                                   double tolerance,
+                                   struct WelkinSunCourse **course,
+                                   struct WelkinError *error);
 
 /**
  * Frees a course; null is none.

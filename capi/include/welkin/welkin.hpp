@@ -334,7 +334,7 @@ private:
 class SolarDisc : public detail::Handle<WelkinSolarDisc, welkin_solar_disc_free> {
 public:
     SolarDisc(const Model &model, const Conditions &conditions)
-        : Handle(make(welkin_solar_disc_prepare, model.get(), static_cast<const WelkinConditions *>(&conditions))) {}
+        : Handle(make(welkin_solar_disc_new, model.get(), static_cast<const WelkinConditions *>(&conditions))) {}
     bool is_visible() const noexcept { return welkin_solar_disc_is_visible(get()); }
     double solid_angle() const noexcept { return welkin_solar_disc_solid_angle(get()); }
     Vec3 direction() const {
@@ -432,7 +432,7 @@ private:
 
 class Sky : public detail::Prepared<WelkinSky, welkin_sky_free, detail::OfSky> {
 public:
-    Sky(const Model &model, const Conditions &conditions) : Prepared(prepare(welkin_sky_prepare, model, conditions)) {}
+    Sky(const Model &model, const Conditions &conditions) : Prepared(prepare(welkin_sky_new, model, conditions)) {}
     std::vector<double> wavelengths() const {
         return detail::wavelengths(welkin_sky_wavelength_count, welkin_sky_wavelengths, get());
     }
@@ -474,7 +474,7 @@ public:
 class ColourSky : public detail::Prepared<WelkinColourSky, welkin_colour_sky_free, detail::OfColourSky> {
 public:
     ColourSky(const Model &model, const Conditions &conditions)
-        : Prepared(prepare(welkin_colour_sky_prepare, model, conditions)) {}
+        : Prepared(prepare(welkin_colour_sky_new, model, conditions)) {}
     Vec3 xyz(const Vec3 &direction) const {
         Vec3 xyz{};
         detail::call(welkin_colour_sky_xyz, get(), direction.data(), xyz.data());
@@ -499,7 +499,7 @@ class SunCourse : public detail::Handle<WelkinSunCourse, welkin_sun_course_free>
 public:
     SunCourse(const Model &model, const Conditions &conditions, std::array<double, 2> elevations,
               double tolerance = WELKIN_BAKE_TOLERANCE)
-        : Handle(make(welkin_sun_course_prepare, model.get(), static_cast<const WelkinConditions *>(&conditions),
+        : Handle(make(welkin_sun_course_new, model.get(), static_cast<const WelkinConditions *>(&conditions),
                       static_cast<const double *>(elevations.data()), tolerance)) {}
     std::size_t skies() const noexcept { return welkin_sun_course_skies(get()); }
     std::size_t bytes() const noexcept { return welkin_sun_course_bytes(get()); }
@@ -539,7 +539,7 @@ private:
 class PolarisedSky : public detail::Prepared<WelkinPolarisedSky, welkin_polarised_sky_free, detail::OfPolarisedSky> {
 public:
     PolarisedSky(const Model &model, const Conditions &conditions)
-        : Prepared(prepare(welkin_polarised_sky_prepare, model, conditions)) {}
+        : Prepared(prepare(welkin_polarised_sky_new, model, conditions)) {}
     std::vector<double> wavelengths() const {
         return detail::wavelengths(welkin_polarised_sky_wavelength_count, welkin_polarised_sky_wavelengths, get());
     }
@@ -563,7 +563,7 @@ private:
 class SkySum : public detail::Handle<WelkinSkySum, welkin_sky_sum_free> {
 public:
     SkySum(const Model &model, const Conditions &conditions, const Moon &moon)
-        : Handle(make(welkin_sky_sum_prepare, model.get(), static_cast<const WelkinConditions *>(&conditions),
+        : Handle(make(welkin_sky_sum_new, model.get(), static_cast<const WelkinConditions *>(&conditions),
                       static_cast<const WelkinMoon *>(&moon))) {}
     void radiance(const Vec3 &direction, Span<float> out) const {
         detail::call(welkin_sky_sum_radiance, get(), direction.data(), out.data(), out.size());
@@ -602,7 +602,7 @@ class AerialPerspective
     : public detail::Prepared<WelkinAerialPerspective, welkin_aerial_perspective_free, detail::OfAerialPerspective> {
 public:
     AerialPerspective(const Model &model, const Conditions &conditions)
-        : Prepared(prepare(welkin_aerial_perspective_prepare, model, conditions)) {}
+        : Prepared(prepare(welkin_aerial_perspective_new, model, conditions)) {}
     std::vector<double> wavelengths() const {
         return detail::wavelengths(welkin_aerial_perspective_wavelength_count, welkin_aerial_perspective_wavelengths,
                                    get());
@@ -646,7 +646,7 @@ class ColourAerialPerspective
                               detail::OfColourAerialPerspective> {
 public:
     ColourAerialPerspective(const Model &model, const Conditions &conditions)
-        : Prepared(prepare(welkin_colour_aerial_perspective_prepare, model, conditions)) {}
+        : Prepared(prepare(welkin_colour_aerial_perspective_new, model, conditions)) {}
     Seen rgb(const Point &from, const Point &to, Space space = Space::srgb) const {
         Seen seen{};
         detail::call(welkin_colour_aerial_perspective_rgb, get(), from.data(), to.data(),
