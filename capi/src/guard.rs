@@ -163,3 +163,46 @@ macro_rules! free {
     };
 }
 pub(crate) use free;
+
+#[cfg(test)]
+mod tests {
+    use super::{guard, report};
+    use crate::status::{WelkinError, WelkinStatus};
+
+    #[test]
+    fn panics_become_a_status() {
+        let mut error = WelkinError {
+            status: 0,
+            text: [0; 256],
+        };
+        let status = guard(&raw mut error, || panic!("on purpose"));
+        assert_eq!(
+            (status, error.status),
+            (WelkinStatus::Panic, WelkinStatus::Panic as i32)
+        );
+        assert_ne!(error.text[0], 0);
+        assert_eq!(
+            guard(std::ptr::null_mut(), || panic!("on purpose")),
+            WelkinStatus::Panic
+        );
+    }
+
+    #[test]
+    fn texts_are_cut_between_characters() {
+        let mut error = WelkinError {
+            status: 0,
+            text: [1; 256],
+        };
+        for n in 0..300 {
+            let text = "ö".repeat(n) + "\0é";
+            report(Some(&mut error), WelkinStatus::Value, &text);
+            let bytes: Vec<u8> = error
+                .text
+                .iter()
+                .map(|&c| c as u8)
+                .take_while(|&c| c != 0)
+                .collect();
+            assert!(bytes.len() <= 255 && std::str::from_utf8(&bytes).is_ok());
+        }
+    }
+}
