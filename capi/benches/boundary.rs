@@ -74,13 +74,16 @@ fn main() {
     symbol!(so, welkin_baked_colour_sky_rgb: fn(Colour, *const f32, i32, *mut f32, Error) -> i32);
     symbol!(so, welkin_baked_colour_sky_rgb_batch: fn(Colour, *const f32, usize, i32, *mut f32, Error) -> i32);
     type Floats = *const f32;
-    symbol!(so, welkin_baked_colour_sky_rgb_soa: fn(Colour, Floats, Floats, Floats, usize, i32, *mut f32, Error) -> i32);
+    symbol!(so, welkin_baked_colour_sky_rgb_soa:
+        fn(Colour, Floats, Floats, Floats, usize, i32, *mut f32, Error) -> i32);
     type Spectral = *mut WelkinBakedSky;
     symbol!(so, welkin_baked_sky_radiance: fn(Spectral, *const f32, *mut f32, usize, Error) -> i32);
-    symbol!(so, welkin_baked_sky_radiance_soa: fn(Spectral, Floats, Floats, Floats, usize, *mut f32, usize, Error) -> i32);
+    symbol!(so, welkin_baked_sky_radiance_soa:
+        fn(Spectral, Floats, Floats, Floats, usize, *mut f32, usize, Error) -> i32);
     symbol!(so, welkin_baked_sky_hero: fn(Spectral, *const f32, *const f32, *mut f32, Error) -> i32);
     symbol!(so, welkin_model_plan: fn(*mut WelkinModel, *const WelkinBudget, *mut *mut WelkinPlan, Error) -> i32);
-    symbol!(so, welkin_point_query_new: fn(*mut WelkinModel, *mut WelkinPlan, *mut *mut WelkinPointQuery, Error) -> i32);
+    symbol!(so, welkin_point_query_new:
+        fn(*mut WelkinModel, *mut WelkinPlan, *mut *mut WelkinPointQuery, Error) -> i32);
     symbol!(so, welkin_point_query_radiance:
         fn(*mut WelkinPointQuery, *const WelkinConditions, *const f32, *mut f32, usize, Error) -> i32);
 

@@ -1,6 +1,6 @@
-// What a renderer asks a sky for, in one small picture: a white ball on a grey plain, lit by sky and sun with importance
-// sampling and multiple importance sampling, at hero wavelengths, seen through the air, before the sky. Writes ball.ppm
-// (or the file that is its argument) and prints Stokes vectors of four heroes.
+// What a renderer asks a sky for, in one small picture: a white ball on a grey plain before the sky, lit by sky and
+// sun with multiple importance sampling, seen through the air. Writes ball.ppm (or the file that is its argument) and
+// prints radiance and polarisation at four hero wavelengths.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -92,7 +92,8 @@ void write_ppm(const std::string &path, const std::vector<Vec3> &picture, float 
     if (file == nullptr) throw std::runtime_error("cannot write " + path);
     std::fprintf(file, "P6 %d %d 255\n", WIDTH, HEIGHT);
     for (const Vec3 &rgb : picture) {
-        const std::array<std::uint8_t, 3> bytes = {encode(rgb[0] / white), encode(rgb[1] / white), encode(rgb[2] / white)};
+        std::array<std::uint8_t, 3> bytes{};
+        for (std::size_t c = 0; c < 3; ++c) bytes[c] = encode(rgb[c] / white);
         std::fwrite(bytes.data(), 1, bytes.size(), file);
     }
     if (std::fclose(file) != 0) throw std::runtime_error("cannot write " + path);

@@ -15,8 +15,9 @@ use crate::structs::{
 };
 use library::AerialPerspective;
 
-/// Transmittance and in-scattered light of finite segments. Points are metres in the frame of WelkinTransmittance; a thing is
-/// seen as its radiance times the transmittance plus the in-scattered light. Nothing allocates after it is prepared.
+/// Transmittance and in-scattered light of finite segments. Points are metres in the frame of WelkinTransmittance; a
+/// thing is seen as its radiance times the transmittance plus the in-scattered light. Nothing allocates after it is
+/// prepared.
 pub struct WelkinAerialPerspective(pub(crate) AerialPerspective);
 
 /// Prepares the air of a scene, of which the altitude of the conditions plays no part.
@@ -54,7 +55,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_wavelength_count(
     ask!(aerial, |handle| handle.0.wavelengths().len())
 }
 
-/// Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_aerial_perspective_wavelength_count.
+/// Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
+/// welkin_aerial_perspective_wavelength_count.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_wavelengths(
     aerial: *const WelkinAerialPerspective,
@@ -88,8 +90,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_set_solar_azimuth(
     aerial: *mut WelkinAerialPerspective,
@@ -109,7 +111,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_reach(
     ask!(aerial, |handle| handle.0.reach())
 }
 
-/// Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and `transmittance[count]`, an element per wavelength.
+/// Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and
+/// `transmittance[count]`, an element per wavelength.
 ///
 /// Errors: WELKIN_STATUS_POINT for a point that is not finite, beyond 1e9 m or out of reach; WELKIN_STATUS_LENGTH.
 #[unsafe(no_mangle)]
@@ -156,8 +159,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_to_end(
     })
 }
 
-/// Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of which
-/// `count` is the number of floats of each. What precedes a bad point is written.
+/// Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of
+/// which `count` is the number of floats of each. What precedes a bad point is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_in_scattering_batch(
     aerial: *const WelkinAerialPerspective,
@@ -185,8 +188,9 @@ pub unsafe extern "C" fn welkin_aerial_perspective_in_scattering_batch(
     })
 }
 
-/// Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of a ray,
-/// each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number of floats.
+/// Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of
+/// a ray, each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number
+/// of floats.
 ///
 /// Errors also: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for distances that are negative or do not grow.
 #[unsafe(no_mangle)]
@@ -240,8 +244,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_in_scattering_at(
     })
 }
 
-/// CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by the
-/// sun, `factors[3]`.
+/// CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by
+/// the sun, `factors[3]`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_xyz(
     aerial: *const WelkinAerialPerspective,
@@ -260,7 +264,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_xyz(
     })
 }
 
-/// The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors + light`.
+/// The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors +
+/// light`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_rgb(
     aerial: *const WelkinAerialPerspective,
@@ -282,8 +287,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_rgb(
     })
 }
 
-/// The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a frame
-/// (null: the vertical one) at the start, and the transmittance.
+/// The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a
+/// frame (null: the vertical one) at the start, and the transmittance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_in_scattering_stokes(
     aerial: *const WelkinAerialPerspective,
@@ -311,7 +316,8 @@ pub unsafe extern "C" fn welkin_aerial_perspective_in_scattering_stokes(
     })
 }
 
-/// Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things, `factors[3]`.
+/// Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things,
+/// `factors[3]`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_rgb_stokes(
     aerial: *const WelkinAerialPerspective,
@@ -333,8 +339,9 @@ pub unsafe extern "C" fn welkin_aerial_perspective_rgb_stokes(
     })
 }
 
-/// As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light goes over
-/// into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky without a seam.
+/// As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light
+/// goes over into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky
+/// without a seam.
 ///
 /// Errors also: WELKIN_STATUS_RANGE if the sky has another sun, visibility or albedo.
 #[unsafe(no_mangle)]

@@ -47,8 +47,8 @@ pub unsafe extern "C" fn welkin_colour_sky_bake(
     })
 }
 
-/// Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun that
-/// moves, in half the time. The tolerance is kept about as well as `other` keeps it.
+/// Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun
+/// that moves, in half the time. The tolerance is kept about as well as `other` keeps it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_colour_sky_bake_like(
     sky: *const WelkinColourSky,
@@ -91,8 +91,8 @@ pub unsafe extern "C" fn welkin_baked_colour_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_colour_sky_set_solar_azimuth(
     baked: *mut WelkinBakedColourSky,
@@ -160,8 +160,8 @@ pub unsafe extern "C" fn welkin_baked_colour_sky_rgb(
     })
 }
 
-/// welkin_baked_colour_sky_xyz for many directions, `directions[count][3]`; `xyz[count][3]`. What precedes a bad direction
-/// may or may not be written.
+/// welkin_baked_colour_sky_xyz for many directions, `directions[count][3]`; `xyz[count][3]`. What precedes a bad
+/// direction may or may not be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_colour_sky_xyz_batch(
     baked: *const WelkinBakedColourSky,
@@ -207,8 +207,8 @@ pub unsafe extern "C" fn welkin_baked_colour_sky_xyz_soa(
     })
 }
 
-/// welkin_baked_colour_sky_rgb for many directions, `directions[count][3]`; `rgb[count][3]`. What precedes a bad direction
-/// may or may not be written.
+/// welkin_baked_colour_sky_rgb for many directions, `directions[count][3]`; `rgb[count][3]`. What precedes a bad
+/// direction may or may not be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_colour_sky_rgb_batch(
     baked: *const WelkinBakedColourSky,

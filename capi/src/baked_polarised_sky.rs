@@ -48,7 +48,8 @@ pub unsafe extern "C" fn welkin_baked_polarised_sky_wavelength_count(
     ask!(baked, |handle| handle.0.sky().wavelengths().len())
 }
 
-/// Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_baked_polarised_sky_wavelength_count.
+/// Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
+/// welkin_baked_polarised_sky_wavelength_count.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_polarised_sky_wavelengths(
     baked: *const WelkinBakedPolarisedSky,
@@ -82,8 +83,8 @@ pub unsafe extern "C" fn welkin_baked_polarised_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_polarised_sky_set_solar_azimuth(
     baked: *mut WelkinBakedPolarisedSky,
@@ -144,8 +145,8 @@ pub unsafe extern "C" fn welkin_baked_polarised_sky_radiance(
     })
 }
 
-/// Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, as three arrays `i[count]`, `q[count]`, `u[count]` with an element per wavelength, in a
-/// frame (null: the vertical one). Errors as of welkin_polarised_sky_stokes.
+/// Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, as three arrays `i[count]`, `q[count]`, `u[count]` with an element per wavelength,
+/// in a frame (null: the vertical one). Errors as of welkin_polarised_sky_stokes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_polarised_sky_stokes(
     baked: *const WelkinBakedPolarisedSky,
@@ -165,8 +166,8 @@ pub unsafe extern "C" fn welkin_baked_polarised_sky_stokes(
     })
 }
 
-/// The same for many directions as three arrays; the outputs are `[direction_count][wavelengths]`, of which `count` is the
-/// number of floats of each.
+/// The same for many directions as three arrays; the outputs are `[direction_count][wavelengths]`, of which `count` is
+/// the number of floats of each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_polarised_sky_stokes_soa(
     baked: *const WelkinBakedPolarisedSky,
@@ -216,8 +217,8 @@ pub unsafe extern "C" fn welkin_baked_polarised_sky_hero(
     })
 }
 
-/// The same for many directions: `directions[count][3]`, `wavelengths[count][4]`, `stokes[count][4]`. What precedes a bad one
-/// may or may not be written.
+/// The same for many directions: `directions[count][3]`, `wavelengths[count][4]`, `stokes[count][4]`. What precedes a
+/// bad one may or may not be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_polarised_sky_hero_batch(
     baked: *const WelkinBakedPolarisedSky,

@@ -10,8 +10,8 @@ use crate::status::{WelkinError, WelkinStatus};
 use crate::structs::{WelkinBakeError, WelkinConditions, put_conditions};
 use library::BakedSky;
 
-/// A sky as tables of some 50 kB per 16 wavelengths: many times faster than what it was made of, with a stated additional
-/// error. Nothing allocates.
+/// A sky as tables of some 50 kB per 16 wavelengths: many times faster than what it was made of, with a stated
+/// additional error. Nothing allocates.
 pub struct WelkinBakedSky(pub(crate) BakedSky);
 
 /// A tolerance of baking that is small against the error of the model itself.
@@ -81,8 +81,8 @@ pub unsafe extern "C" fn welkin_baked_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_sky_set_solar_azimuth(
     baked: *mut WelkinBakedSky,
@@ -177,8 +177,8 @@ pub unsafe extern "C" fn welkin_baked_sky_radiance_soa(
     })
 }
 
-/// Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path, `wavelengths[4]`,
-/// within the range of the model.
+/// Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path,
+/// `wavelengths[4]`, within the range of the model.
 ///
 /// Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for a wavelength.
 #[unsafe(no_mangle)]
@@ -254,8 +254,8 @@ pub unsafe extern "C" fn welkin_baked_sky_hero_soa(
     })
 }
 
-/// Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane with
-/// this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
+/// Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
+/// with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
 ///
 /// Errors as of welkin_baked_sky_radiance.
 #[unsafe(no_mangle)]

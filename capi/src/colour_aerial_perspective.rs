@@ -91,8 +91,8 @@ pub unsafe extern "C" fn welkin_colour_aerial_perspective_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_colour_aerial_perspective_set_solar_azimuth(
     aerial: *mut WelkinColourAerialPerspective,
@@ -145,8 +145,9 @@ pub unsafe extern "C" fn welkin_colour_aerial_perspective_rgb(
     })
 }
 
-/// In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`:
-/// `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of welkin_aerial_perspective_in_scattering_along.
+/// In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a
+/// `direction[3]`: `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of
+/// welkin_aerial_perspective_in_scattering_along.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_colour_aerial_perspective_srgb_along(
     aerial: *const WelkinColourAerialPerspective,
@@ -178,8 +179,8 @@ pub unsafe extern "C" fn welkin_colour_aerial_perspective_srgb_along(
     })
 }
 
-/// Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows × columns ×
-/// depths. On all cores where the library was built with rayon. Allocates.
+/// Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows ×
+/// columns × depths. On all cores where the library was built with rayon. Allocates.
 ///
 /// Errors also: WELKIN_STATUS_LENGTH for another count; WELKIN_STATUS_RANGE for depths that do not grow.
 #[unsafe(no_mangle)]

@@ -54,8 +54,8 @@ pub unsafe extern "C" fn welkin_colour_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_colour_sky_set_solar_azimuth(
     sky: *mut WelkinColourSky,

@@ -94,7 +94,8 @@ pub unsafe extern "C" fn welkin_moon_phase_angle(
 }
 
 /// The same model with the moon in place of the sun, as a new handle: skies, discs and air are those that the moon
-/// lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights add.
+/// lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights
+/// add.
 ///
 /// Errors: WELKIN_STATUS_RANGE for a phase angle outside 0..=π or a distance that the moon cannot have.
 #[unsafe(no_mangle)]

@@ -34,8 +34,8 @@ pub struct WelkinPointQuery(Borrowing<PointQuery<'static>>);
 /// The same with polarisation.
 pub struct WelkinPolarisedPointQuery(Borrowing<PolarisedPointQuery<'static>>);
 
-/// Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs of
-/// the model alive.
+/// Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs
+/// of the model alive.
 ///
 /// Errors: WELKIN_STATUS_LIMIT for models that are too large; those of a damaged file.
 #[unsafe(no_mangle)]

@@ -78,8 +78,8 @@ pub unsafe extern "C" fn welkin_polarised_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_polarised_sky_set_solar_azimuth(
     sky: *mut WelkinPolarisedSky,
@@ -93,8 +93,8 @@ pub unsafe extern "C" fn welkin_polarised_sky_set_solar_azimuth(
 
 /// Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `stokes[count]`, in a frame (null: the vertical one).
 ///
-/// Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless `count`
-/// is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
+/// Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless
+/// `count` is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_polarised_sky_stokes(
     sky: *const WelkinPolarisedSky,

@@ -11,8 +11,8 @@ use library::SkySampler;
 /// Draws directions in proportion to the luminance of a sky, with or without the sun's disc.
 pub struct WelkinSkySampler(pub(crate) SkySampler);
 
-/// Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous flux
-/// is. The new handle needs neither of them any more.
+/// Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous
+/// flux is. The new handle needs neither of them any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_baked_colour_sky_sampler(
     baked: *const WelkinBakedColourSky,
@@ -43,7 +43,8 @@ pub unsafe extern "C" fn welkin_sky_sampler_bytes(sampler: *const WelkinSkySampl
     ask!(sampler, |handle| handle.0.bytes())
 }
 
-/// Maps a point of the unit square, `point[2]`, to a direction with its density and light. Numbers outside 0..1 are clamped.
+/// Maps a point of the unit square, `point[2]`, to a direction with its density and light. Numbers outside 0..1 are
+/// clamped.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sky_sampler_sample(
     sampler: *const WelkinSkySampler,

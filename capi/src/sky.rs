@@ -16,8 +16,8 @@ pub struct WelkinSky(pub(crate) Sky);
 
 /// Prepares a sky. Reads only what the conditions need.
 ///
-/// Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they need;
-/// those of a damaged file. The new handle does not need the model any more.
+/// Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they
+/// need; those of a damaged file. The new handle does not need the model any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sky_new(
     model: *const WelkinModel,
@@ -78,8 +78,8 @@ pub unsafe extern "C" fn welkin_sky_conditions(
     })
 }
 
-/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
-/// the handle.
+/// Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+/// uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sky_set_solar_azimuth(
     sky: *mut WelkinSky,
@@ -103,10 +103,11 @@ pub unsafe extern "C" fn welkin_sky_sun_direction(
     })
 }
 
-/// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be normalised.
+/// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be
+/// normalised.
 ///
-/// Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of the
-/// wavelengths.
+/// Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of
+/// the wavelengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sky_radiance(
     sky: *const WelkinSky,
@@ -140,8 +141,8 @@ pub unsafe extern "C" fn welkin_sky_relative_radiance(
     })
 }
 
-/// welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`, of
-/// which `count` is the number of all floats. What precedes a bad direction is written.
+/// welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`,
+/// of which `count` is the number of all floats. What precedes a bad direction is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sky_radiance_batch(
     sky: *const WelkinSky,
@@ -204,8 +205,8 @@ pub unsafe extern "C" fn welkin_sky_xyz(
     })
 }
 
-/// The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components of
-/// colours outside the gamut are negative.
+/// The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components
+/// of colours outside the gamut are negative.
 ///
 /// Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_ARGUMENT for an unknown space.
 #[unsafe(no_mangle)]

@@ -80,8 +80,8 @@ pub unsafe extern "C" fn welkin_solar_disc_direction(
     })
 }
 
-/// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[count]`; zero in directions that it does not cover. Add it to that of the
-/// sky. Errors as of welkin_sky_radiance.
+/// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[count]`; zero in directions that it does not cover. Add it to that of
+/// the sky. Errors as of welkin_sky_radiance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_solar_disc_radiance(
     disc: *const WelkinSolarDisc,
@@ -160,8 +160,8 @@ pub unsafe extern "C" fn welkin_solar_disc_rgb(
     })
 }
 
-/// Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that it gives one side of a plane with this `normal[3]`. Errors as
-/// of welkin_sky_radiance.
+/// Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that it gives one side of a plane with this `normal[3]`.
+/// Errors as of welkin_sky_radiance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_solar_disc_irradiance(
     disc: *const WelkinSolarDisc,

@@ -8,11 +8,12 @@ use crate::status::{WelkinError, WelkinStatus};
 use crate::structs::{WelkinBakeError, WelkinConditions, conditions_of};
 use library::SunCourse;
 
-/// Baked skies in colour under every sun of a range, of one observer and one air: the sky of a frame costs microseconds.
+/// Baked skies in colour under every sun of a range, of one observer and one air: the sky of a frame costs
+/// microseconds.
 pub struct WelkinSunCourse(pub(crate) SunCourse);
 
-/// Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does not
-/// count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
+/// Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does
+/// not count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sun_course_new(
     model: *const WelkinModel,
@@ -104,8 +105,8 @@ pub unsafe extern "C" fn welkin_sun_course_at(
     })
 }
 
-/// The same into a sky that is there already, in its memory: for a sun that moves with every frame. Not while another thread
-/// uses that sky. Its samplers keep the sky that they were made of.
+/// The same into a sky that is there already, in its memory: for a sun that moves with every frame. Not while another
+/// thread uses that sky. Its samplers keep the sky that they were made of.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_sun_course_write(
     course: *const WelkinSunCourse,

@@ -6,8 +6,8 @@ use crate::raw::{array, copy, give, put, shared, slice_mut};
 use crate::status::{WelkinError, WelkinStatus};
 use library::Transmittance;
 
-/// The air at one visibility: transmittance along straight lines. Points are metres in a frame with its origin on the ground
-/// and +z up there; the planet's centre is at (0, 0, −R). Nothing blocks the way.
+/// The air at one visibility: transmittance along straight lines. Points are metres in a frame with its origin on the
+/// ground and +z up there; the planet's centre is at (0, 0, −R). Nothing blocks the way.
 pub struct WelkinTransmittance(pub(crate) Transmittance);
 
 /// Prepares the air at a visibility (m).
@@ -127,8 +127,8 @@ pub unsafe extern "C" fn welkin_transmittance_optical_depth(
     })
 }
 
-/// Transmittance from a point to space in a `direction[3]`, which need not be normalised; zero where the ground is in the
-/// way. Errors also: WELKIN_STATUS_DIRECTION.
+/// Transmittance from a point to space in a `direction[3]`, which need not be normalised; zero where the ground is in
+/// the way. Errors also: WELKIN_STATUS_DIRECTION.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_transmittance_to_space(
     air: *const WelkinTransmittance,
@@ -171,8 +171,8 @@ pub unsafe extern "C" fn welkin_transmittance_to_space_at(
     })
 }
 
-/// Transmittance from a point in a direction through all of the air, up to the ground where that is in the way. Errors as of
-/// welkin_transmittance_to_space.
+/// Transmittance from a point in a direction through all of the air, up to the ground where that is in the way. Errors
+/// as of welkin_transmittance_to_space.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_transmittance_to_end(
     air: *const WelkinTransmittance,

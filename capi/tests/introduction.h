@@ -3,8 +3,8 @@
  *
  * Handles. A WelkinModel is a file; skies, discs and the air are prepared of it for conditions; skies are baked into
  * tables for many queries. All are opaque and owned by the program: what a function writes to its last but one argument
- * (of type WelkinSomething **) is to be freed by welkin_something_free, in any order. If the call fails, it writes null.
- * A handle keeps alive what it needs of others.
+ * (of type WelkinSomething **) is to be freed by welkin_something_free, in any order. A call that fails writes null. A
+ * handle keeps alive what it needs of others.
  *
  * Errors. Functions that can fail return a WelkinStatus and, unless `error` is null, write the same with a text to the
  * WelkinError of the caller. If they fail, outputs keep what they held, unless the function says otherwise; null

@@ -3,8 +3,8 @@
  *
  * Handles. A WelkinModel is a file; skies, discs and the air are prepared of it for conditions; skies are baked into
  * tables for many queries. All are opaque and owned by the program: what a function writes to its last but one argument
- * (of type WelkinSomething **) is to be freed by welkin_something_free, in any order. If the call fails, it writes null.
- * A handle keeps alive what it needs of others.
+ * (of type WelkinSomething **) is to be freed by welkin_something_free, in any order. A call that fails writes null. A
+ * handle keeps alive what it needs of others.
  *
  * Errors. Functions that can fail return a WelkinStatus and, unless `error` is null, write the same with a text to the
  * WelkinError of the caller. If they fail, outputs keep what they held, unless the function says otherwise; null
@@ -234,8 +234,9 @@ typedef int32_t WelkinStatus;
 #endif // __cplusplus
 
 /**
- * Transmittance and in-scattered light of finite segments. Points are metres in the frame of WelkinTransmittance; a thing is
- * seen as its radiance times the transmittance plus the in-scattered light. Nothing allocates after it is prepared.
+ * Transmittance and in-scattered light of finite segments. Points are metres in the frame of WelkinTransmittance; a
+ * thing is seen as its radiance times the transmittance plus the in-scattered light. Nothing allocates after it is
+ * prepared.
  */
 typedef struct WelkinAerialPerspective WelkinAerialPerspective;
 
@@ -250,8 +251,8 @@ typedef struct WelkinBakedColourSky WelkinBakedColourSky;
 typedef struct WelkinBakedPolarisedSky WelkinBakedPolarisedSky;
 
 /**
- * A sky as tables of some 50 kB per 16 wavelengths: many times faster than what it was made of, with a stated additional
- * error. Nothing allocates.
+ * A sky as tables of some 50 kB per 16 wavelengths: many times faster than what it was made of, with a stated
+ * additional error. Nothing allocates.
  */
 typedef struct WelkinBakedSky WelkinBakedSky;
 
@@ -313,13 +314,14 @@ typedef struct WelkinSkySum WelkinSkySum;
 typedef struct WelkinSolarDisc WelkinSolarDisc;
 
 /**
- * Baked skies in colour under every sun of a range, of one observer and one air: the sky of a frame costs microseconds.
+ * Baked skies in colour under every sun of a range, of one observer and one air: the sky of a frame costs
+ * microseconds.
  */
 typedef struct WelkinSunCourse WelkinSunCourse;
 
 /**
- * The air at one visibility: transmittance along straight lines. Points are metres in a frame with its origin on the ground
- * and +z up there; the planet's centre is at (0, 0, −R). Nothing blocks the way.
+ * The air at one visibility: transmittance along straight lines. Points are metres in a frame with its origin on the
+ * ground and +z up there; the planet's centre is at (0, 0, −R). Nothing blocks the way.
  */
 typedef struct WelkinTransmittance WelkinTransmittance;
 
@@ -755,7 +757,8 @@ void welkin_aerial_perspective_free(struct WelkinAerialPerspective *aerial);
 size_t welkin_aerial_perspective_wavelength_count(const struct WelkinAerialPerspective *aerial);
 
 /**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_aerial_perspective_wavelength_count.
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
+ * welkin_aerial_perspective_wavelength_count.
  */
 WelkinStatus welkin_aerial_perspective_wavelengths(const struct WelkinAerialPerspective *aerial,
                                                    double *wavelengths,
@@ -775,8 +778,8 @@ WelkinStatus welkin_aerial_perspective_conditions(const struct WelkinAerialPersp
                                                   struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_aerial_perspective_set_solar_azimuth(struct WelkinAerialPerspective *aerial,
                                                          double azimuth,
@@ -788,7 +791,8 @@ WelkinStatus welkin_aerial_perspective_set_solar_azimuth(struct WelkinAerialPers
 double welkin_aerial_perspective_reach(const struct WelkinAerialPerspective *aerial);
 
 /**
- * Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and `transmittance[count]`, an element per wavelength.
+ * Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and
+ * `transmittance[count]`, an element per wavelength.
  *
  * Errors: WELKIN_STATUS_POINT for a point that is not finite, beyond 1e9 m or out of reach; WELKIN_STATUS_LENGTH.
  */
@@ -813,8 +817,8 @@ WelkinStatus welkin_aerial_perspective_to_end(const struct WelkinAerialPerspecti
                                               struct WelkinError *error);
 
 /**
- * Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of which
- * `count` is the number of floats of each. What precedes a bad point is written.
+ * Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of
+ * which `count` is the number of floats of each. What precedes a bad point is written.
  */
 WelkinStatus welkin_aerial_perspective_in_scattering_batch(const struct WelkinAerialPerspective *aerial,
                                                            const double *camera,
@@ -826,8 +830,9 @@ WelkinStatus welkin_aerial_perspective_in_scattering_batch(const struct WelkinAe
                                                            struct WelkinError *error);
 
 /**
- * Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of a ray,
- * each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number of floats.
+ * Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of
+ * a ray, each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number
+ * of floats.
  *
  * Errors also: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for distances that are negative or do not grow.
  */
@@ -852,8 +857,8 @@ WelkinStatus welkin_aerial_perspective_in_scattering_at(const struct WelkinAeria
                                                         struct WelkinError *error);
 
 /**
- * CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by the
- * sun, `factors[3]`.
+ * CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by
+ * the sun, `factors[3]`.
  */
 WelkinStatus welkin_aerial_perspective_xyz(const struct WelkinAerialPerspective *aerial,
                                            const double *from,
@@ -863,7 +868,8 @@ WelkinStatus welkin_aerial_perspective_xyz(const struct WelkinAerialPerspective 
                                            struct WelkinError *error);
 
 /**
- * The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors + light`.
+ * The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors +
+ * light`.
  */
 WelkinStatus welkin_aerial_perspective_rgb(const struct WelkinAerialPerspective *aerial,
                                            const double *from,
@@ -874,8 +880,8 @@ WelkinStatus welkin_aerial_perspective_rgb(const struct WelkinAerialPerspective 
                                            struct WelkinError *error);
 
 /**
- * The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a frame
- * (null: the vertical one) at the start, and the transmittance.
+ * The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a
+ * frame (null: the vertical one) at the start, and the transmittance.
  */
 WelkinStatus welkin_aerial_perspective_in_scattering_stokes(const struct WelkinAerialPerspective *aerial,
                                                             const double *from,
@@ -889,7 +895,8 @@ WelkinStatus welkin_aerial_perspective_in_scattering_stokes(const struct WelkinA
                                                             struct WelkinError *error);
 
 /**
- * Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things, `factors[3]`.
+ * Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things,
+ * `factors[3]`.
  */
 WelkinStatus welkin_aerial_perspective_rgb_stokes(const struct WelkinAerialPerspective *aerial,
                                                   const double *from,
@@ -900,8 +907,9 @@ WelkinStatus welkin_aerial_perspective_rgb_stokes(const struct WelkinAerialPersp
                                                   struct WelkinError *error);
 
 /**
- * As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light goes over
- * into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky without a seam.
+ * As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light
+ * goes over into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky
+ * without a seam.
  *
  * Errors also: WELKIN_STATUS_RANGE if the sky has another sun, visibility or albedo.
  */
@@ -973,8 +981,8 @@ WelkinStatus welkin_colour_sky_bake(const struct WelkinColourSky *sky,
                                     struct WelkinError *error);
 
 /**
- * Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun that
- * moves, in half the time. The tolerance is kept about as well as `other` keeps it.
+ * Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun
+ * that moves, in half the time. The tolerance is kept about as well as `other` keeps it.
  */
 WelkinStatus welkin_colour_sky_bake_like(const struct WelkinColourSky *sky,
                                          const struct WelkinBakedColourSky *other,
@@ -999,8 +1007,8 @@ WelkinStatus welkin_baked_colour_sky_conditions(const struct WelkinBakedColourSk
                                                 struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_baked_colour_sky_set_solar_azimuth(struct WelkinBakedColourSky *baked,
                                                        double azimuth,
@@ -1031,8 +1039,8 @@ WelkinStatus welkin_baked_colour_sky_rgb(const struct WelkinBakedColourSky *bake
                                          struct WelkinError *error);
 
 /**
- * welkin_baked_colour_sky_xyz for many directions, `directions[count][3]`; `xyz[count][3]`. What precedes a bad direction
- * may or may not be written.
+ * welkin_baked_colour_sky_xyz for many directions, `directions[count][3]`; `xyz[count][3]`. What precedes a bad
+ * direction may or may not be written.
  */
 WelkinStatus welkin_baked_colour_sky_xyz_batch(const struct WelkinBakedColourSky *baked,
                                                const float *directions,
@@ -1052,8 +1060,8 @@ WelkinStatus welkin_baked_colour_sky_xyz_soa(const struct WelkinBakedColourSky *
                                              struct WelkinError *error);
 
 /**
- * welkin_baked_colour_sky_rgb for many directions, `directions[count][3]`; `rgb[count][3]`. What precedes a bad direction
- * may or may not be written.
+ * welkin_baked_colour_sky_rgb for many directions, `directions[count][3]`; `rgb[count][3]`. What precedes a bad
+ * direction may or may not be written.
  */
 WelkinStatus welkin_baked_colour_sky_rgb_batch(const struct WelkinBakedColourSky *baked,
                                                const float *directions,
@@ -1093,7 +1101,8 @@ void welkin_baked_polarised_sky_free(struct WelkinBakedPolarisedSky *baked);
 size_t welkin_baked_polarised_sky_wavelength_count(const struct WelkinBakedPolarisedSky *baked);
 
 /**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_baked_polarised_sky_wavelength_count.
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
+ * welkin_baked_polarised_sky_wavelength_count.
  */
 WelkinStatus welkin_baked_polarised_sky_wavelengths(const struct WelkinBakedPolarisedSky *baked,
                                                     double *wavelengths,
@@ -1113,8 +1122,8 @@ WelkinStatus welkin_baked_polarised_sky_conditions(const struct WelkinBakedPolar
                                                    struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_baked_polarised_sky_set_solar_azimuth(struct WelkinBakedPolarisedSky *baked,
                                                           double azimuth,
@@ -1144,8 +1153,8 @@ WelkinStatus welkin_baked_polarised_sky_radiance(const struct WelkinBakedPolaris
                                                  struct WelkinError *error);
 
 /**
- * Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, as three arrays `i[count]`, `q[count]`, `u[count]` with an element per wavelength, in a
- * frame (null: the vertical one). Errors as of welkin_polarised_sky_stokes.
+ * Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, as three arrays `i[count]`, `q[count]`, `u[count]` with an element per wavelength,
+ * in a frame (null: the vertical one). Errors as of welkin_polarised_sky_stokes.
  */
 WelkinStatus welkin_baked_polarised_sky_stokes(const struct WelkinBakedPolarisedSky *baked,
                                                const float *direction,
@@ -1157,8 +1166,8 @@ WelkinStatus welkin_baked_polarised_sky_stokes(const struct WelkinBakedPolarised
                                                struct WelkinError *error);
 
 /**
- * The same for many directions as three arrays; the outputs are `[direction_count][wavelengths]`, of which `count` is the
- * number of floats of each.
+ * The same for many directions as three arrays; the outputs are `[direction_count][wavelengths]`, of which `count` is
+ * the number of floats of each.
  */
 WelkinStatus welkin_baked_polarised_sky_stokes_soa(const struct WelkinBakedPolarisedSky *baked,
                                                    const float *x,
@@ -1185,8 +1194,8 @@ WelkinStatus welkin_baked_polarised_sky_hero(const struct WelkinBakedPolarisedSk
                                              struct WelkinError *error);
 
 /**
- * The same for many directions: `directions[count][3]`, `wavelengths[count][4]`, `stokes[count][4]`. What precedes a bad one
- * may or may not be written.
+ * The same for many directions: `directions[count][3]`, `wavelengths[count][4]`, `stokes[count][4]`. What precedes a
+ * bad one may or may not be written.
  */
 WelkinStatus welkin_baked_polarised_sky_hero_batch(const struct WelkinBakedPolarisedSky *baked,
                                                    const float *directions,
@@ -1238,8 +1247,8 @@ WelkinStatus welkin_baked_sky_conditions(const struct WelkinBakedSky *baked,
                                          struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_baked_sky_set_solar_azimuth(struct WelkinBakedSky *baked,
                                                 double azimuth,
@@ -1284,8 +1293,8 @@ WelkinStatus welkin_baked_sky_radiance_soa(const struct WelkinBakedSky *baked,
                                            struct WelkinError *error);
 
 /**
- * Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path, `wavelengths[4]`,
- * within the range of the model.
+ * Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path,
+ * `wavelengths[4]`, within the range of the model.
  *
  * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for a wavelength.
  */
@@ -1319,8 +1328,8 @@ WelkinStatus welkin_baked_sky_hero_soa(const struct WelkinBakedSky *baked,
                                        struct WelkinError *error);
 
 /**
- * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane with
- * this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
+ * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
+ * with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
  *
  * Errors as of welkin_baked_sky_radiance.
  */
@@ -1356,8 +1365,8 @@ WelkinStatus welkin_colour_aerial_perspective_conditions(const struct WelkinColo
                                                          struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_colour_aerial_perspective_set_solar_azimuth(struct WelkinColourAerialPerspective *aerial,
                                                                 double azimuth,
@@ -1385,8 +1394,9 @@ WelkinStatus welkin_colour_aerial_perspective_rgb(const struct WelkinColourAeria
                                                   struct WelkinError *error);
 
 /**
- * In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`:
- * `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of welkin_aerial_perspective_in_scattering_along.
+ * In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a
+ * `direction[3]`: `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of
+ * welkin_aerial_perspective_in_scattering_along.
  */
 WelkinStatus welkin_colour_aerial_perspective_srgb_along(const struct WelkinColourAerialPerspective *aerial,
                                                          const double *from,
@@ -1398,8 +1408,8 @@ WelkinStatus welkin_colour_aerial_perspective_srgb_along(const struct WelkinColo
                                                          struct WelkinError *error);
 
 /**
- * Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows × columns ×
- * depths. On all cores where the library was built with rayon. Allocates.
+ * Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows ×
+ * columns × depths. On all cores where the library was built with rayon. Allocates.
  *
  * Errors also: WELKIN_STATUS_LENGTH for another count; WELKIN_STATUS_RANGE for depths that do not grow.
  */
@@ -1436,8 +1446,8 @@ WelkinStatus welkin_colour_sky_conditions(const struct WelkinColourSky *sky,
                                           struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_colour_sky_set_solar_azimuth(struct WelkinColourSky *sky,
                                                  double azimuth,
@@ -1579,7 +1589,8 @@ WelkinStatus welkin_moon_phase_angle(const double *moon,
 
 /**
  * The same model with the moon in place of the sun, as a new handle: skies, discs and air are those that the moon
- * lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights add.
+ * lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights
+ * add.
  *
  * Errors: WELKIN_STATUS_RANGE for a phase angle outside 0..=π or a distance that the moon cannot have.
  */
@@ -1660,8 +1671,8 @@ WelkinStatus welkin_model_load(const struct WelkinModel *model,
                                struct WelkinError *error);
 
 /**
- * Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs of
- * the model alive.
+ * Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs
+ * of the model alive.
  *
  * Errors: WELKIN_STATUS_LIMIT for models that are too large; those of a damaged file.
  */
@@ -1763,8 +1774,8 @@ WelkinStatus welkin_polarised_sky_conditions(const struct WelkinPolarisedSky *sk
                                              struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
 WelkinStatus welkin_polarised_sky_set_solar_azimuth(struct WelkinPolarisedSky *sky,
                                                     double azimuth,
@@ -1773,8 +1784,8 @@ WelkinStatus welkin_polarised_sky_set_solar_azimuth(struct WelkinPolarisedSky *s
 /**
  * Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `stokes[count]`, in a frame (null: the vertical one).
  *
- * Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless `count`
- * is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
+ * Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless
+ * `count` is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
  */
 WelkinStatus welkin_polarised_sky_stokes(const struct WelkinPolarisedSky *sky,
                                          const float *direction,
@@ -1805,8 +1816,8 @@ WelkinStatus welkin_polarised_sky_xyz(const struct WelkinPolarisedSky *sky,
                                       struct WelkinError *error);
 
 /**
- * Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous flux
- * is. The new handle needs neither of them any more.
+ * Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous
+ * flux is. The new handle needs neither of them any more.
  */
 WelkinStatus welkin_baked_colour_sky_sampler(const struct WelkinBakedColourSky *baked,
                                              const struct WelkinSolarDisc *disc,
@@ -1824,7 +1835,8 @@ void welkin_sky_sampler_free(struct WelkinSkySampler *sampler);
 size_t welkin_sky_sampler_bytes(const struct WelkinSkySampler *sampler);
 
 /**
- * Maps a point of the unit square, `point[2]`, to a direction with its density and light. Numbers outside 0..1 are clamped.
+ * Maps a point of the unit square, `point[2]`, to a direction with its density and light. Numbers outside 0..1 are
+ * clamped.
  */
 WelkinStatus welkin_sky_sampler_sample(const struct WelkinSkySampler *sampler,
                                        const float *point,
@@ -1863,8 +1875,8 @@ WelkinStatus welkin_sky_sampler_xyz(const struct WelkinSkySampler *sampler,
 /**
  * Prepares a sky. Reads only what the conditions need.
  *
- * Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they need;
- * those of a damaged file. The new handle does not need the model any more.
+ * Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they
+ * need; those of a damaged file. The new handle does not need the model any more.
  */
 WelkinStatus welkin_sky_new(const struct WelkinModel *model,
                             const struct WelkinConditions *conditions,
@@ -1902,12 +1914,10 @@ WelkinStatus welkin_sky_conditions(const struct WelkinSky *sky,
                                    struct WelkinError *error);
 
 /**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread uses
- * the handle.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
-WelkinStatus welkin_sky_set_solar_azimuth(struct WelkinSky *sky,
-                                          double azimuth,
-                                          struct WelkinError *error);
+WelkinStatus welkin_sky_set_solar_azimuth(struct WelkinSky *sky, double azimuth, struct WelkinError *error);
 
 /**
  * Unit vector towards the sun's centre, as `sun[3]`.
@@ -1915,10 +1925,11 @@ WelkinStatus welkin_sky_set_solar_azimuth(struct WelkinSky *sky,
 WelkinStatus welkin_sky_sun_direction(const struct WelkinSky *sky, float *sun, struct WelkinError *error);
 
 /**
- * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be normalised.
+ * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be
+ * normalised.
  *
- * Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of the
- * wavelengths.
+ * Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of
+ * the wavelengths.
  */
 WelkinStatus welkin_sky_radiance(const struct WelkinSky *sky,
                                  const float *direction,
@@ -1936,8 +1947,8 @@ WelkinStatus welkin_sky_relative_radiance(const struct WelkinSky *sky,
                                           struct WelkinError *error);
 
 /**
- * welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`, of
- * which `count` is the number of all floats. What precedes a bad direction is written.
+ * welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`,
+ * of which `count` is the number of all floats. What precedes a bad direction is written.
  */
 WelkinStatus welkin_sky_radiance_batch(const struct WelkinSky *sky,
                                        const float *directions,
@@ -1965,8 +1976,8 @@ WelkinStatus welkin_sky_radiance_at(const struct WelkinSky *sky,
 WelkinStatus welkin_sky_xyz(const struct WelkinSky *sky, const float *direction, float *xyz, struct WelkinError *error);
 
 /**
- * The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components of
- * colours outside the gamut are negative.
+ * The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components
+ * of colours outside the gamut are negative.
  *
  * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_ARGUMENT for an unknown space.
  */
@@ -2020,8 +2031,8 @@ WelkinStatus welkin_solar_disc_direction(const struct WelkinSolarDisc *disc,
                                          struct WelkinError *error);
 
 /**
- * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[count]`; zero in directions that it does not cover. Add it to that of the
- * sky. Errors as of welkin_sky_radiance.
+ * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[count]`; zero in directions that it does not cover. Add it to that of
+ * the sky. Errors as of welkin_sky_radiance.
  */
 WelkinStatus welkin_solar_disc_radiance(const struct WelkinSolarDisc *disc,
                                         const float *direction,
@@ -2056,8 +2067,8 @@ WelkinStatus welkin_solar_disc_rgb(const struct WelkinSolarDisc *disc,
                                    struct WelkinError *error);
 
 /**
- * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that it gives one side of a plane with this `normal[3]`. Errors as
- * of welkin_sky_radiance.
+ * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that it gives one side of a plane with this `normal[3]`.
+ * Errors as of welkin_sky_radiance.
  */
 WelkinStatus welkin_solar_disc_irradiance(const struct WelkinSolarDisc *disc,
                                           const float *normal,
@@ -2072,8 +2083,8 @@ WelkinStatus welkin_solar_disc_irradiance(const struct WelkinSolarDisc *disc,
 const char *welkin_status_name(int32_t status);
 
 /**
- * Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does not
- * count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
+ * Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does
+ * not count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
  */
 WelkinStatus welkin_sun_course_new(const struct WelkinModel *model,
                                    const struct WelkinConditions *conditions,
@@ -2123,8 +2134,8 @@ WelkinStatus welkin_sun_course_at(const struct WelkinSunCourse *course,
                                   struct WelkinError *error);
 
 /**
- * The same into a sky that is there already, in its memory: for a sun that moves with every frame. Not while another thread
- * uses that sky. Its samplers keep the sky that they were made of.
+ * The same into a sky that is there already, in its memory: for a sun that moves with every frame. Not while another
+ * thread uses that sky. Its samplers keep the sky that they were made of.
  */
 WelkinStatus welkin_sun_course_write(const struct WelkinSunCourse *course,
                                      double elevation,
@@ -2199,8 +2210,8 @@ WelkinStatus welkin_transmittance_optical_depth(const struct WelkinTransmittance
                                                 struct WelkinError *error);
 
 /**
- * Transmittance from a point to space in a `direction[3]`, which need not be normalised; zero where the ground is in the
- * way. Errors also: WELKIN_STATUS_DIRECTION.
+ * Transmittance from a point to space in a `direction[3]`, which need not be normalised; zero where the ground is in
+ * the way. Errors also: WELKIN_STATUS_DIRECTION.
  */
 WelkinStatus welkin_transmittance_to_space(const struct WelkinTransmittance *air,
                                            const double *from,
@@ -2221,8 +2232,8 @@ WelkinStatus welkin_transmittance_to_space_at(const struct WelkinTransmittance *
                                               struct WelkinError *error);
 
 /**
- * Transmittance from a point in a direction through all of the air, up to the ground where that is in the way. Errors as of
- * welkin_transmittance_to_space.
+ * Transmittance from a point in a direction through all of the air, up to the ground where that is in the way. Errors
+ * as of welkin_transmittance_to_space.
  */
 WelkinStatus welkin_transmittance_to_end(const struct WelkinTransmittance *air,
                                          const double *from,

@@ -1,8 +1,8 @@
 // welkin/welkin.hpp: the C interface for C++17. Move-only types own the handles of welkin/capi.h, and errors are
 // exceptions of the type welkin::Error. Header-only, no dependency but the library.
 //
-// What functions mean, their units, frames, shapes and rules for threads: welkin/capi.h. Methods of const objects may be
-// called by any number of threads at once. Objects that were moved from hold no handle: to use them is an Error.
+// What functions mean, their units, frames, shapes and rules for threads: welkin/capi.h. Methods of const objects may
+// be called by any number of threads at once. Objects that were moved from hold no handle: to use them is an Error.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef WELKIN_CAPI_HPP
@@ -143,16 +143,15 @@ struct SeenStokes {
 };
 
 struct Conditions : WelkinConditions {
-    Conditions() : WelkinConditions() { detail::call(welkin_conditions_init, this_(), sizeof(WelkinConditions)); }
+    Conditions() : WelkinConditions() {
+        detail::call(welkin_conditions_init, static_cast<WelkinConditions *>(this), sizeof(WelkinConditions));
+    }
 
     Point sun_direction() const {
         Point sun{};
         detail::call(welkin_conditions_sun_direction, static_cast<const WelkinConditions *>(this), sun.data());
         return sun;
     }
-
-private:
-    WelkinConditions *this_() noexcept { return this; }
 };
 
 struct Moon : WelkinMoon {
@@ -404,7 +403,8 @@ public:
     }
     Vec3 rgb(const Vec3 &direction, Space space = Space::srgb) const {
         Vec3 rgb{};
-        detail::call(welkin_baked_colour_sky_rgb, get(), direction.data(), static_cast<std::int32_t>(space), rgb.data());
+        detail::call(welkin_baked_colour_sky_rgb, get(), direction.data(), static_cast<std::int32_t>(space),
+                     rgb.data());
         return rgb;
     }
     // As many colours as directions.
@@ -417,7 +417,9 @@ public:
         detail::call(welkin_baked_colour_sky_rgb_soa, get(), d.x, d.y, d.z, detail::same(d.size, out.size()),
                      static_cast<std::int32_t>(space), reinterpret_cast<float *>(out.data()));
     }
-    SkySampler sampler() const { return SkySampler(SkySampler::make(welkin_baked_colour_sky_sampler, get(), no_disc())); }
+    SkySampler sampler() const {
+        return SkySampler(SkySampler::make(welkin_baked_colour_sky_sampler, get(), no_disc()));
+    }
     SkySampler sampler(const SolarDisc &disc) const {
         return SkySampler(SkySampler::make(welkin_baked_colour_sky_sampler, get(), disc.get()));
     }
