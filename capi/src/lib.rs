@@ -8,27 +8,46 @@
 
 mod guard;
 mod raw;
+
+// In the order of the header.
+mod abi;
+mod status;
+
+mod model;
+
+mod plan;
+
 mod structs;
 
-mod abi;
-mod aerial_perspective;
-mod baked_colour_sky;
-mod baked_polarised_sky;
-mod baked_sky;
-mod colour_aerial_perspective;
-mod colour_sky;
 mod colour_space;
-mod model;
-mod moon;
-mod plan;
-mod point_query;
-mod polarised_sky;
-mod sampler;
+
 mod sky;
+
+mod colour_sky;
+
+mod polarised_sky;
+
+mod baked_sky;
+
+mod baked_colour_sky;
+
+mod baked_polarised_sky;
+
+mod sampler;
+
 mod solar_disc;
-mod status;
+
 mod sun_course;
+
+mod moon;
+
+mod point_query;
+
 mod transmittance;
+
+mod aerial_perspective;
+
+mod colour_aerial_perspective;
 
 pub use abi::*;
 pub use aerial_perspective::*;

@@ -36,6 +36,37 @@
 #include <stdint.h>
 
 /**
+ * Major version of this interface, which is in the name of the shared library: programs need the same.
+ */
+#define WELKIN_ABI_MAJOR 1
+
+/**
+ * Minor version: it grows with new functions, and with new fields at the end of structs that have a struct_size.
+ * Programs run with libraries of theirs or a greater one.
+ */
+#define WELKIN_ABI_MINOR 0
+
+/**
+ * Both.
+ */
+#define WELKIN_ABI_VERSION 65536
+
+/**
+ * Radiance at the wavelengths of the model, or at any between them.
+ */
+#define WELKIN_CHANNELS_SPECTRAL 0
+
+/**
+ * XYZ or RGB.
+ */
+#define WELKIN_CHANNELS_COLOUR 1
+
+/**
+ * Stokes vectors.
+ */
+#define WELKIN_CHANNELS_STOKES 2
+
+/**
  * e1 lies in the vertical plane and points up, so e2 points to the right.
  */
 #define WELKIN_FRAME_VERTICAL 0
@@ -61,27 +92,6 @@
 #define WELKIN_PART_SUN 1
 
 /**
- * Major version of this interface, which is in the name of the shared library: programs need the same.
- */
-#define WELKIN_ABI_MAJOR 1
-
-/**
- * Minor version: it grows with new functions, and with new fields at the end of structs that have a struct_size.
- * Programs run with libraries of theirs or a greater one.
- */
-#define WELKIN_ABI_MINOR 0
-
-/**
- * Both.
- */
-#define WELKIN_ABI_VERSION 65536
-
-/**
- * A tolerance of baking that is small against the error of the model itself.
- */
-#define WELKIN_BAKE_TOLERANCE 0.0025
-
-/**
  * Linear sRGB (primaries of ITU-R BT.709), white D65.
  */
 #define WELKIN_SPACE_SRGB 0
@@ -102,19 +112,9 @@
 #define WELKIN_SPACE_XYZ 3
 
 /**
- * Radiance at the wavelengths of the model, or at any between them.
+ * A tolerance of baking that is small against the error of the model itself.
  */
-#define WELKIN_CHANNELS_SPECTRAL 0
-
-/**
- * XYZ or RGB.
- */
-#define WELKIN_CHANNELS_COLOUR 1
-
-/**
- * Stokes vectors.
- */
-#define WELKIN_CHANNELS_STOKES 2
+#define WELKIN_BAKE_TOLERANCE 0.0025
 
 /**
  * What became of a call: WELKIN_STATUS_OK or a code of an error. Codes never change their meaning; a later library may
@@ -326,69 +326,6 @@ typedef struct WelkinSunCourse WelkinSunCourse;
 typedef struct WelkinTransmittance WelkinTransmittance;
 
 /**
- * The conditions of a sky. Initialise with welkin_conditions_init, then set what differs.
- */
-typedef struct WelkinConditions {
-    /**
-     * sizeof(WelkinConditions) of the program.
-     */
-    uint64_t struct_size;
-    /**
-     * Geometric elevation of the sun's centre above the observer's horizontal plane, rad.
-     */
-    double solar_elevation;
-    /**
-     * Azimuth of the sun, rad, counter-clockwise from +x seen from above. Any finite angle.
-     */
-    double solar_azimuth;
-    /**
-     * Horizontal meteorological range at the ground, m.
-     */
-    double visibility;
-    /**
-     * Albedo of the ground, 0..=1, the same at all wavelengths.
-     */
-    double albedo;
-    /**
-     * Altitude of the observer above the ground, m; from -500 up to 0 it counts as 0.
-     */
-    double altitude;
-} WelkinConditions;
-
-/**
- * Room for what went wrong, in the caller's memory: no state of the library holds errors. This struct never changes.
- */
-typedef struct WelkinError {
-    /**
-     * What the call returned: a WelkinStatus.
-     */
-    int32_t status;
-    /**
-     * What went wrong in English, UTF-8, zero-terminated, cut where it is longer; empty where nothing did.
-     */
-    char text[256];
-} WelkinError;
-
-/**
- * Intensity and linear polarisation of light: what a polariser along e1 passes less what one along e2 passes is q, and
- * u the same of the diagonals e1 + e2 and e1 − e2.
- */
-typedef struct WelkinStokes {
-    /**
-     * Radiance.
-     */
-    float i;
-    /**
-     * Polarised along e1 less e2.
-     */
-    float q;
-    /**
-     * Polarised along e1 + e2 less e1 − e2.
-     */
-    float u;
-} WelkinStokes;
-
-/**
  * The version and sizes that a program was compiled with: WELKIN_ABI fills it.
  */
 typedef struct WelkinAbi {
@@ -451,91 +388,18 @@ typedef struct WelkinAbi {
 } WelkinAbi;
 
 /**
- * The axis e1 of positive Q across the view direction w; e2 = w × e1. A null pointer means the vertical frame.
+ * Room for what went wrong, in the caller's memory: no state of the library holds errors. This struct never changes.
  */
-typedef struct WelkinPolarisationFrame {
+typedef struct WelkinError {
     /**
-     * One of WELKIN_FRAME_VERTICAL, WELKIN_FRAME_SUN_ALIGNED and WELKIN_FRAME_AXIS.
+     * What the call returned: a WelkinStatus.
      */
-    int32_t kind;
+    int32_t status;
     /**
-     * For WELKIN_FRAME_AXIS: e1 is the part of this vector that is perpendicular to the view direction, such as the
-     * up vector of a camera.
+     * What went wrong in English, UTF-8, zero-terminated, cut where it is longer; empty where nothing did.
      */
-    float axis[3];
-} WelkinPolarisationFrame;
-
-/**
- * What baking, or interpolating between baked skies, added to the relative error: percentiles over directions and
- * channels.
- */
-typedef struct WelkinBakeError {
-    /**
-     * Median.
-     */
-    double median;
-    /**
-     * 95th percentile: at most the tolerance.
-     */
-    double p95;
-    /**
-     * 99th percentile.
-     */
-    double p99;
-    /**
-     * 99.9th percentile.
-     */
-    double p999;
-    /**
-     * Largest of the compared directions.
-     */
-    double max;
-} WelkinBakeError;
-
-/**
- * A camera-aligned volume ("froxels"). Row `r`, column `c`, slice `k` ends at `from + depths[k] · (axis + x·right +
- * y·up)` with `x = (2c + 1) / columns − 1` and `y = 1 − (2r + 1) / rows`: with `axis` a unit vector and the other two
- * across it, as long as the tangents of half the fields of view, slices are planes. Set all bytes to zero, then
- * struct_size and the fields.
- */
-typedef struct WelkinCameraVolume {
-    /**
-     * sizeof(WelkinCameraVolume) of the program.
-     */
-    uint64_t struct_size;
-    /**
-     * The camera, m.
-     */
-    double from[3];
-    /**
-     * The middle of the picture.
-     */
-    double axis[3];
-    /**
-     * From the middle to the right edge.
-     */
-    double right[3];
-    /**
-     * From the middle to the upper edge.
-     */
-    double up[3];
-    /**
-     * Columns of the volume.
-     */
-    uint64_t columns;
-    /**
-     * Rows of the volume.
-     */
-    uint64_t rows;
-    /**
-     * Slices of the volume.
-     */
-    uint64_t depth_count;
-    /**
-     * Where slices end, growing, in lengths of `axis`: `depths[depth_count]`.
-     */
-    const double *depths;
-} WelkinCameraVolume;
+    char text[256];
+} WelkinError;
 
 /**
  * What the model covers.
@@ -566,32 +430,6 @@ typedef struct WelkinRanges {
      */
     double top;
 } WelkinRanges;
-
-/**
- * The moon: where it stands and how much of it is lit. Initialise with welkin_moon_init, then set what differs.
- */
-typedef struct WelkinMoon {
-    /**
-     * sizeof(WelkinMoon) of the program.
-     */
-    uint64_t struct_size;
-    /**
-     * Geometric elevation of its centre above the observer's horizontal plane, rad.
-     */
-    double elevation;
-    /**
-     * Azimuth, rad, counter-clockwise from +x seen from above.
-     */
-    double azimuth;
-    /**
-     * Phase angle, rad: 0 is full, π new.
-     */
-    double phase_angle;
-    /**
-     * Distance of its centre from the observer, m.
-     */
-    double distance;
-} WelkinMoon;
 
 /**
  * The conditions that a scene can meet, and what it tolerates. Albedo is free. Set all bytes to zero, then struct_size
@@ -663,6 +501,97 @@ typedef struct WelkinPlanSummary {
 } WelkinPlanSummary;
 
 /**
+ * The conditions of a sky. Initialise with welkin_conditions_init, then set what differs.
+ */
+typedef struct WelkinConditions {
+    /**
+     * sizeof(WelkinConditions) of the program.
+     */
+    uint64_t struct_size;
+    /**
+     * Geometric elevation of the sun's centre above the observer's horizontal plane, rad.
+     */
+    double solar_elevation;
+    /**
+     * Azimuth of the sun, rad, counter-clockwise from +x seen from above. Any finite angle.
+     */
+    double solar_azimuth;
+    /**
+     * Horizontal meteorological range at the ground, m.
+     */
+    double visibility;
+    /**
+     * Albedo of the ground, 0..=1, the same at all wavelengths.
+     */
+    double albedo;
+    /**
+     * Altitude of the observer above the ground, m; from -500 up to 0 it counts as 0.
+     */
+    double altitude;
+} WelkinConditions;
+
+/**
+ * Intensity and linear polarisation of light: what a polariser along e1 passes less what one along e2 passes is q, and
+ * u the same of the diagonals e1 + e2 and e1 − e2.
+ */
+typedef struct WelkinStokes {
+    /**
+     * Radiance.
+     */
+    float i;
+    /**
+     * Polarised along e1 less e2.
+     */
+    float q;
+    /**
+     * Polarised along e1 + e2 less e1 − e2.
+     */
+    float u;
+} WelkinStokes;
+
+/**
+ * The axis e1 of positive Q across the view direction w; e2 = w × e1. A null pointer means the vertical frame.
+ */
+typedef struct WelkinPolarisationFrame {
+    /**
+     * One of WELKIN_FRAME_VERTICAL, WELKIN_FRAME_SUN_ALIGNED and WELKIN_FRAME_AXIS.
+     */
+    int32_t kind;
+    /**
+     * For WELKIN_FRAME_AXIS: e1 is the part of this vector that is perpendicular to the view direction, such as the
+     * up vector of a camera.
+     */
+    float axis[3];
+} WelkinPolarisationFrame;
+
+/**
+ * What baking, or interpolating between baked skies, added to the relative error: percentiles over directions and
+ * channels.
+ */
+typedef struct WelkinBakeError {
+    /**
+     * Median.
+     */
+    double median;
+    /**
+     * 95th percentile: at most the tolerance.
+     */
+    double p95;
+    /**
+     * 99th percentile.
+     */
+    double p99;
+    /**
+     * 99.9th percentile.
+     */
+    double p999;
+    /**
+     * Largest of the compared directions.
+     */
+    double max;
+} WelkinBakeError;
+
+/**
  * A direction, the density that it was drawn with and the light from there.
  */
 typedef struct WelkinSample {
@@ -684,9 +613,214 @@ typedef struct WelkinSample {
     int32_t part;
 } WelkinSample;
 
+/**
+ * The moon: where it stands and how much of it is lit. Initialise with welkin_moon_init, then set what differs.
+ */
+typedef struct WelkinMoon {
+    /**
+     * sizeof(WelkinMoon) of the program.
+     */
+    uint64_t struct_size;
+    /**
+     * Geometric elevation of its centre above the observer's horizontal plane, rad.
+     */
+    double elevation;
+    /**
+     * Azimuth, rad, counter-clockwise from +x seen from above.
+     */
+    double azimuth;
+    /**
+     * Phase angle, rad: 0 is full, π new.
+     */
+    double phase_angle;
+    /**
+     * Distance of its centre from the observer, m.
+     */
+    double distance;
+} WelkinMoon;
+
+/**
+ * A camera-aligned volume ("froxels"). Row `r`, column `c`, slice `k` ends at `from + depths[k] · (axis + x·right +
+ * y·up)` with `x = (2c + 1) / columns − 1` and `y = 1 − (2r + 1) / rows`: with `axis` a unit vector and the other two
+ * across it, as long as the tangents of half the fields of view, slices are planes. Set all bytes to zero, then
+ * struct_size and the fields.
+ */
+typedef struct WelkinCameraVolume {
+    /**
+     * sizeof(WelkinCameraVolume) of the program.
+     */
+    uint64_t struct_size;
+    /**
+     * The camera, m.
+     */
+    double from[3];
+    /**
+     * The middle of the picture.
+     */
+    double axis[3];
+    /**
+     * From the middle to the right edge.
+     */
+    double right[3];
+    /**
+     * From the middle to the upper edge.
+     */
+    double up[3];
+    /**
+     * Columns of the volume.
+     */
+    uint64_t columns;
+    /**
+     * Rows of the volume.
+     */
+    uint64_t rows;
+    /**
+     * Slices of the volume.
+     */
+    uint64_t depth_count;
+    /**
+     * Where slices end, growing, in lengths of `axis`: `depths[depth_count]`.
+     */
+    const double *depths;
+} WelkinCameraVolume;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+/**
+ * Major · 65536 + minor version of the interface of the library that runs.
+ */
+uint32_t welkin_abi_version(void);
+
+/**
+ * Version of the library that runs, as "0.1.0". Static.
+ */
+const char *welkin_library_version(void);
+
+/**
+ * Checks that the header that a program was compiled with fits the library that it runs with: call it once with
+ * WELKIN_ABI, before anything else.
+ *
+ * Errors: WELKIN_STATUS_ABI, and the text says what differs.
+ */
+WelkinStatus welkin_check_abi(const struct WelkinAbi *compiled, struct WelkinError *error);
+
+/**
+ * The name of a status: the class of an error as the format specification writes it, as "range"; "unknown" where the
+ * number is no status of this library. Static, never null.
+ */
+const char *welkin_status_name(int32_t status);
+
+/**
+ * Opens a file by mapping it, where the library was built so. It must not be changed in place while the model or
+ * anything that still reads it lives; replacing it by renaming is fine. `path` is zero-terminated, UTF-8 on Windows.
+ *
+ * Errors: WELKIN_STATUS_IO; WELKIN_STATUS_MAGIC, VERSION, FEATURE, LENGTH, CHECKSUM and VALUE for what is no sound
+ * file.
+ */
+WelkinStatus welkin_model_open(const char *path, struct WelkinModel **model, struct WelkinError *error);
+
+/**
+ * Opens a file by copying it into memory. Otherwise as welkin_model_open.
+ */
+WelkinStatus welkin_model_read(const char *path, struct WelkinModel **model, struct WelkinError *error);
+
+/**
+ * Opens a file that is in memory, `bytes[length]`, which is copied. Errors as of welkin_model_open.
+ */
+WelkinStatus welkin_model_from_bytes(const uint8_t *bytes,
+                                     size_t length,
+                                     struct WelkinModel **model,
+                                     struct WelkinError *error);
+
+/**
+ * Opens the model that is embedded in the library.
+ *
+ * Errors: WELKIN_STATUS_UNSUPPORTED where it was built without.
+ */
+WelkinStatus welkin_model_default(struct WelkinModel **model, struct WelkinError *error);
+
+/**
+ * Frees a model; null is none. What was prepared of it lives on.
+ */
+void welkin_model_free(struct WelkinModel *model);
+
+/**
+ * Verifies all chunks at once instead of at their first touch.
+ *
+ * Errors: WELKIN_STATUS_CHECKSUM, ENCODING or VALUE for the first damaged one.
+ */
+WelkinStatus welkin_model_verify(const struct WelkinModel *model, struct WelkinError *error);
+
+/**
+ * How many wavelengths the model has; 0 for null.
+ */
+size_t welkin_model_wavelength_count(const struct WelkinModel *model);
+
+/**
+ * Writes the wavelengths of the model, nm: `wavelengths[count]` with `count` of welkin_model_wavelength_count.
+ */
+WelkinStatus welkin_model_wavelengths(const struct WelkinModel *model,
+                                      double *wavelengths,
+                                      size_t count,
+                                      struct WelkinError *error);
+
+/**
+ * Writes what the model covers. Errors: those of a damaged file.
+ */
+WelkinStatus welkin_model_ranges(const struct WelkinModel *model,
+                                 struct WelkinRanges *ranges,
+                                 struct WelkinError *error);
+
+/**
+ * Whether the model has polarisation; false for null.
+ */
+bool welkin_model_is_polarised(const struct WelkinModel *model);
+
+/**
+ * Whether the light is that of the moon: see welkin_model_moonlit. False for null.
+ */
+bool welkin_model_is_moonlit(const struct WelkinModel *model);
+
+/**
+ * Length of the file, bytes; 0 for null.
+ */
+size_t welkin_model_file_bytes(const struct WelkinModel *model);
+
+/**
+ * Bytes of the file that were needed so far; 0 for null.
+ */
+size_t welkin_model_touched_bytes(const struct WelkinModel *model);
+
+/**
+ * Plans a scene: reads nothing of the model but its head.
+ *
+ * Errors: WELKIN_STATUS_RANGE for what the model does not cover; WELKIN_STATUS_MISSING if the file lacks a chunk.
+ */
+WelkinStatus welkin_model_plan(const struct WelkinModel *model,
+                               const struct WelkinBudget *budget,
+                               struct WelkinPlan **plan,
+                               struct WelkinError *error);
+
+/**
+ * Frees a plan; null is none.
+ */
+void welkin_plan_free(struct WelkinPlan *plan);
+
+/**
+ * Writes what a plan costs and gets. The struct_size of `summary` must be set.
+ */
+WelkinStatus welkin_plan_summary(const struct WelkinPlan *plan,
+                                 struct WelkinPlanSummary *summary,
+                                 struct WelkinError *error);
+
+/**
+ * Reads and verifies what a plan of this model asks for, before the scene needs it. Errors: those of a damaged file.
+ */
+WelkinStatus welkin_model_load(const struct WelkinModel *model,
+                               const struct WelkinPlan *plan,
+                               struct WelkinError *error);
 
 /**
  * Fills conditions: the sun 20° high towards +x, visibility 59.4 km, albedo 0.2, the observer on the ground.
@@ -719,250 +853,405 @@ float welkin_stokes_angle(const struct WelkinStokes *stokes);
 float welkin_stokes_through_polariser(const struct WelkinStokes *stokes, float angle);
 
 /**
- * Major · 65536 + minor version of the interface of the library that runs.
- */
-uint32_t welkin_abi_version(void);
-
-/**
- * Version of the library that runs, as "0.1.0". Static.
- */
-const char *welkin_library_version(void);
-
-/**
- * Checks that the header that a program was compiled with fits the library that it runs with: call it once with
- * WELKIN_ABI, before anything else.
+ * Finds a space by its name: "srgb", "rec2020", "acescg" or "xyz".
  *
- * Errors: WELKIN_STATUS_ABI, and the text says what differs.
+ * Errors: WELKIN_STATUS_VALUE for another name; WELKIN_STATUS_ARGUMENT if it is not UTF-8.
  */
-WelkinStatus welkin_check_abi(const struct WelkinAbi *compiled, struct WelkinError *error);
+WelkinStatus welkin_space_by_name(const char *name, int32_t *space, struct WelkinError *error);
 
 /**
- * Prepares the air of a scene, of which the altitude of the conditions plays no part.
+ * Converts CIE 1931 XYZ, `xyz[3]`, to `rgb[3]`, which may be the same memory. Not clipped.
+ */
+WelkinStatus welkin_space_from_xyz(int32_t space, const float *xyz, float *rgb, struct WelkinError *error);
+
+/**
+ * Writes the matrix of welkin_space_from_xyz, `matrix[3][3]`, a row for each component.
+ */
+WelkinStatus welkin_space_matrix(int32_t space, float *matrix, struct WelkinError *error);
+
+/**
+ * Prepares a sky. Reads only what the conditions need.
  *
- * Errors as of welkin_sky_new.
+ * Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they
+ * need; those of a damaged file. The new handle does not need the model any more.
  */
-WelkinStatus welkin_aerial_perspective_new(const struct WelkinModel *model,
-                                           const struct WelkinConditions *conditions,
-                                           struct WelkinAerialPerspective **aerial,
-                                           struct WelkinError *error);
+WelkinStatus welkin_sky_new(const struct WelkinModel *model,
+                            const struct WelkinConditions *conditions,
+                            struct WelkinSky **sky,
+                            struct WelkinError *error);
 
 /**
- * Frees an aerial perspective; null is none.
+ * Frees a sky; null is none. What was baked of it lives on.
  */
-void welkin_aerial_perspective_free(struct WelkinAerialPerspective *aerial);
+void welkin_sky_free(struct WelkinSky *sky);
 
 /**
  * How many wavelengths results have; 0 for null.
  */
-size_t welkin_aerial_perspective_wavelength_count(const struct WelkinAerialPerspective *aerial);
+size_t welkin_sky_wavelength_count(const struct WelkinSky *sky);
 
 /**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
- * welkin_aerial_perspective_wavelength_count.
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_sky_wavelength_count.
  */
-WelkinStatus welkin_aerial_perspective_wavelengths(const struct WelkinAerialPerspective *aerial,
-                                                   double *wavelengths,
-                                                   size_t count,
-                                                   struct WelkinError *error);
+WelkinStatus welkin_sky_wavelengths(const struct WelkinSky *sky,
+                                    double *wavelengths,
+                                    size_t count,
+                                    struct WelkinError *error);
 
 /**
  * Memory on the heap, bytes; 0 for null.
  */
-size_t welkin_aerial_perspective_bytes(const struct WelkinAerialPerspective *aerial);
+size_t welkin_sky_bytes(const struct WelkinSky *sky);
 
 /**
  * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
  */
-WelkinStatus welkin_aerial_perspective_conditions(const struct WelkinAerialPerspective *aerial,
-                                                  struct WelkinConditions *conditions,
-                                                  struct WelkinError *error);
+WelkinStatus welkin_sky_conditions(const struct WelkinSky *sky,
+                                   struct WelkinConditions *conditions,
+                                   struct WelkinError *error);
 
 /**
  * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
  * uses the handle.
  */
-WelkinStatus welkin_aerial_perspective_set_solar_azimuth(struct WelkinAerialPerspective *aerial,
-                                                         double azimuth,
-                                                         struct WelkinError *error);
+WelkinStatus welkin_sky_set_solar_azimuth(struct WelkinSky *sky, double azimuth, struct WelkinError *error);
 
 /**
- * How far the air of segments may be from the origin, as an angle at the planet's centre, rad; 0 for null.
+ * Unit vector towards the sun's centre, as `sun[3]`.
  */
-double welkin_aerial_perspective_reach(const struct WelkinAerialPerspective *aerial);
+WelkinStatus welkin_sky_sun_direction(const struct WelkinSky *sky, float *sun, struct WelkinError *error);
 
 /**
- * Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and
- * `transmittance[count]`, an element per wavelength.
+ * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be
+ * normalised.
  *
- * Errors: WELKIN_STATUS_POINT for a point that is not finite, beyond 1e9 m or out of reach; WELKIN_STATUS_LENGTH.
+ * Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of
+ * the wavelengths.
  */
-WelkinStatus welkin_aerial_perspective_in_scattering(const struct WelkinAerialPerspective *aerial,
-                                                     const double *from,
-                                                     const double *to,
-                                                     float *in_scattering,
-                                                     float *transmittance,
-                                                     size_t count,
-                                                     struct WelkinError *error);
+WelkinStatus welkin_sky_radiance(const struct WelkinSky *sky,
+                                 const float *direction,
+                                 float *radiance,
+                                 size_t count,
+                                 struct WelkinError *error);
 
 /**
- * Of all of the air from a point in a `direction[3]`, up to the ground where that is in the way; otherwise as
- * welkin_aerial_perspective_in_scattering. Errors also: WELKIN_STATUS_DIRECTION.
+ * Radiance per unit of solar spectral irradiance, sr⁻¹; otherwise as welkin_sky_radiance.
  */
-WelkinStatus welkin_aerial_perspective_to_end(const struct WelkinAerialPerspective *aerial,
-                                              const double *from,
-                                              const double *direction,
-                                              float *in_scattering,
-                                              float *transmittance,
+WelkinStatus welkin_sky_relative_radiance(const struct WelkinSky *sky,
+                                          const float *direction,
+                                          float *radiance,
+                                          size_t count,
+                                          struct WelkinError *error);
+
+/**
+ * welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`,
+ * of which `count` is the number of all floats. What precedes a bad direction is written.
+ */
+WelkinStatus welkin_sky_radiance_batch(const struct WelkinSky *sky,
+                                       const float *directions,
+                                       size_t direction_count,
+                                       float *radiance,
+                                       size_t count,
+                                       struct WelkinError *error);
+
+/**
+ * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at any wavelength (nm) within the range of the model.
+ *
+ * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for the wavelength.
+ */
+WelkinStatus welkin_sky_radiance_at(const struct WelkinSky *sky,
+                                    const float *direction,
+                                    double wavelength,
+                                    float *radiance,
+                                    struct WelkinError *error);
+
+/**
+ * CIE 1931 XYZ of the radiance, `xyz[3]`; Y is the luminance in cd m⁻².
+ *
+ * Errors: WELKIN_STATUS_DIRECTION.
+ */
+WelkinStatus welkin_sky_xyz(const struct WelkinSky *sky, const float *direction, float *xyz, struct WelkinError *error);
+
+/**
+ * The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components
+ * of colours outside the gamut are negative.
+ *
+ * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_ARGUMENT for an unknown space.
+ */
+WelkinStatus welkin_sky_rgb(const struct WelkinSky *sky,
+                            const float *direction,
+                            int32_t space,
+                            float *rgb,
+                            struct WelkinError *error);
+
+/**
+ * Prepares a sky for colour alone. Errors as of welkin_sky_new.
+ */
+WelkinStatus welkin_colour_sky_new(const struct WelkinModel *model,
+                                   const struct WelkinConditions *conditions,
+                                   struct WelkinColourSky **sky,
+                                   struct WelkinError *error);
+
+/**
+ * Frees a sky; null is none. What was baked of it lives on.
+ */
+void welkin_colour_sky_free(struct WelkinColourSky *sky);
+
+/**
+ * Memory on the heap, bytes; 0 for null.
+ */
+size_t welkin_colour_sky_bytes(const struct WelkinColourSky *sky);
+
+/**
+ * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
+ */
+WelkinStatus welkin_colour_sky_conditions(const struct WelkinColourSky *sky,
+                                          struct WelkinConditions *conditions,
+                                          struct WelkinError *error);
+
+/**
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
+ */
+WelkinStatus welkin_colour_sky_set_solar_azimuth(struct WelkinColourSky *sky,
+                                                 double azimuth,
+                                                 struct WelkinError *error);
+
+/**
+ * Unit vector towards the sun's centre, as `sun[3]`.
+ */
+WelkinStatus welkin_colour_sky_sun_direction(const struct WelkinColourSky *sky, float *sun, struct WelkinError *error);
+
+/**
+ * As welkin_sky_xyz.
+ */
+WelkinStatus welkin_colour_sky_xyz(const struct WelkinColourSky *sky,
+                                   const float *direction,
+                                   float *xyz,
+                                   struct WelkinError *error);
+
+/**
+ * As welkin_sky_rgb.
+ */
+WelkinStatus welkin_colour_sky_rgb(const struct WelkinColourSky *sky,
+                                   const float *direction,
+                                   int32_t space,
+                                   float *rgb,
+                                   struct WelkinError *error);
+
+/**
+ * Prepares a polarised sky. Errors as of welkin_sky_new; WELKIN_STATUS_MISSING if the model is not polarised.
+ */
+WelkinStatus welkin_polarised_sky_new(const struct WelkinModel *model,
+                                      const struct WelkinConditions *conditions,
+                                      struct WelkinPolarisedSky **sky,
+                                      struct WelkinError *error);
+
+/**
+ * Frees a sky; null is none. What was baked of it lives on.
+ */
+void welkin_polarised_sky_free(struct WelkinPolarisedSky *sky);
+
+/**
+ * How many wavelengths results have; 0 for null.
+ */
+size_t welkin_polarised_sky_wavelength_count(const struct WelkinPolarisedSky *sky);
+
+/**
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_polarised_sky_wavelength_count.
+ */
+WelkinStatus welkin_polarised_sky_wavelengths(const struct WelkinPolarisedSky *sky,
+                                              double *wavelengths,
                                               size_t count,
                                               struct WelkinError *error);
 
 /**
- * Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of
- * which `count` is the number of floats of each. What precedes a bad point is written.
+ * Memory on the heap, bytes; 0 for null.
  */
-WelkinStatus welkin_aerial_perspective_in_scattering_batch(const struct WelkinAerialPerspective *aerial,
-                                                           const double *camera,
-                                                           const double *points,
-                                                           size_t point_count,
-                                                           float *in_scattering,
-                                                           float *transmittance,
-                                                           size_t count,
-                                                           struct WelkinError *error);
+size_t welkin_polarised_sky_bytes(const struct WelkinPolarisedSky *sky);
 
 /**
- * Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of
- * a ray, each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number
- * of floats.
- *
- * Errors also: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for distances that are negative or do not grow.
+ * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
  */
-WelkinStatus welkin_aerial_perspective_in_scattering_along(const struct WelkinAerialPerspective *aerial,
-                                                           const double *from,
-                                                           const double *direction,
-                                                           const double *distances,
-                                                           size_t distance_count,
-                                                           float *in_scattering,
-                                                           float *transmittance,
-                                                           size_t count,
-                                                           struct WelkinError *error);
+WelkinStatus welkin_polarised_sky_conditions(const struct WelkinPolarisedSky *sky,
+                                             struct WelkinConditions *conditions,
+                                             struct WelkinError *error);
 
 /**
- * The in-scattered light of a segment at any wavelength (nm) within the range of the model, W m⁻² sr⁻¹ nm⁻¹.
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
  */
-WelkinStatus welkin_aerial_perspective_in_scattering_at(const struct WelkinAerialPerspective *aerial,
-                                                        const double *from,
-                                                        const double *to,
-                                                        double wavelength,
-                                                        float *in_scattering,
-                                                        struct WelkinError *error);
-
-/**
- * CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by
- * the sun, `factors[3]`.
- */
-WelkinStatus welkin_aerial_perspective_xyz(const struct WelkinAerialPerspective *aerial,
-                                           const double *from,
-                                           const double *to,
-                                           float *light,
-                                           float *factors,
-                                           struct WelkinError *error);
-
-/**
- * The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors +
- * light`.
- */
-WelkinStatus welkin_aerial_perspective_rgb(const struct WelkinAerialPerspective *aerial,
-                                           const double *from,
-                                           const double *to,
-                                           int32_t space,
-                                           float *light,
-                                           float *factors,
-                                           struct WelkinError *error);
-
-/**
- * The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a
- * frame (null: the vertical one) at the start, and the transmittance.
- */
-WelkinStatus welkin_aerial_perspective_in_scattering_stokes(const struct WelkinAerialPerspective *aerial,
-                                                            const double *from,
-                                                            const double *to,
-                                                            const struct WelkinPolarisationFrame *frame,
-                                                            float *i,
-                                                            float *q,
-                                                            float *u,
-                                                            float *transmittance,
-                                                            size_t count,
-                                                            struct WelkinError *error);
-
-/**
- * Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things,
- * `factors[3]`.
- */
-WelkinStatus welkin_aerial_perspective_rgb_stokes(const struct WelkinAerialPerspective *aerial,
-                                                  const double *from,
-                                                  const double *to,
-                                                  const struct WelkinPolarisationFrame *frame,
-                                                  struct WelkinStokes *light,
-                                                  float *factors,
-                                                  struct WelkinError *error);
-
-/**
- * As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light
- * goes over into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky
- * without a seam.
- *
- * Errors also: WELKIN_STATUS_RANGE if the sky has another sun, visibility or albedo.
- */
-WelkinStatus welkin_aerial_perspective_joined_in_scattering(const struct WelkinAerialPerspective *aerial,
-                                                            const struct WelkinSky *sky,
-                                                            const double *to,
-                                                            float *in_scattering,
-                                                            float *transmittance,
-                                                            size_t count,
-                                                            struct WelkinError *error);
-
-/**
- * The same for many points, as welkin_aerial_perspective_in_scattering_batch.
- */
-WelkinStatus welkin_aerial_perspective_joined_batch(const struct WelkinAerialPerspective *aerial,
-                                                    const struct WelkinSky *sky,
-                                                    const double *points,
-                                                    size_t point_count,
-                                                    float *in_scattering,
-                                                    float *transmittance,
-                                                    size_t count,
+WelkinStatus welkin_polarised_sky_set_solar_azimuth(struct WelkinPolarisedSky *sky,
+                                                    double azimuth,
                                                     struct WelkinError *error);
 
 /**
- * The same in CIE XYZ, as welkin_aerial_perspective_xyz.
+ * Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `stokes[count]`, in a frame (null: the vertical one).
+ *
+ * Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless
+ * `count` is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
  */
-WelkinStatus welkin_aerial_perspective_joined_xyz(const struct WelkinAerialPerspective *aerial,
-                                                  const struct WelkinSky *sky,
-                                                  const double *to,
-                                                  float *light,
-                                                  float *factors,
-                                                  struct WelkinError *error);
+WelkinStatus welkin_polarised_sky_stokes(const struct WelkinPolarisedSky *sky,
+                                         const float *direction,
+                                         const struct WelkinPolarisationFrame *frame,
+                                         struct WelkinStokes *stokes,
+                                         size_t count,
+                                         struct WelkinError *error);
 
 /**
- * The same in linear sRGB.
+ * The Stokes vector at any wavelength (nm) within the range of the model.
+ *
+ * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for the wavelength.
  */
-WelkinStatus welkin_aerial_perspective_joined_srgb(const struct WelkinAerialPerspective *aerial,
-                                                   const struct WelkinSky *sky,
-                                                   const double *to,
-                                                   float *light,
-                                                   float *factors,
-                                                   struct WelkinError *error);
+WelkinStatus welkin_polarised_sky_stokes_at(const struct WelkinPolarisedSky *sky,
+                                            const float *direction,
+                                            const struct WelkinPolarisationFrame *frame,
+                                            double wavelength,
+                                            struct WelkinStokes *stokes,
+                                            struct WelkinError *error);
 
 /**
- * The same with polarisation, as welkin_aerial_perspective_rgb_stokes, before a polarised sky.
+ * Stokes vectors of X, Y and Z, `xyz[3]`; that of Y in cd m⁻².
  */
-WelkinStatus welkin_aerial_perspective_joined_srgb_stokes(const struct WelkinAerialPerspective *aerial,
-                                                          const struct WelkinPolarisedSky *sky,
-                                                          const double *to,
-                                                          const struct WelkinPolarisationFrame *frame,
-                                                          struct WelkinStokes *light,
-                                                          float *factors,
-                                                          struct WelkinError *error);
+WelkinStatus welkin_polarised_sky_xyz(const struct WelkinPolarisedSky *sky,
+                                      const float *direction,
+                                      const struct WelkinPolarisationFrame *frame,
+                                      struct WelkinStokes *xyz,
+                                      struct WelkinError *error);
+
+/**
+ * Bakes a sky into tables that add a relative error of at most `tolerance`, such as WELKIN_BAKE_TOLERANCE, at 95 % of
+ * directions and wavelengths.
+ *
+ * Errors: WELKIN_STATUS_RANGE for a tolerance below 3e-4; WELKIN_STATUS_TOLERANCE if the largest table misses it.
+ */
+WelkinStatus welkin_sky_bake(const struct WelkinSky *sky,
+                             double tolerance,
+                             struct WelkinBakedSky **baked,
+                             struct WelkinError *error);
+
+/**
+ * Frees a baked sky; null is none.
+ */
+void welkin_baked_sky_free(struct WelkinBakedSky *baked);
+
+/**
+ * How many wavelengths results have; 0 for null.
+ */
+size_t welkin_baked_sky_wavelength_count(const struct WelkinBakedSky *baked);
+
+/**
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_baked_sky_wavelength_count.
+ */
+WelkinStatus welkin_baked_sky_wavelengths(const struct WelkinBakedSky *baked,
+                                          double *wavelengths,
+                                          size_t count,
+                                          struct WelkinError *error);
+
+/**
+ * Memory on the heap, bytes; 0 for null.
+ */
+size_t welkin_baked_sky_bytes(const struct WelkinBakedSky *baked);
+
+/**
+ * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
+ */
+WelkinStatus welkin_baked_sky_conditions(const struct WelkinBakedSky *baked,
+                                         struct WelkinConditions *conditions,
+                                         struct WelkinError *error);
+
+/**
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
+ */
+WelkinStatus welkin_baked_sky_set_solar_azimuth(struct WelkinBakedSky *baked,
+                                                double azimuth,
+                                                struct WelkinError *error);
+
+/**
+ * What baking added to the error of the sky.
+ */
+WelkinStatus welkin_baked_sky_bake_error(const struct WelkinBakedSky *baked,
+                                         struct WelkinBakeError *bake_error,
+                                         struct WelkinError *error);
+
+/**
+ * As welkin_sky_radiance.
+ */
+WelkinStatus welkin_baked_sky_radiance(const struct WelkinBakedSky *baked,
+                                       const float *direction,
+                                       float *radiance,
+                                       size_t count,
+                                       struct WelkinError *error);
+
+/**
+ * As welkin_sky_radiance_batch. What precedes a bad direction may or may not be written.
+ */
+WelkinStatus welkin_baked_sky_radiance_batch(const struct WelkinBakedSky *baked,
+                                             const float *directions,
+                                             size_t direction_count,
+                                             float *radiance,
+                                             size_t count,
+                                             struct WelkinError *error);
+
+/**
+ * The same with directions as three arrays, `x[direction_count]`, `y[…]`, `z[…]`: the fastest way.
+ */
+WelkinStatus welkin_baked_sky_radiance_soa(const struct WelkinBakedSky *baked,
+                                           const float *x,
+                                           const float *y,
+                                           const float *z,
+                                           size_t direction_count,
+                                           float *radiance,
+                                           size_t count,
+                                           struct WelkinError *error);
+
+/**
+ * Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path,
+ * `wavelengths[4]`, within the range of the model.
+ *
+ * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for a wavelength.
+ */
+WelkinStatus welkin_baked_sky_hero(const struct WelkinBakedSky *baked,
+                                   const float *direction,
+                                   const float *wavelengths,
+                                   float *radiance,
+                                   struct WelkinError *error);
+
+/**
+ * welkin_baked_sky_hero for many directions, each with wavelengths of its own: `directions[count][3]`,
+ * `wavelengths[count][4]`, `radiance[count][4]`. What precedes a bad one may or may not be written.
+ */
+WelkinStatus welkin_baked_sky_hero_batch(const struct WelkinBakedSky *baked,
+                                         const float *directions,
+                                         const float *wavelengths,
+                                         size_t count,
+                                         float *radiance,
+                                         struct WelkinError *error);
+
+/**
+ * The same with directions as three arrays: the fastest way.
+ */
+WelkinStatus welkin_baked_sky_hero_soa(const struct WelkinBakedSky *baked,
+                                       const float *x,
+                                       const float *y,
+                                       const float *z,
+                                       const float *wavelengths,
+                                       size_t count,
+                                       float *radiance,
+                                       struct WelkinError *error);
+
+/**
+ * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
+ * with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
+ *
+ * Errors as of welkin_baked_sky_radiance.
+ */
+WelkinStatus welkin_baked_sky_irradiance(const struct WelkinBakedSky *baked,
+                                         const float *normal,
+                                         float *irradiance,
+                                         size_t count,
+                                         struct WelkinError *error);
 
 /**
  * As welkin_sky_bake, for colours.
@@ -1206,616 +1495,6 @@ WelkinStatus welkin_baked_polarised_sky_hero_batch(const struct WelkinBakedPolar
                                                    struct WelkinError *error);
 
 /**
- * Bakes a sky into tables that add a relative error of at most `tolerance`, such as WELKIN_BAKE_TOLERANCE, at 95 % of
- * directions and wavelengths.
- *
- * Errors: WELKIN_STATUS_RANGE for a tolerance below 3e-4; WELKIN_STATUS_TOLERANCE if the largest table misses it.
- */
-WelkinStatus welkin_sky_bake(const struct WelkinSky *sky,
-                             double tolerance,
-                             struct WelkinBakedSky **baked,
-                             struct WelkinError *error);
-
-/**
- * Frees a baked sky; null is none.
- */
-void welkin_baked_sky_free(struct WelkinBakedSky *baked);
-
-/**
- * How many wavelengths results have; 0 for null.
- */
-size_t welkin_baked_sky_wavelength_count(const struct WelkinBakedSky *baked);
-
-/**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_baked_sky_wavelength_count.
- */
-WelkinStatus welkin_baked_sky_wavelengths(const struct WelkinBakedSky *baked,
-                                          double *wavelengths,
-                                          size_t count,
-                                          struct WelkinError *error);
-
-/**
- * Memory on the heap, bytes; 0 for null.
- */
-size_t welkin_baked_sky_bytes(const struct WelkinBakedSky *baked);
-
-/**
- * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
- */
-WelkinStatus welkin_baked_sky_conditions(const struct WelkinBakedSky *baked,
-                                         struct WelkinConditions *conditions,
-                                         struct WelkinError *error);
-
-/**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
- * uses the handle.
- */
-WelkinStatus welkin_baked_sky_set_solar_azimuth(struct WelkinBakedSky *baked,
-                                                double azimuth,
-                                                struct WelkinError *error);
-
-/**
- * What baking added to the error of the sky.
- */
-WelkinStatus welkin_baked_sky_bake_error(const struct WelkinBakedSky *baked,
-                                         struct WelkinBakeError *bake_error,
-                                         struct WelkinError *error);
-
-/**
- * As welkin_sky_radiance.
- */
-WelkinStatus welkin_baked_sky_radiance(const struct WelkinBakedSky *baked,
-                                       const float *direction,
-                                       float *radiance,
-                                       size_t count,
-                                       struct WelkinError *error);
-
-/**
- * As welkin_sky_radiance_batch. What precedes a bad direction may or may not be written.
- */
-WelkinStatus welkin_baked_sky_radiance_batch(const struct WelkinBakedSky *baked,
-                                             const float *directions,
-                                             size_t direction_count,
-                                             float *radiance,
-                                             size_t count,
-                                             struct WelkinError *error);
-
-/**
- * The same with directions as three arrays, `x[direction_count]`, `y[…]`, `z[…]`: the fastest way.
- */
-WelkinStatus welkin_baked_sky_radiance_soa(const struct WelkinBakedSky *baked,
-                                           const float *x,
-                                           const float *y,
-                                           const float *z,
-                                           size_t direction_count,
-                                           float *radiance,
-                                           size_t count,
-                                           struct WelkinError *error);
-
-/**
- * Hero wavelengths: spectral radiance, W m⁻² sr⁻¹ nm⁻¹, `radiance[4]`, at four wavelengths (nm) of a path,
- * `wavelengths[4]`, within the range of the model.
- *
- * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for a wavelength.
- */
-WelkinStatus welkin_baked_sky_hero(const struct WelkinBakedSky *baked,
-                                   const float *direction,
-                                   const float *wavelengths,
-                                   float *radiance,
-                                   struct WelkinError *error);
-
-/**
- * welkin_baked_sky_hero for many directions, each with wavelengths of its own: `directions[count][3]`,
- * `wavelengths[count][4]`, `radiance[count][4]`. What precedes a bad one may or may not be written.
- */
-WelkinStatus welkin_baked_sky_hero_batch(const struct WelkinBakedSky *baked,
-                                         const float *directions,
-                                         const float *wavelengths,
-                                         size_t count,
-                                         float *radiance,
-                                         struct WelkinError *error);
-
-/**
- * The same with directions as three arrays: the fastest way.
- */
-WelkinStatus welkin_baked_sky_hero_soa(const struct WelkinBakedSky *baked,
-                                       const float *x,
-                                       const float *y,
-                                       const float *z,
-                                       const float *wavelengths,
-                                       size_t count,
-                                       float *radiance,
-                                       struct WelkinError *error);
-
-/**
- * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
- * with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
- *
- * Errors as of welkin_baked_sky_radiance.
- */
-WelkinStatus welkin_baked_sky_irradiance(const struct WelkinBakedSky *baked,
-                                         const float *normal,
-                                         float *irradiance,
-                                         size_t count,
-                                         struct WelkinError *error);
-
-/**
- * Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_new.
- */
-WelkinStatus welkin_colour_aerial_perspective_new(const struct WelkinModel *model,
-                                                  const struct WelkinConditions *conditions,
-                                                  struct WelkinColourAerialPerspective **aerial,
-                                                  struct WelkinError *error);
-
-/**
- * Frees an aerial perspective; null is none.
- */
-void welkin_colour_aerial_perspective_free(struct WelkinColourAerialPerspective *aerial);
-
-/**
- * Memory on the heap, bytes; 0 for null.
- */
-size_t welkin_colour_aerial_perspective_bytes(const struct WelkinColourAerialPerspective *aerial);
-
-/**
- * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
- */
-WelkinStatus welkin_colour_aerial_perspective_conditions(const struct WelkinColourAerialPerspective *aerial,
-                                                         struct WelkinConditions *conditions,
-                                                         struct WelkinError *error);
-
-/**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
- * uses the handle.
- */
-WelkinStatus welkin_colour_aerial_perspective_set_solar_azimuth(struct WelkinColourAerialPerspective *aerial,
-                                                                double azimuth,
-                                                                struct WelkinError *error);
-
-/**
- * As welkin_aerial_perspective_xyz.
- */
-WelkinStatus welkin_colour_aerial_perspective_xyz(const struct WelkinColourAerialPerspective *aerial,
-                                                  const double *from,
-                                                  const double *to,
-                                                  float *light,
-                                                  float *factors,
-                                                  struct WelkinError *error);
-
-/**
- * As welkin_aerial_perspective_rgb.
- */
-WelkinStatus welkin_colour_aerial_perspective_rgb(const struct WelkinColourAerialPerspective *aerial,
-                                                  const double *from,
-                                                  const double *to,
-                                                  int32_t space,
-                                                  float *light,
-                                                  float *factors,
-                                                  struct WelkinError *error);
-
-/**
- * In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a
- * `direction[3]`: `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of
- * welkin_aerial_perspective_in_scattering_along.
- */
-WelkinStatus welkin_colour_aerial_perspective_srgb_along(const struct WelkinColourAerialPerspective *aerial,
-                                                         const double *from,
-                                                         const double *direction,
-                                                         const double *distances,
-                                                         size_t distance_count,
-                                                         float *light,
-                                                         float *factors,
-                                                         struct WelkinError *error);
-
-/**
- * Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows ×
- * columns × depths. On all cores where the library was built with rayon. Allocates.
- *
- * Errors also: WELKIN_STATUS_LENGTH for another count; WELKIN_STATUS_RANGE for depths that do not grow.
- */
-WelkinStatus welkin_colour_aerial_perspective_srgb_volume(const struct WelkinColourAerialPerspective *aerial,
-                                                          const struct WelkinCameraVolume *volume,
-                                                          float *light,
-                                                          float *factors,
-                                                          size_t count,
-                                                          struct WelkinError *error);
-
-/**
- * Prepares a sky for colour alone. Errors as of welkin_sky_new.
- */
-WelkinStatus welkin_colour_sky_new(const struct WelkinModel *model,
-                                   const struct WelkinConditions *conditions,
-                                   struct WelkinColourSky **sky,
-                                   struct WelkinError *error);
-
-/**
- * Frees a sky; null is none. What was baked of it lives on.
- */
-void welkin_colour_sky_free(struct WelkinColourSky *sky);
-
-/**
- * Memory on the heap, bytes; 0 for null.
- */
-size_t welkin_colour_sky_bytes(const struct WelkinColourSky *sky);
-
-/**
- * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
- */
-WelkinStatus welkin_colour_sky_conditions(const struct WelkinColourSky *sky,
-                                          struct WelkinConditions *conditions,
-                                          struct WelkinError *error);
-
-/**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
- * uses the handle.
- */
-WelkinStatus welkin_colour_sky_set_solar_azimuth(struct WelkinColourSky *sky,
-                                                 double azimuth,
-                                                 struct WelkinError *error);
-
-/**
- * Unit vector towards the sun's centre, as `sun[3]`.
- */
-WelkinStatus welkin_colour_sky_sun_direction(const struct WelkinColourSky *sky, float *sun, struct WelkinError *error);
-
-/**
- * As welkin_sky_xyz.
- */
-WelkinStatus welkin_colour_sky_xyz(const struct WelkinColourSky *sky,
-                                   const float *direction,
-                                   float *xyz,
-                                   struct WelkinError *error);
-
-/**
- * As welkin_sky_rgb.
- */
-WelkinStatus welkin_colour_sky_rgb(const struct WelkinColourSky *sky,
-                                   const float *direction,
-                                   int32_t space,
-                                   float *rgb,
-                                   struct WelkinError *error);
-
-/**
- * Finds a space by its name: "srgb", "rec2020", "acescg" or "xyz".
- *
- * Errors: WELKIN_STATUS_VALUE for another name; WELKIN_STATUS_ARGUMENT if it is not UTF-8.
- */
-WelkinStatus welkin_space_by_name(const char *name, int32_t *space, struct WelkinError *error);
-
-/**
- * Converts CIE 1931 XYZ, `xyz[3]`, to `rgb[3]`, which may be the same memory. Not clipped.
- */
-WelkinStatus welkin_space_from_xyz(int32_t space, const float *xyz, float *rgb, struct WelkinError *error);
-
-/**
- * Writes the matrix of welkin_space_from_xyz, `matrix[3][3]`, a row for each component.
- */
-WelkinStatus welkin_space_matrix(int32_t space, float *matrix, struct WelkinError *error);
-
-/**
- * Opens a file by mapping it, where the library was built so. It must not be changed in place while the model or
- * anything that still reads it lives; replacing it by renaming is fine. `path` is zero-terminated, UTF-8 on Windows.
- *
- * Errors: WELKIN_STATUS_IO; WELKIN_STATUS_MAGIC, VERSION, FEATURE, LENGTH, CHECKSUM and VALUE for what is no sound
- * file.
- */
-WelkinStatus welkin_model_open(const char *path, struct WelkinModel **model, struct WelkinError *error);
-
-/**
- * Opens a file by copying it into memory. Otherwise as welkin_model_open.
- */
-WelkinStatus welkin_model_read(const char *path, struct WelkinModel **model, struct WelkinError *error);
-
-/**
- * Opens a file that is in memory, `bytes[length]`, which is copied. Errors as of welkin_model_open.
- */
-WelkinStatus welkin_model_from_bytes(const uint8_t *bytes,
-                                     size_t length,
-                                     struct WelkinModel **model,
-                                     struct WelkinError *error);
-
-/**
- * Opens the model that is embedded in the library.
- *
- * Errors: WELKIN_STATUS_UNSUPPORTED where it was built without.
- */
-WelkinStatus welkin_model_default(struct WelkinModel **model, struct WelkinError *error);
-
-/**
- * Frees a model; null is none. What was prepared of it lives on.
- */
-void welkin_model_free(struct WelkinModel *model);
-
-/**
- * Verifies all chunks at once instead of at their first touch.
- *
- * Errors: WELKIN_STATUS_CHECKSUM, ENCODING or VALUE for the first damaged one.
- */
-WelkinStatus welkin_model_verify(const struct WelkinModel *model, struct WelkinError *error);
-
-/**
- * How many wavelengths the model has; 0 for null.
- */
-size_t welkin_model_wavelength_count(const struct WelkinModel *model);
-
-/**
- * Writes the wavelengths of the model, nm: `wavelengths[count]` with `count` of welkin_model_wavelength_count.
- */
-WelkinStatus welkin_model_wavelengths(const struct WelkinModel *model,
-                                      double *wavelengths,
-                                      size_t count,
-                                      struct WelkinError *error);
-
-/**
- * Writes what the model covers. Errors: those of a damaged file.
- */
-WelkinStatus welkin_model_ranges(const struct WelkinModel *model,
-                                 struct WelkinRanges *ranges,
-                                 struct WelkinError *error);
-
-/**
- * Whether the model has polarisation; false for null.
- */
-bool welkin_model_is_polarised(const struct WelkinModel *model);
-
-/**
- * Whether the light is that of the moon: see welkin_model_moonlit. False for null.
- */
-bool welkin_model_is_moonlit(const struct WelkinModel *model);
-
-/**
- * Length of the file, bytes; 0 for null.
- */
-size_t welkin_model_file_bytes(const struct WelkinModel *model);
-
-/**
- * Bytes of the file that were needed so far; 0 for null.
- */
-size_t welkin_model_touched_bytes(const struct WelkinModel *model);
-
-/**
- * Fills a moon: full as it can be without an eclipse, 45° high towards +x, at its mean distance. `struct_size` is
- * sizeof(WelkinMoon).
- */
-WelkinStatus welkin_moon_init(struct WelkinMoon *moon, uint64_t struct_size, struct WelkinError *error);
-
-/**
- * The phase angle (rad) of a moon at mean distance in a direction `moon[3]`, with the sun in another, `sun[3]`.
- */
-WelkinStatus welkin_moon_phase_angle(const double *moon,
-                                     const double *sun,
-                                     double *phase_angle,
-                                     struct WelkinError *error);
-
-/**
- * The same model with the moon in place of the sun, as a new handle: skies, discs and air are those that the moon
- * lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights
- * add.
- *
- * Errors: WELKIN_STATUS_RANGE for a phase angle outside 0..=π or a distance that the moon cannot have.
- */
-WelkinStatus welkin_model_moonlit(const struct WelkinModel *model,
-                                  const struct WelkinMoon *moon,
-                                  struct WelkinModel **moonlit,
-                                  struct WelkinError *error);
-
-/**
- * Prepares the sky of sun and moon. One that is too far below the horizon adds nothing.
- *
- * Errors as of welkin_sky_new and welkin_model_moonlit.
- */
-WelkinStatus welkin_sky_sum_new(const struct WelkinModel *model,
-                                const struct WelkinConditions *conditions,
-                                const struct WelkinMoon *moon,
-                                struct WelkinSkySum **sum,
-                                struct WelkinError *error);
-
-/**
- * Frees a sky; null is none.
- */
-void welkin_sky_sum_free(struct WelkinSkySum *sum);
-
-/**
- * As welkin_sky_radiance, at the wavelengths of the model.
- */
-WelkinStatus welkin_sky_sum_radiance(const struct WelkinSkySum *sum,
-                                     const float *direction,
-                                     float *radiance,
-                                     size_t count,
-                                     struct WelkinError *error);
-
-/**
- * As welkin_sky_xyz.
- */
-WelkinStatus welkin_sky_sum_xyz(const struct WelkinSkySum *sum,
-                                const float *direction,
-                                float *xyz,
-                                struct WelkinError *error);
-
-/**
- * As welkin_sky_rgb.
- */
-WelkinStatus welkin_sky_sum_rgb(const struct WelkinSkySum *sum,
-                                const float *direction,
-                                int32_t space,
-                                float *rgb,
-                                struct WelkinError *error);
-
-/**
- * Plans a scene: reads nothing of the model but its head.
- *
- * Errors: WELKIN_STATUS_RANGE for what the model does not cover; WELKIN_STATUS_MISSING if the file lacks a chunk.
- */
-WelkinStatus welkin_model_plan(const struct WelkinModel *model,
-                               const struct WelkinBudget *budget,
-                               struct WelkinPlan **plan,
-                               struct WelkinError *error);
-
-/**
- * Frees a plan; null is none.
- */
-void welkin_plan_free(struct WelkinPlan *plan);
-
-/**
- * Writes what a plan costs and gets. The struct_size of `summary` must be set.
- */
-WelkinStatus welkin_plan_summary(const struct WelkinPlan *plan,
-                                 struct WelkinPlanSummary *summary,
-                                 struct WelkinError *error);
-
-/**
- * Reads and verifies what a plan of this model asks for, before the scene needs it. Errors: those of a damaged file.
- */
-WelkinStatus welkin_model_load(const struct WelkinModel *model,
-                               const struct WelkinPlan *plan,
-                               struct WelkinError *error);
-
-/**
- * Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs
- * of the model alive.
- *
- * Errors: WELKIN_STATUS_LIMIT for models that are too large; those of a damaged file.
- */
-WelkinStatus welkin_point_query_new(const struct WelkinModel *model,
-                                    const struct WelkinPlan *plan,
-                                    struct WelkinPointQuery **query,
-                                    struct WelkinError *error);
-
-/**
- * Frees a query; null is none.
- */
-void welkin_point_query_free(struct WelkinPointQuery *query);
-
-/**
- * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the wavelengths of the model: `radiance[count]`.
- *
- * Errors: WELKIN_STATUS_RANGE for the conditions; WELKIN_STATUS_MISSING for those outside of the plan;
- * WELKIN_STATUS_DIRECTION; WELKIN_STATUS_LENGTH.
- */
-WelkinStatus welkin_point_query_radiance(const struct WelkinPointQuery *query,
-                                         const struct WelkinConditions *conditions,
-                                         const float *direction,
-                                         float *radiance,
-                                         size_t count,
-                                         struct WelkinError *error);
-
-/**
- * The same at any wavelength (nm) within the range of the model. Errors also: WELKIN_STATUS_RANGE for the wavelength.
- */
-WelkinStatus welkin_point_query_radiance_at(const struct WelkinPointQuery *query,
-                                            const struct WelkinConditions *conditions,
-                                            const float *direction,
-                                            double wavelength,
-                                            float *radiance,
-                                            struct WelkinError *error);
-
-/**
- * Prepares point queries with polarisation, within a plan for WELKIN_CHANNELS_STOKES. Otherwise as
- * welkin_point_query_new.
- */
-WelkinStatus welkin_polarised_point_query_new(const struct WelkinModel *model,
-                                              const struct WelkinPlan *plan,
-                                              struct WelkinPolarisedPointQuery **query,
-                                              struct WelkinError *error);
-
-/**
- * Frees a query; null is none.
- */
-void welkin_polarised_point_query_free(struct WelkinPolarisedPointQuery *query);
-
-/**
- * The Stokes vector at any wavelength (nm) within the range of the model, in a frame (null: the vertical one). Errors
- * as of welkin_point_query_radiance_at.
- */
-WelkinStatus welkin_polarised_point_query_stokes_at(const struct WelkinPolarisedPointQuery *query,
-                                                    const struct WelkinConditions *conditions,
-                                                    const float *direction,
-                                                    const struct WelkinPolarisationFrame *frame,
-                                                    double wavelength,
-                                                    struct WelkinStokes *stokes,
-                                                    struct WelkinError *error);
-
-/**
- * Prepares a polarised sky. Errors as of welkin_sky_new; WELKIN_STATUS_MISSING if the model is not polarised.
- */
-WelkinStatus welkin_polarised_sky_new(const struct WelkinModel *model,
-                                      const struct WelkinConditions *conditions,
-                                      struct WelkinPolarisedSky **sky,
-                                      struct WelkinError *error);
-
-/**
- * Frees a sky; null is none. What was baked of it lives on.
- */
-void welkin_polarised_sky_free(struct WelkinPolarisedSky *sky);
-
-/**
- * How many wavelengths results have; 0 for null.
- */
-size_t welkin_polarised_sky_wavelength_count(const struct WelkinPolarisedSky *sky);
-
-/**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_polarised_sky_wavelength_count.
- */
-WelkinStatus welkin_polarised_sky_wavelengths(const struct WelkinPolarisedSky *sky,
-                                              double *wavelengths,
-                                              size_t count,
-                                              struct WelkinError *error);
-
-/**
- * Memory on the heap, bytes; 0 for null.
- */
-size_t welkin_polarised_sky_bytes(const struct WelkinPolarisedSky *sky);
-
-/**
- * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
- */
-WelkinStatus welkin_polarised_sky_conditions(const struct WelkinPolarisedSky *sky,
-                                             struct WelkinConditions *conditions,
-                                             struct WelkinError *error);
-
-/**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
- * uses the handle.
- */
-WelkinStatus welkin_polarised_sky_set_solar_azimuth(struct WelkinPolarisedSky *sky,
-                                                    double azimuth,
-                                                    struct WelkinError *error);
-
-/**
- * Stokes vectors, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `stokes[count]`, in a frame (null: the vertical one).
- *
- * Errors: WELKIN_STATUS_DIRECTION for a direction or an axis that is zero or not finite; WELKIN_STATUS_LENGTH unless
- * `count` is that of the wavelengths; WELKIN_STATUS_ARGUMENT for an unknown kind of frame.
- */
-WelkinStatus welkin_polarised_sky_stokes(const struct WelkinPolarisedSky *sky,
-                                         const float *direction,
-                                         const struct WelkinPolarisationFrame *frame,
-                                         struct WelkinStokes *stokes,
-                                         size_t count,
-                                         struct WelkinError *error);
-
-/**
- * The Stokes vector at any wavelength (nm) within the range of the model.
- *
- * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for the wavelength.
- */
-WelkinStatus welkin_polarised_sky_stokes_at(const struct WelkinPolarisedSky *sky,
-                                            const float *direction,
-                                            const struct WelkinPolarisationFrame *frame,
-                                            double wavelength,
-                                            struct WelkinStokes *stokes,
-                                            struct WelkinError *error);
-
-/**
- * Stokes vectors of X, Y and Z, `xyz[3]`; that of Y in cd m⁻².
- */
-WelkinStatus welkin_polarised_sky_xyz(const struct WelkinPolarisedSky *sky,
-                                      const float *direction,
-                                      const struct WelkinPolarisationFrame *frame,
-                                      struct WelkinStokes *xyz,
-                                      struct WelkinError *error);
-
-/**
  * Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous
  * flux is. The new handle needs neither of them any more.
  */
@@ -1871,121 +1550,6 @@ WelkinStatus welkin_sky_sampler_xyz(const struct WelkinSkySampler *sampler,
                                     const float *direction,
                                     float *xyz,
                                     struct WelkinError *error);
-
-/**
- * Prepares a sky. Reads only what the conditions need.
- *
- * Errors: WELKIN_STATUS_RANGE for conditions outside of the model; WELKIN_STATUS_MISSING if the file has not what they
- * need; those of a damaged file. The new handle does not need the model any more.
- */
-WelkinStatus welkin_sky_new(const struct WelkinModel *model,
-                            const struct WelkinConditions *conditions,
-                            struct WelkinSky **sky,
-                            struct WelkinError *error);
-
-/**
- * Frees a sky; null is none. What was baked of it lives on.
- */
-void welkin_sky_free(struct WelkinSky *sky);
-
-/**
- * How many wavelengths results have; 0 for null.
- */
-size_t welkin_sky_wavelength_count(const struct WelkinSky *sky);
-
-/**
- * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of welkin_sky_wavelength_count.
- */
-WelkinStatus welkin_sky_wavelengths(const struct WelkinSky *sky,
-                                    double *wavelengths,
-                                    size_t count,
-                                    struct WelkinError *error);
-
-/**
- * Memory on the heap, bytes; 0 for null.
- */
-size_t welkin_sky_bytes(const struct WelkinSky *sky);
-
-/**
- * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
- */
-WelkinStatus welkin_sky_conditions(const struct WelkinSky *sky,
-                                   struct WelkinConditions *conditions,
-                                   struct WelkinError *error);
-
-/**
- * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
- * uses the handle.
- */
-WelkinStatus welkin_sky_set_solar_azimuth(struct WelkinSky *sky, double azimuth, struct WelkinError *error);
-
-/**
- * Unit vector towards the sun's centre, as `sun[3]`.
- */
-WelkinStatus welkin_sky_sun_direction(const struct WelkinSky *sky, float *sun, struct WelkinError *error);
-
-/**
- * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at each of its wavelengths: `radiance[count]`. `direction[3]` need not be
- * normalised.
- *
- * Errors: WELKIN_STATUS_DIRECTION for one that is zero or not finite; WELKIN_STATUS_LENGTH unless `count` is that of
- * the wavelengths.
- */
-WelkinStatus welkin_sky_radiance(const struct WelkinSky *sky,
-                                 const float *direction,
-                                 float *radiance,
-                                 size_t count,
-                                 struct WelkinError *error);
-
-/**
- * Radiance per unit of solar spectral irradiance, sr⁻¹; otherwise as welkin_sky_radiance.
- */
-WelkinStatus welkin_sky_relative_radiance(const struct WelkinSky *sky,
-                                          const float *direction,
-                                          float *radiance,
-                                          size_t count,
-                                          struct WelkinError *error);
-
-/**
- * welkin_sky_radiance for many directions, `directions[direction_count][3]`; `radiance[direction_count][wavelengths]`,
- * of which `count` is the number of all floats. What precedes a bad direction is written.
- */
-WelkinStatus welkin_sky_radiance_batch(const struct WelkinSky *sky,
-                                       const float *directions,
-                                       size_t direction_count,
-                                       float *radiance,
-                                       size_t count,
-                                       struct WelkinError *error);
-
-/**
- * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at any wavelength (nm) within the range of the model.
- *
- * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for the wavelength.
- */
-WelkinStatus welkin_sky_radiance_at(const struct WelkinSky *sky,
-                                    const float *direction,
-                                    double wavelength,
-                                    float *radiance,
-                                    struct WelkinError *error);
-
-/**
- * CIE 1931 XYZ of the radiance, `xyz[3]`; Y is the luminance in cd m⁻².
- *
- * Errors: WELKIN_STATUS_DIRECTION.
- */
-WelkinStatus welkin_sky_xyz(const struct WelkinSky *sky, const float *direction, float *xyz, struct WelkinError *error);
-
-/**
- * The same in a colour space (WELKIN_SPACE_SRGB …), cd m⁻²: white of 1 cd m⁻² is (1, 1, 1). Not clipped, so components
- * of colours outside the gamut are negative.
- *
- * Errors: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_ARGUMENT for an unknown space.
- */
-WelkinStatus welkin_sky_rgb(const struct WelkinSky *sky,
-                            const float *direction,
-                            int32_t space,
-                            float *rgb,
-                            struct WelkinError *error);
 
 /**
  * Prepares the sun's disc. Errors as of welkin_sky_new.
@@ -2077,12 +1641,6 @@ WelkinStatus welkin_solar_disc_irradiance(const struct WelkinSolarDisc *disc,
                                           struct WelkinError *error);
 
 /**
- * The name of a status: the class of an error as the format specification writes it, as "range"; "unknown" where the
- * number is no status of this library. Static, never null.
- */
-const char *welkin_status_name(int32_t status);
-
-/**
  * Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does
  * not count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
  */
@@ -2142,6 +1700,139 @@ WelkinStatus welkin_sun_course_write(const struct WelkinSunCourse *course,
                                      double azimuth,
                                      struct WelkinBakedColourSky *baked,
                                      struct WelkinError *error);
+
+/**
+ * Fills a moon: full as it can be without an eclipse, 45° high towards +x, at its mean distance. `struct_size` is
+ * sizeof(WelkinMoon).
+ */
+WelkinStatus welkin_moon_init(struct WelkinMoon *moon, uint64_t struct_size, struct WelkinError *error);
+
+/**
+ * The phase angle (rad) of a moon at mean distance in a direction `moon[3]`, with the sun in another, `sun[3]`.
+ */
+WelkinStatus welkin_moon_phase_angle(const double *moon,
+                                     const double *sun,
+                                     double *phase_angle,
+                                     struct WelkinError *error);
+
+/**
+ * The same model with the moon in place of the sun, as a new handle: skies, discs and air are those that the moon
+ * lights, where conditions say with `solar_elevation` and `solar_azimuth` where it stands. Radiances of both lights
+ * add.
+ *
+ * Errors: WELKIN_STATUS_RANGE for a phase angle outside 0..=π or a distance that the moon cannot have.
+ */
+WelkinStatus welkin_model_moonlit(const struct WelkinModel *model,
+                                  const struct WelkinMoon *moon,
+                                  struct WelkinModel **moonlit,
+                                  struct WelkinError *error);
+
+/**
+ * Prepares the sky of sun and moon. One that is too far below the horizon adds nothing.
+ *
+ * Errors as of welkin_sky_new and welkin_model_moonlit.
+ */
+WelkinStatus welkin_sky_sum_new(const struct WelkinModel *model,
+                                const struct WelkinConditions *conditions,
+                                const struct WelkinMoon *moon,
+                                struct WelkinSkySum **sum,
+                                struct WelkinError *error);
+
+/**
+ * Frees a sky; null is none.
+ */
+void welkin_sky_sum_free(struct WelkinSkySum *sum);
+
+/**
+ * As welkin_sky_radiance, at the wavelengths of the model.
+ */
+WelkinStatus welkin_sky_sum_radiance(const struct WelkinSkySum *sum,
+                                     const float *direction,
+                                     float *radiance,
+                                     size_t count,
+                                     struct WelkinError *error);
+
+/**
+ * As welkin_sky_xyz.
+ */
+WelkinStatus welkin_sky_sum_xyz(const struct WelkinSkySum *sum,
+                                const float *direction,
+                                float *xyz,
+                                struct WelkinError *error);
+
+/**
+ * As welkin_sky_rgb.
+ */
+WelkinStatus welkin_sky_sum_rgb(const struct WelkinSkySum *sum,
+                                const float *direction,
+                                int32_t space,
+                                float *rgb,
+                                struct WelkinError *error);
+
+/**
+ * Prepares point queries within a plan of this model, and reads what it asks for. The new handle keeps what it needs
+ * of the model alive.
+ *
+ * Errors: WELKIN_STATUS_LIMIT for models that are too large; those of a damaged file.
+ */
+WelkinStatus welkin_point_query_new(const struct WelkinModel *model,
+                                    const struct WelkinPlan *plan,
+                                    struct WelkinPointQuery **query,
+                                    struct WelkinError *error);
+
+/**
+ * Frees a query; null is none.
+ */
+void welkin_point_query_free(struct WelkinPointQuery *query);
+
+/**
+ * Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the wavelengths of the model: `radiance[count]`.
+ *
+ * Errors: WELKIN_STATUS_RANGE for the conditions; WELKIN_STATUS_MISSING for those outside of the plan;
+ * WELKIN_STATUS_DIRECTION; WELKIN_STATUS_LENGTH.
+ */
+WelkinStatus welkin_point_query_radiance(const struct WelkinPointQuery *query,
+                                         const struct WelkinConditions *conditions,
+                                         const float *direction,
+                                         float *radiance,
+                                         size_t count,
+                                         struct WelkinError *error);
+
+/**
+ * The same at any wavelength (nm) within the range of the model. Errors also: WELKIN_STATUS_RANGE for the wavelength.
+ */
+WelkinStatus welkin_point_query_radiance_at(const struct WelkinPointQuery *query,
+                                            const struct WelkinConditions *conditions,
+                                            const float *direction,
+                                            double wavelength,
+                                            float *radiance,
+                                            struct WelkinError *error);
+
+/**
+ * Prepares point queries with polarisation, within a plan for WELKIN_CHANNELS_STOKES. Otherwise as
+ * welkin_point_query_new.
+ */
+WelkinStatus welkin_polarised_point_query_new(const struct WelkinModel *model,
+                                              const struct WelkinPlan *plan,
+                                              struct WelkinPolarisedPointQuery **query,
+                                              struct WelkinError *error);
+
+/**
+ * Frees a query; null is none.
+ */
+void welkin_polarised_point_query_free(struct WelkinPolarisedPointQuery *query);
+
+/**
+ * The Stokes vector at any wavelength (nm) within the range of the model, in a frame (null: the vertical one). Errors
+ * as of welkin_point_query_radiance_at.
+ */
+WelkinStatus welkin_polarised_point_query_stokes_at(const struct WelkinPolarisedPointQuery *query,
+                                                    const struct WelkinConditions *conditions,
+                                                    const float *direction,
+                                                    const struct WelkinPolarisationFrame *frame,
+                                                    double wavelength,
+                                                    struct WelkinStokes *stokes,
+                                                    struct WelkinError *error);
 
 /**
  * Prepares the air at a visibility (m).
@@ -2252,6 +1943,315 @@ WelkinStatus welkin_transmittance_to_end_at(const struct WelkinTransmittance *ai
                                             double wavelength,
                                             float *out,
                                             struct WelkinError *error);
+
+/**
+ * Prepares the air of a scene, of which the altitude of the conditions plays no part.
+ *
+ * Errors as of welkin_sky_new.
+ */
+WelkinStatus welkin_aerial_perspective_new(const struct WelkinModel *model,
+                                           const struct WelkinConditions *conditions,
+                                           struct WelkinAerialPerspective **aerial,
+                                           struct WelkinError *error);
+
+/**
+ * Frees an aerial perspective; null is none.
+ */
+void welkin_aerial_perspective_free(struct WelkinAerialPerspective *aerial);
+
+/**
+ * How many wavelengths results have; 0 for null.
+ */
+size_t welkin_aerial_perspective_wavelength_count(const struct WelkinAerialPerspective *aerial);
+
+/**
+ * Writes the wavelengths of results, nm: `wavelengths[count]` with `count` of
+ * welkin_aerial_perspective_wavelength_count.
+ */
+WelkinStatus welkin_aerial_perspective_wavelengths(const struct WelkinAerialPerspective *aerial,
+                                                   double *wavelengths,
+                                                   size_t count,
+                                                   struct WelkinError *error);
+
+/**
+ * Memory on the heap, bytes; 0 for null.
+ */
+size_t welkin_aerial_perspective_bytes(const struct WelkinAerialPerspective *aerial);
+
+/**
+ * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
+ */
+WelkinStatus welkin_aerial_perspective_conditions(const struct WelkinAerialPerspective *aerial,
+                                                  struct WelkinConditions *conditions,
+                                                  struct WelkinError *error);
+
+/**
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
+ */
+WelkinStatus welkin_aerial_perspective_set_solar_azimuth(struct WelkinAerialPerspective *aerial,
+                                                         double azimuth,
+                                                         struct WelkinError *error);
+
+/**
+ * How far the air of segments may be from the origin, as an angle at the planet's centre, rad; 0 for null.
+ */
+double welkin_aerial_perspective_reach(const struct WelkinAerialPerspective *aerial);
+
+/**
+ * Of the segment from `from[3]`, where the observer is, to `to[3]`: `in_scattering[count]` in W m⁻² sr⁻¹ nm⁻¹ and
+ * `transmittance[count]`, an element per wavelength.
+ *
+ * Errors: WELKIN_STATUS_POINT for a point that is not finite, beyond 1e9 m or out of reach; WELKIN_STATUS_LENGTH.
+ */
+WelkinStatus welkin_aerial_perspective_in_scattering(const struct WelkinAerialPerspective *aerial,
+                                                     const double *from,
+                                                     const double *to,
+                                                     float *in_scattering,
+                                                     float *transmittance,
+                                                     size_t count,
+                                                     struct WelkinError *error);
+
+/**
+ * Of all of the air from a point in a `direction[3]`, up to the ground where that is in the way; otherwise as
+ * welkin_aerial_perspective_in_scattering. Errors also: WELKIN_STATUS_DIRECTION.
+ */
+WelkinStatus welkin_aerial_perspective_to_end(const struct WelkinAerialPerspective *aerial,
+                                              const double *from,
+                                              const double *direction,
+                                              float *in_scattering,
+                                              float *transmittance,
+                                              size_t count,
+                                              struct WelkinError *error);
+
+/**
+ * Of segments from a camera to many points, `points[point_count][3]`; the outputs are `[point_count][wavelengths]`, of
+ * which `count` is the number of floats of each. What precedes a bad point is written.
+ */
+WelkinStatus welkin_aerial_perspective_in_scattering_batch(const struct WelkinAerialPerspective *aerial,
+                                                           const double *camera,
+                                                           const double *points,
+                                                           size_t point_count,
+                                                           float *in_scattering,
+                                                           float *transmittance,
+                                                           size_t count,
+                                                           struct WelkinError *error);
+
+/**
+ * Of segments from `from` to the points at growing `distances[distance_count]` (m) in a `direction[3]`: the slices of
+ * a ray, each piece integrated once. The outputs are `[distance_count][wavelengths]`, of which `count` is the number
+ * of floats.
+ *
+ * Errors also: WELKIN_STATUS_DIRECTION; WELKIN_STATUS_RANGE for distances that are negative or do not grow.
+ */
+WelkinStatus welkin_aerial_perspective_in_scattering_along(const struct WelkinAerialPerspective *aerial,
+                                                           const double *from,
+                                                           const double *direction,
+                                                           const double *distances,
+                                                           size_t distance_count,
+                                                           float *in_scattering,
+                                                           float *transmittance,
+                                                           size_t count,
+                                                           struct WelkinError *error);
+
+/**
+ * The in-scattered light of a segment at any wavelength (nm) within the range of the model, W m⁻² sr⁻¹ nm⁻¹.
+ */
+WelkinStatus welkin_aerial_perspective_in_scattering_at(const struct WelkinAerialPerspective *aerial,
+                                                        const double *from,
+                                                        const double *to,
+                                                        double wavelength,
+                                                        float *in_scattering,
+                                                        struct WelkinError *error);
+
+/**
+ * CIE XYZ of the in-scattered light of a segment, `light[3]`, and what the air leaves of X, Y and Z of things lit by
+ * the sun, `factors[3]`.
+ */
+WelkinStatus welkin_aerial_perspective_xyz(const struct WelkinAerialPerspective *aerial,
+                                           const double *from,
+                                           const double *to,
+                                           float *light,
+                                           float *factors,
+                                           struct WelkinError *error);
+
+/**
+ * The same in a colour space (WELKIN_SPACE_SRGB …): light in cd m⁻². What is there is seen as `radiance · factors +
+ * light`.
+ */
+WelkinStatus welkin_aerial_perspective_rgb(const struct WelkinAerialPerspective *aerial,
+                                           const double *from,
+                                           const double *to,
+                                           int32_t space,
+                                           float *light,
+                                           float *factors,
+                                           struct WelkinError *error);
+
+/**
+ * The in-scattered light of a segment with its polarisation, as three arrays with an element per wavelength, in a
+ * frame (null: the vertical one) at the start, and the transmittance.
+ */
+WelkinStatus welkin_aerial_perspective_in_scattering_stokes(const struct WelkinAerialPerspective *aerial,
+                                                            const double *from,
+                                                            const double *to,
+                                                            const struct WelkinPolarisationFrame *frame,
+                                                            float *i,
+                                                            float *q,
+                                                            float *u,
+                                                            float *transmittance,
+                                                            size_t count,
+                                                            struct WelkinError *error);
+
+/**
+ * Stokes vectors of the in-scattered light of a segment in linear sRGB, `light[3]`, and the factors of things,
+ * `factors[3]`.
+ */
+WelkinStatus welkin_aerial_perspective_rgb_stokes(const struct WelkinAerialPerspective *aerial,
+                                                  const double *from,
+                                                  const double *to,
+                                                  const struct WelkinPolarisationFrame *frame,
+                                                  struct WelkinStokes *light,
+                                                  float *factors,
+                                                  struct WelkinError *error);
+
+/**
+ * As welkin_aerial_perspective_in_scattering from where the sky was prepared, (0, 0, altitude), but that the light
+ * goes over into that of the sky where hardly any can come from beyond the segment: what is far vanishes in the sky
+ * without a seam.
+ *
+ * Errors also: WELKIN_STATUS_RANGE if the sky has another sun, visibility or albedo.
+ */
+WelkinStatus welkin_aerial_perspective_joined_in_scattering(const struct WelkinAerialPerspective *aerial,
+                                                            const struct WelkinSky *sky,
+                                                            const double *to,
+                                                            float *in_scattering,
+                                                            float *transmittance,
+                                                            size_t count,
+                                                            struct WelkinError *error);
+
+/**
+ * The same for many points, as welkin_aerial_perspective_in_scattering_batch.
+ */
+WelkinStatus welkin_aerial_perspective_joined_batch(const struct WelkinAerialPerspective *aerial,
+                                                    const struct WelkinSky *sky,
+                                                    const double *points,
+                                                    size_t point_count,
+                                                    float *in_scattering,
+                                                    float *transmittance,
+                                                    size_t count,
+                                                    struct WelkinError *error);
+
+/**
+ * The same in CIE XYZ, as welkin_aerial_perspective_xyz.
+ */
+WelkinStatus welkin_aerial_perspective_joined_xyz(const struct WelkinAerialPerspective *aerial,
+                                                  const struct WelkinSky *sky,
+                                                  const double *to,
+                                                  float *light,
+                                                  float *factors,
+                                                  struct WelkinError *error);
+
+/**
+ * The same in linear sRGB.
+ */
+WelkinStatus welkin_aerial_perspective_joined_srgb(const struct WelkinAerialPerspective *aerial,
+                                                   const struct WelkinSky *sky,
+                                                   const double *to,
+                                                   float *light,
+                                                   float *factors,
+                                                   struct WelkinError *error);
+
+/**
+ * The same with polarisation, as welkin_aerial_perspective_rgb_stokes, before a polarised sky.
+ */
+WelkinStatus welkin_aerial_perspective_joined_srgb_stokes(const struct WelkinAerialPerspective *aerial,
+                                                          const struct WelkinPolarisedSky *sky,
+                                                          const double *to,
+                                                          const struct WelkinPolarisationFrame *frame,
+                                                          struct WelkinStokes *light,
+                                                          float *factors,
+                                                          struct WelkinError *error);
+
+/**
+ * Prepares the air of a scene for colour alone. Errors as of welkin_aerial_perspective_new.
+ */
+WelkinStatus welkin_colour_aerial_perspective_new(const struct WelkinModel *model,
+                                                  const struct WelkinConditions *conditions,
+                                                  struct WelkinColourAerialPerspective **aerial,
+                                                  struct WelkinError *error);
+
+/**
+ * Frees an aerial perspective; null is none.
+ */
+void welkin_colour_aerial_perspective_free(struct WelkinColourAerialPerspective *aerial);
+
+/**
+ * Memory on the heap, bytes; 0 for null.
+ */
+size_t welkin_colour_aerial_perspective_bytes(const struct WelkinColourAerialPerspective *aerial);
+
+/**
+ * Writes the conditions that it was prepared for. The struct_size of `conditions` must be set.
+ */
+WelkinStatus welkin_colour_aerial_perspective_conditions(const struct WelkinColourAerialPerspective *aerial,
+                                                         struct WelkinConditions *conditions,
+                                                         struct WelkinError *error);
+
+/**
+ * Turns it about the vertical so that the sun has this azimuth (rad). Costs no preparation. Not while another thread
+ * uses the handle.
+ */
+WelkinStatus welkin_colour_aerial_perspective_set_solar_azimuth(struct WelkinColourAerialPerspective *aerial,
+                                                                double azimuth,
+                                                                struct WelkinError *error);
+
+/**
+ * As welkin_aerial_perspective_xyz.
+ */
+WelkinStatus welkin_colour_aerial_perspective_xyz(const struct WelkinColourAerialPerspective *aerial,
+                                                  const double *from,
+                                                  const double *to,
+                                                  float *light,
+                                                  float *factors,
+                                                  struct WelkinError *error);
+
+/**
+ * As welkin_aerial_perspective_rgb.
+ */
+WelkinStatus welkin_colour_aerial_perspective_rgb(const struct WelkinColourAerialPerspective *aerial,
+                                                  const double *from,
+                                                  const double *to,
+                                                  int32_t space,
+                                                  float *light,
+                                                  float *factors,
+                                                  struct WelkinError *error);
+
+/**
+ * In linear sRGB, of segments from `from` to the points at growing `distances[distance_count]` (m) in a
+ * `direction[3]`: `light[distance_count][3]` and `factors[distance_count][3]`. Errors as of
+ * welkin_aerial_perspective_in_scattering_along.
+ */
+WelkinStatus welkin_colour_aerial_perspective_srgb_along(const struct WelkinColourAerialPerspective *aerial,
+                                                         const double *from,
+                                                         const double *direction,
+                                                         const double *distances,
+                                                         size_t distance_count,
+                                                         float *light,
+                                                         float *factors,
+                                                         struct WelkinError *error);
+
+/**
+ * Fills a volume in linear sRGB: `light` and `factors` are `[rows][columns][depths][3]`, of which `count` is rows ×
+ * columns × depths. On all cores where the library was built with rayon. Allocates.
+ *
+ * Errors also: WELKIN_STATUS_LENGTH for another count; WELKIN_STATUS_RANGE for depths that do not grow.
+ */
+WelkinStatus welkin_colour_aerial_perspective_srgb_volume(const struct WelkinColourAerialPerspective *aerial,
+                                                          const struct WelkinCameraVolume *volume,
+                                                          float *light,
+                                                          float *factors,
+                                                          size_t count,
+                                                          struct WelkinError *error);
 
 #ifdef __cplusplus
 }  // extern "C"
