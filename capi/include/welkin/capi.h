@@ -14,7 +14,7 @@
  *
  * Threads. There are no globals. Functions that take handles as pointers to const may be called by any number of
  * threads at once, also with the same handle, and need no lock; what is not const must not be in use elsewhere. But for
- * models, whose chunks are read at first touch, queries neither block, allocate nor call the system.
+ * models, whose chunks are read at first touch, queries that succeed neither block, allocate nor call the system.
  *
  * Units and frame. SI, angles in radians, wavelengths in nanometres, spectral radiance in W m⁻² sr⁻¹ nm⁻¹, colours in
  * cd m⁻². +z is the zenith, azimuths count counter-clockwise from +x seen from above. Directions point away from the
