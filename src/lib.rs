@@ -143,8 +143,8 @@ cfg_if::cfg_if! {
             ColourAerialPerspective, JoinedAerialPerspective, JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
-            BakeError, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
-            Directions, Part, Sample, SkySampler, SunCourse,
+            BakeError, BufferHeader, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
+            Directions, Part, Sample, SkyBuffers, SkySampler, SunCourse,
         };
         pub use bands::{
             BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,

@@ -336,6 +336,34 @@ fn neighbours_of_the_horizon_agree_on_its_own_side() {
     }
 }
 
+proptest! {
+    #![proptest_config(common::cases(12))]
+
+    /// Under a moving sun: blends of a course, and bakes like that of a sun half a degree away.
+    #[test]
+    fn skies_under_a_moving_sun_are_as_good(conditions in conditions(), width in 0.5..4.0f64, share in 0.0..1.0f64) {
+        let lowest = conditions.solar_elevation.min(1.5);
+        let course = MODEL.sun_course(&conditions, [lowest, lowest + width.to_radians()], BakedSky::TOLERANCE);
+        let course = course.unwrap();
+        let elevation = lowest + share * width.to_radians();
+        let there = Conditions { solar_elevation: elevation, ..conditions };
+        let near = Conditions { solar_elevation: elevation - 0.5f64.to_radians().copysign(elevation), ..conditions };
+        let sky = MODEL.colour_sky(&there).unwrap();
+        let blend = course.at(elevation, conditions.solar_azimuth).unwrap();
+        let like = sky.bake_like(&MODEL.colour_sky(&near).unwrap().bake(BakedSky::TOLERANCE).unwrap());
+        let directions = (0..1500).map(|i| on_sphere(1.0 - f64::from(i) / 750.0, f64::from(i) * 2.399_963));
+        let directions: Vec<_> = directions.filter(|d| conditions.altitude > 0.0 || d[2] > 0.0).collect();
+        for baked in [&blend, &like] {
+            let errors = directions.iter().flat_map(|&d| {
+                let (got, expected) = (baked.xyz(d).unwrap(), sky.xyz(d).unwrap());
+                (0..3).map(move |c| error(got[c], expected[c]))
+            });
+            let p95 = percentile(errors.collect(), 0.95);
+            prop_assert!(p95 < 2.0 * BakedSky::TOLERANCE, "{p95}");
+        }
+    }
+}
+
 /// The next frame keeps the tolerance that the last one keeps, and says whose error it gives.
 #[test]
 fn what_is_baked_like_another_is_about_as_good() {

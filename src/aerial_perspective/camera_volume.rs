@@ -1,7 +1,7 @@
 //! Volumes of slices in front of a camera: most rays are interpolated between those of a lattice.
 
 use super::colour_segments::ColourAerialPerspective;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::parallel::each_chunk;
 use crate::sky::check_length;
 
@@ -12,15 +12,17 @@ const STEP: usize = 4;
 const LIGHT: f32 = 3e-3;
 const FAINT: f32 = 1e-3;
 const FACTOR: f32 = 2e-3;
-/// Of so many cells of a band one must be uneven for the band to be marched row by row.
-const STEEP: usize = 4;
+/// Share of the cells of a band that must be rough for its rows to be looked at one by one, and of those of a row for
+/// all of the band to be marched.
+const STEEP: f32 = 0.25;
+const HOPELESS: f32 = 0.5;
 
 /// A camera-aligned volume ("froxels"). Row `r`, column `c`, slice `k` ends at `from + depths[k] · (axis + x·right +
 /// y·up)` with `x = (2c + 1) / columns − 1` and `y = 1 − (2r + 1) / rows`: with `axis` a unit vector and the other two
 /// across it, as long as the tangents of half the fields of view, slices are planes and depths are along the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraVolume<'a> {
-    /// The camera: east, north and up of the point on the ground below it in the convention of the sky's directions, m.
+    /// The camera, m, in the frame of the conditions: the origin is the ground below their place, +z up there.
     pub from: [f64; 3],
     /// The middle of the picture.
     pub axis: [f64; 3],
@@ -56,6 +58,16 @@ impl CameraVolume<'_> {
         core::array::from_fn(|i| self.axis[i] + x * self.right[i] + y * self.up[i])
     }
 
+    fn check(&self) -> Result<()> {
+        for vector in [self.axis, self.right, self.up] {
+            if !vector.iter().all(|v| v.is_finite()) {
+                let got = vector.map(|v| v as f32);
+                return Err(Error::Direction { got });
+            }
+        }
+        Ok(())
+    }
+
     fn lattice_size(&self) -> [usize; 2] {
         self.size.map(|n| n.div_ceil(STEP) + 3)
     }
@@ -69,15 +81,20 @@ impl CameraVolume<'_> {
 
 impl ColourAerialPerspective {
     /// Fills a camera-aligned volume in linear sRGB; the outputs are `[rows][columns][depths]`: light in cd m⁻² and
-    /// factors as of [`ColourAerialPerspective::linear_srgb`]. All cores with the feature `rayon`. Allocates.
+    /// factors as of [`ColourAerialPerspective::linear_srgb`]. Allocates some megabytes; with the feature `rayon` it runs
+    /// on all cores and waits for them.
     ///
-    /// Every fourth ray across and down is marched ([`ColourAerialPerspective::linear_srgb_along`]), others are
-    /// interpolated where that holds in the middle between four (0.3 % of light, 0.002 of factors), and marched where it
-    /// does not, as about the sun.
+    /// Every fourth ray across and down is marched ([`ColourAerialPerspective::linear_srgb_along`]) and one in the
+    /// middle between four; others are interpolated where that gives the middle (to 0.3 % of light, 0.002 of factors).
+    /// Where many of a band of rows are not, as about the horizon, its rows are looked at one by one, and cells that are
+    /// off still, as about the sun and a slanted horizon, are marched whole. Small volumes are marched whole.
     ///
     /// # Errors
-    /// As [`ColourAerialPerspective::linear_srgb_along`]; [`Error::Length`](crate::Error::Length) unless both outputs
-    /// have an element for every slice of every ray. What the outputs hold after an error is not said.
+    /// As [`ColourAerialPerspective::linear_srgb_along`]; [`Error::Direction`] for an axis that is not finite;
+    /// [`Error::Length`] unless both outputs
+    /// have an element for every slice of every ray. One ray in error ends it: cameras high up must not look further
+    /// than [`AerialPerspective::reach`](crate::AerialPerspective::reach) below the ground. The outputs may be written in
+    /// part then.
     pub fn linear_srgb_volume(
         &self,
         volume: &CameraVolume,
@@ -89,11 +106,13 @@ impl ColourAerialPerspective {
         for got in [light.len(), factors.len()] {
             check_length(got, length)?;
         }
+        volume.check()?;
         if length == 0 {
             return Ok(());
         }
+        // Beyond the edge of the picture there may be rays that cannot be marched.
         let lattice = match volume.is_worth_a_lattice() {
-            true => Some(Lattice::new(self, volume)?),
+            true => Lattice::new(self, volume).ok(),
             false => None,
         };
         let band = STEP * columns * depths;
@@ -232,48 +251,90 @@ impl Band<'_> {
         let middles = self.march_row(lattice.size[0] - 3, 0.5, STEP / 2)?;
         let mut rays = Rays::new(lattice.size[0] * depths);
         lattice.blend_rows(j, weights(0.5), &mut rays);
-        let mut smooth = smooth_cells(&rays, &middles, depths);
-        // As about the horizon: rows differ more than columns do.
-        let steep = STEEP * smooth.iter().filter(|smooth| !**smooth).count() > smooth.len();
-        if steep {
-            rays = self.march_row(lattice.size[0], -1.0, STEP / 2)?;
-            smooth = smooth_cells(&rays, &middles, depths);
-        }
-        let mut distances = Vec::new();
+        let rough = rough_cells(&rays, &middles, depths);
         let row = columns * depths;
         let rows = light.chunks_mut(row).zip(factors.chunks_mut(row));
-        for (r, (light, factors)) in rows.enumerate() {
-            match steep && r > 0 {
-                true => rays = self.march_row(lattice.size[0], -1.0, r)?,
-                false => lattice.blend_rows(j, weights(r as f32 / STEP as f32), &mut rays),
+        if share(&rough) <= STEEP {
+            for (r, (light, factors)) in rows.enumerate() {
+                lattice.blend_rows(j, weights(r as f32 / STEP as f32), &mut rays);
+                self.fill_row(r, &rays, &rough, light, factors)?;
             }
-            let parts = (light.chunks_mut(depths)).zip(factors.chunks_mut(depths));
-            for (c, (light, factors)) in parts.enumerate() {
-                if smooth[c / STEP] {
-                    let t = (c % STEP) as f32 / STEP as f32;
-                    rays.blend_columns(c / STEP, t, light, factors);
-                } else {
-                    let place = [c as f64, (self.first + r) as f64];
-                    (self.aerial).march_ray(self.volume, place, &mut distances, light, factors)?;
-                }
+            return Ok(());
+        }
+        // As about the horizon: rows differ more than columns do.
+        let rays = self.march_row(lattice.size[0], -1.0, STEP / 2)?;
+        let rough = rough_cells(&rays, &middles, depths);
+        if share(&rough) > HOPELESS {
+            return self.march_all(light, factors);
+        }
+        for (r, (light, factors)) in rows.enumerate() {
+            match r == STEP / 2 {
+                true => self.fill_row(r, &rays, &rough, light, factors)?,
+                false => self.march_steep(lattice.size[0], r, light, factors)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// A row from its own rays, every [`STEP`]th and those in the middle between them.
+    fn march_steep(
+        self,
+        count: usize,
+        r: usize,
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
+        let rays = self.march_row(count, -1.0, r)?;
+        let middles = self.march_row(count - 3, 0.5, r)?;
+        let rough = rough_cells(&rays, &middles, self.volume.depths.len());
+        self.fill_row(r, &rays, &rough, light, factors)
+    }
+
+    /// Interpolates between rays of a row, and marches cells that are rough.
+    fn fill_row(
+        self,
+        r: usize,
+        rays: &Rays,
+        rough: &[bool],
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
+        let depths = self.volume.depths.len();
+        let mut distances = Vec::new();
+        let parts = (light.chunks_mut(depths)).zip(factors.chunks_mut(depths));
+        for (c, (light, factors)) in parts.enumerate() {
+            if rough[c / STEP] {
+                let place = [c as f64, (self.first + r) as f64];
+                (self.aerial).march_ray(self.volume, place, &mut distances, light, factors)?;
+            } else {
+                let t = (c % STEP) as f32 / STEP as f32;
+                rays.blend_columns(c / STEP, t, light, factors);
             }
         }
         Ok(())
     }
 }
 
-/// For each cell whether the ray in its middle is what is interpolated there.
-fn smooth_cells(rays: &Rays, middles: &Rays, depths: usize) -> Vec<bool> {
+/// For each cell whether the ray in its middle, or in that of a neighbour, is not what is interpolated there.
+fn rough_cells(rays: &Rays, middles: &Rays, depths: usize) -> Vec<bool> {
     let mut between = Rays::new(depths);
     let middles = middles
         .light
         .chunks(depths)
         .zip(middles.factors.chunks(depths));
-    let alike = middles.enumerate().map(|(i, (light, factors))| {
+    let rough = middles.enumerate().map(|(i, (light, factors))| {
         rays.blend_columns(i, 0.5, &mut between.light, &mut between.factors);
-        alike([light, &between.light], [factors, &between.factors])
+        !alike([light, &between.light], [factors, &between.factors])
     });
-    alike.collect()
+    let rough: Vec<bool> = rough.collect();
+    let last = rough.len() - 1;
+    (0..=last)
+        .map(|i| rough[i.saturating_sub(1)..=(i + 1).min(last)].contains(&true))
+        .collect()
+}
+
+fn share(rough: &[bool]) -> f32 {
+    rough.iter().filter(|rough| **rough).count() as f32 / rough.len() as f32
 }
 
 fn alike(light: [&[[f32; 3]]; 2], factors: [&[[f32; 3]]; 2]) -> bool {

@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::sky::ColourSpace;
 
 /// An [`AerialPerspective`] for colour alone: only the wavelengths that X, Y and Z are made of are prepared and asked.
-/// Queries do not allocate. `Send + Sync`.
+/// Queries do not allocate, but that of a whole volume. `Send + Sync`.
 ///
 /// ```
 /// use welkin::{Conditions, Model};
@@ -107,5 +107,22 @@ impl ColourAerialPerspective {
     ) -> Result<()> {
         self.aerial
             .linear_srgb_along(from, direction, distances, light, factors)
+    }
+
+    /// As [`AerialPerspective::rgb_along`].
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::in_scattering_along`].
+    pub fn rgb_along(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        distances: &[f64],
+        space: ColourSpace,
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
+        self.aerial
+            .rgb_along(from, direction, distances, space, light, factors)
     }
 }

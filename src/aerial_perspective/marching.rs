@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::kernel::math::LANES;
 use crate::kernel::simd::{Instructions, Kernel, dispatch};
 use crate::polarisation::Plane;
-use crate::sky::MOST_WAVELENGTHS;
+use crate::sky::{ColourSpace, MOST_WAVELENGTHS};
 use crate::transmittance::Segment;
 
 const MOST_BLOCKS: usize = MOST_WAVELENGTHS.div_ceil(LANES);
@@ -116,7 +116,8 @@ impl AerialPerspective {
     /// As [`AerialPerspective::in_scattering`], from `from` to the points at growing `distances` (m) in a `direction`
     /// (need not be normalised), as the slices of a camera-aligned volume ask for; the outputs are
     /// `[distances][wavelengths]`. Each piece between two distances is integrated once, so that many of them cost a
-    /// fraction of as many segments; light is within some 0.3 % of theirs (p95; 1.2 % p99).
+    /// fraction of as many segments, and 64 of them are exacter than single segments: those, with few panels, are some
+    /// 1 % off by day and 2 % in twilight (p95; p99 2 and 5 %), and jump by up to 3 % where their number changes.
     ///
     /// # Errors
     /// As [`AerialPerspective::in_scattering`]; [`Error::Direction`] for a vector that is zero or not finite;
@@ -151,6 +152,29 @@ impl AerialPerspective {
         light: &mut [[f32; 3]],
         factors: &mut [[f32; 3]],
     ) -> Result<()> {
+        self.rgb_along(
+            from,
+            direction,
+            distances,
+            ColourSpace::Srgb,
+            light,
+            factors,
+        )
+    }
+
+    /// As [`AerialPerspective::linear_srgb_along`], in any colour space.
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::in_scattering_along`].
+    pub fn rgb_along(
+        &self,
+        from: [f64; 3],
+        direction: [f64; 3],
+        distances: &[f64],
+        space: ColourSpace,
+        light: &mut [[f32; 3]],
+        factors: &mut [[f32; 3]],
+    ) -> Result<()> {
         for got in [light.len(), factors.len()] {
             crate::sky::check_length(got, distances.len())?;
         }
@@ -162,8 +186,8 @@ impl AerialPerspective {
             sum.add(&self.xyz[block], result);
             if block == last {
                 let (xyz, through) = core::mem::take(sum).finish(&self.white);
-                light[k] = crate::sky::xyz_to_linear_srgb(xyz);
-                factors[k] = self.srgb_factors(through);
+                light[k] = space.from_xyz(xyz);
+                factors[k] = self.factors(through, space);
             }
         })
     }

@@ -122,12 +122,8 @@ impl AerialPerspective {
         Ok(segment)
     }
 
-    /// Factors of red, green and blue from those of X, Y and Z.
-    pub(super) fn srgb_factors(&self, through: [f32; 3]) -> [f32; 3] {
-        self.factors(through, ColourSpace::Srgb)
-    }
-
-    fn factors(&self, through: [f32; 3], space: ColourSpace) -> [f32; 3] {
+    /// Factors of the components of a colour space from those of X, Y and Z.
+    pub(super) fn factors(&self, through: [f32; 3], space: ColourSpace) -> [f32; 3] {
         let seen = core::array::from_fn(|c| through[c] * self.white[c]);
         let [seen, white] = [seen, self.white].map(|xyz| space.from_xyz(xyz));
         core::array::from_fn(|c| bound(seen[c] / white[c], 0.0, 1.0))

@@ -13,7 +13,7 @@ use crate::kernel::simd::dispatch;
 use crate::polarisation::{
     Plane, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra, between, limit,
 };
-use crate::sky::xyz_to_linear_srgb;
+use crate::sky::{ColourSpace, xyz_to_linear_srgb};
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 
 impl AerialPerspective {
@@ -183,7 +183,10 @@ impl AerialPerspective {
             q: q[c],
             u: u[c],
         };
-        Ok((core::array::from_fn(stokes), self.srgb_factors(through)))
+        Ok((
+            core::array::from_fn(stokes),
+            self.factors(through, ColourSpace::Srgb),
+        ))
     }
 
     /// Hands blocks of light per unit of solar irradiance, of Q and U over it in the frame of the caller, and of

@@ -29,7 +29,7 @@ use crate::sky::MOST_WAVELENGTHS;
 /// ```
 #[derive(Clone, Debug)]
 pub struct BakedBandSky {
-    sky: BakedSky,
+    pub(super) sky: BakedSky,
 }
 
 /// A [`PolarisedBandSky`] as tables: as [`BakedPolarisedSky`], with bands in place of wavelengths.
@@ -49,7 +49,7 @@ pub struct BakedBandSky {
 /// ```
 #[derive(Clone, Debug)]
 pub struct BakedPolarisedBandSky {
-    sky: BakedPolarisedSky,
+    pub(super) sky: BakedPolarisedSky,
 }
 
 struct OfBands<'a>(&'a Projection);

@@ -66,7 +66,8 @@ impl ColourSky {
     /// Bakes the sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under
     /// a sun that moves. What takes most of the time of [`ColourSky::bake`], measuring the error and choosing the
     /// sizes, is left out: the tolerance is kept about as well as `other` keeps it, and
-    /// [`BakedColourSky::bake_error`] is that of `other`. While sizes stay, a small step of the conditions changes no
+    /// [`BakedColourSky::bake_error`] is that of `other`. Bake afresh every degree or so: sizes that were chosen far away
+    /// keep it no more (from 10 to −8° at 9 km, p95 0.8 % instead of 0.25). While sizes stay, a small step of the conditions changes no
     /// pixel by more than it changes the sky.
     ///
     /// ```

@@ -40,7 +40,7 @@ pub struct BakedSky {
     pub(super) baked: Baked<LANES>,
     wavelengths: Vec<f64>,
     /// Solar irradiance at the wavelengths, padded.
-    irradiance: Vec<Lanes<LANES>>,
+    pub(super) irradiance: Vec<Lanes<LANES>>,
     pub(super) axis: WavelengthAxis,
 }
 

@@ -10,17 +10,17 @@ use crate::sky::Sky;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalFrame {
     /// Unit vector towards the sun.
-    sun: [f32; 3],
+    pub(super) sun: [f32; 3],
     /// Cosine of the sun's elevation.
     level: f32,
     /// Cosine and sine of the sun's azimuth.
-    azimuth: [f32; 2],
+    pub(super) azimuth: [f32; 2],
     /// z of unit vectors that meet the geometric horizon, ≤ 0.
-    horizon: f32,
+    pub(super) horizon: f32,
     /// 1 / (1 ∓ horizon): what makes shares of distances in z from it, above and below.
-    shrink: [f32; 2],
+    pub(super) shrink: [f32; 2],
     /// Distance from the planet's centre over [`opaque_length`].
-    radius: f32,
+    pub(super) radius: f32,
 }
 
 /// Directions in the coordinates of the tables; all but `side` are 0..=1.
@@ -53,10 +53,10 @@ pub(crate) fn share(height: f64) -> f64 {
 
 /// How rows are drawn together towards the horizon, above and below it. Measured: with the same number of rows the
 /// 99.9th percentile of errors is a third of what it is with the height alone, and the 95th two thirds.
-const CROWDING: [f32; 2] = [2.2, 1.1];
+pub(super) const CROWDING: [f32; 2] = [2.2, 1.1];
 
 /// How far rows stand from the pole.
-const POLE: f32 = 0.5;
+pub(super) const POLE: f32 = 0.5;
 
 /// The inverse of [`Points::row`]: the share of the way in z from the horizon to the pole.
 pub(crate) fn share_at_row(side: Side, row: f64) -> f64 {

@@ -4,6 +4,7 @@
 //! Both are smooth wherever the radiance is: at the neutral points, in the aureole and, as the azimuth is an axis of
 //! its own, at the poles. U over the sine of the azimuth is even in it, as Q is.
 
+use super::buffers::regrouped;
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::LocalFrame;
 use super::frame_rotation::FrameRotation;
@@ -212,6 +213,16 @@ impl PolarisationTable {
     #[inline(always)]
     pub fn at<const W: usize>(&self, spots: &Spots<W>, i: usize, block: usize) -> Lanes<PAIR> {
         spots.surface(Lanes::splat(0.0), &self.grid, &self.cells, i, block)
+    }
+
+    /// Q/I, or U/(I sin φ) of groups of four: `[group][up rows, then down rows][azimuth]`.
+    pub fn regrouped(&self, groups: usize, part: usize) -> Vec<[f32; 4]> {
+        regrouped(
+            &self.cells,
+            self.grid.cells(),
+            groups,
+            [part * LANES, LANES],
+        )
     }
 
     /// Bytes on the heap.

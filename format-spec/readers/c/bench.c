@@ -1,4 +1,6 @@
-/* Times all wavelengths of random directions in one sky. SPDX-License-Identifier: MIT OR Apache-2.0 */
+/* Times all wavelengths of random directions in one sky, and baked skies with their errors.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0 */
 #define WELKIN_IMPLEMENTATION
 #include "welkin.h"
 
@@ -89,16 +91,77 @@ static int time_mode(const welkin_file *file, unsigned flags, const char *name, 
     return failed;
 }
 
+/* Nanoseconds per direction of what a table answers: its values, or samples with their densities. */
+static double time_table(const welkin_baked *baked, double (*directions)[3], int sample)
+{
+    float radiance[WELKIN_MAX_WAVELENGTHS];
+    double start = seconds(), spent, out[3], pdf;
+    uint32_t state = 1;
+    long count = 0;
+    do {
+        int i;
+        for (i = 0; i < DIRECTIONS; i++) {
+            if (sample) {
+                double u = uniform(&state);
+                welkin_sample(baked, u, uniform(&state), out, &pdf);
+            } else if (baked->resolution.spectral) {
+                welkin_baked_radiance(baked, directions[i], radiance);
+            } else {
+                welkin_baked_xyz(baked, directions[i], out);
+            }
+        }
+        count += DIRECTIONS;
+        spent = seconds() - start;
+    } while (spent < 0.3);
+    return 1e9 * spent / (double)count;
+}
+
+static int bake(const welkin_sky *sky, welkin_resolution resolution, double (*directions)[3])
+{
+    size_t floats = welkin_bake_floats(sky->file, &resolution);
+    float *memory = malloc(floats * sizeof *memory);
+    welkin_baked baked;
+    double start = seconds(), spent, p99, largest;
+    welkin_error error = memory ? welkin_bake(&baked, sky, &resolution, memory, floats) : WELKIN_ERROR_SCRATCH;
+    spent = seconds() - start;
+    if (!error) error = welkin_baked_error(&baked, sky, 20000, &p99, &largest);
+    if (error)
+        printf("a baked sky: %s\n", welkin_error_name(error));
+    else
+        printf("baked %s %3u + %2u x %2u %7.0f KiB, %5.1f ms, %4.0f ns per direction, %4.0f ns per sample, errors: p99 "
+               "%.3f %%, largest %.2f %%\n",
+               resolution.spectral ? "spectral" : "colour  ", resolution.up, resolution.down, resolution.azimuths,
+               (double)floats / 256, 1e3 * spent, time_table(&baked, directions, 0), time_table(&baked, directions, 1),
+               100 * p99, 100 * largest);
+    free(memory);
+    return error != WELKIN_OK;
+}
+
+static int bake_all(const welkin_file *file, const welkin_conditions *conditions, double (*directions)[3])
+{
+    static const welkin_resolution resolutions[5] = {
+        {32, 16, 24, 0}, {48, 24, 32, 0}, {96, 48, 64, 0}, {48, 24, 32, 1}, {96, 48, 64, 1}};
+    size_t floats = welkin_scratch_floats(file, WELKIN_DENSE);
+    float *scratch = malloc(floats * sizeof *scratch);
+    welkin_sky sky;
+    int failed = !scratch || welkin_prepare(&sky, file, conditions, WELKIN_DENSE, scratch, floats), i;
+    if (failed) printf("baked skies: no sky\n");
+    for (i = 0; i < 5 && !failed; i++) failed = bake(&sky, resolutions[i], directions);
+    free(scratch);
+    return failed;
+}
+
 int main(int count, char **arguments)
 {
     static double directions[DIRECTIONS][3];
     size_t length = 0;
-    unsigned char *bytes = count == 2 ? read_all(arguments[1], &length) : NULL;
+    unsigned char *bytes = count == 2 || count == 4 ? read_all(arguments[1], &length) : NULL;
     welkin_file file;
     welkin_error error;
+    welkin_conditions conditions;
     int failed;
     if (!bytes) {
-        fprintf(stderr, "usage: bench FILE\n");
+        fprintf(stderr, "usage: bench FILE [ALTITUDE SOLAR_ELEVATION] (of baked skies; m, degrees)\n");
         return 2;
     }
     error = welkin_open(&file, bytes, length);
@@ -114,6 +177,12 @@ int main(int count, char **arguments)
         failed |= time_mode(&file, WELKIN_POLARISED, "Stokes", directions);
         failed |= time_mode(&file, WELKIN_POLARISED | WELKIN_DENSE, "Stokes, dense", directions);
     }
+    conditions = choose_conditions(&file);
+    if (count == 4) {
+        conditions.altitude = strtod(arguments[2], NULL);
+        conditions.solar_elevation = strtod(arguments[3], NULL) * 3.141592653589793 / 180;
+    }
+    failed |= bake_all(&file, &conditions, directions);
     free(bytes);
     return failed;
 }

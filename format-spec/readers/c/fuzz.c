@@ -59,6 +59,30 @@ static void ask_wavelengths(const welkin_file *file, const float *light, const f
     }
 }
 
+/* A table as small as any that has all kinds of cells. */
+static void ask_table(const welkin_sky *sky, int spectral)
+{
+    static const double directions[3][3] = {{0, 0, 1}, {1, 0, 0.01}, {0.3, -0.2, -0.5}};
+    welkin_resolution resolution = {2, 1, 1, 0};
+    float light[WELKIN_MAX_WAVELENGTHS], memory[10 * WELKIN_MAX_WAVELENGTHS + 10];
+    double xyz[3], rgb[3], sample[3], pdf, p99, largest;
+    welkin_baked baked;
+    int i, k;
+    resolution.spectral = spectral;
+    if (welkin_bake(&baked, sky, &resolution, memory, sizeof memory / sizeof *memory)) return;
+    for (i = 0; i < 3; i++) {
+        if (spectral && !welkin_baked_radiance(&baked, directions[i], light))
+            check(light, sky->file->wavelengths, 0, FLT_MAX);
+        if (welkin_baked_xyz(&baked, directions[i], xyz) || welkin_rgb(WELKIN_ACESCG, xyz, rgb)) abort();
+        if (welkin_sample_pdf(&baked, directions[i], &pdf) || !(pdf > 0 && pdf <= DBL_MAX)) abort();
+        if (welkin_sample(&baked, shares[i], shares[4 - i], sample, &pdf) || !(pdf > 0 && pdf <= DBL_MAX)) abort();
+        for (k = 0; k < 3; k++)
+            if (!(fabs(sample[k]) <= 1.000001)) abort();
+    }
+    if (!welkin_baked_error(&baked, sky, 2, &p99, &largest) && !(p99 >= 0 && largest >= p99 && largest <= DBL_MAX))
+        abort();
+}
+
 static void ask_sky(const welkin_file *file, const welkin_conditions *conditions, unsigned flags, float *scratch, size_t floats)
 {
     static const double directions[3][3] = {{0, 0, 1}, {1, 0, 0.01}, {0.3, -0.2, -0.5}};
@@ -66,6 +90,7 @@ static void ask_sky(const welkin_file *file, const welkin_conditions *conditions
     welkin_sky sky;
     int i;
     if (welkin_prepare(&sky, file, conditions, flags, scratch, floats)) return;
+    ask_table(&sky, (flags & WELKIN_DENSE) != 0);
     for (i = 0; i < 3; i++) {
         if (!welkin_radiance(&sky, directions[i], light)) {
             check(light, file->wavelengths, 0, FLT_MAX);

@@ -43,12 +43,13 @@ typedef enum welkin_error {
 } welkin_error;
 
 /* Of this reader; the files have versions of their own. */
-#define WELKIN_READER_VERSION "1.0.0"
+#define WELKIN_READER_VERSION "1.1.0"
 
 #define WELKIN_MAX_WAVELENGTHS 256
 #define WELKIN_MAX_FIELDS 16
 #define WELKIN_MAX_CONSTITUENTS 16
 #define WELKIN_MAX_RANK 4096
+#define WELKIN_MAX_INTERVALS 512
 
 /* What lies between the nodes: where the tables of the spectrum chunk are; private. */
 typedef struct welkin_spectrum {
@@ -146,6 +147,29 @@ typedef struct welkin_aerial_perspective {
     float *extinction, *bounce, *parameter, *scattering;
 } welkin_aerial_perspective;
 
+/* Linear colour spaces: sRGB and Rec. 2020, white D65; ACEScg, white of ACES, by Bradford's adaptation from D65 (what
+ * is white in sRGB is white there); CIE 1931 XYZ as it is. */
+typedef enum welkin_colour_space { WELKIN_SRGB, WELKIN_REC2020, WELKIN_ACESCG, WELKIN_XYZ } welkin_colour_space;
+
+/* Of a baked sky: how many intervals, 1..=WELKIN_MAX_INTERVALS, lie above the geometric horizon, below it, and between
+ * the azimuth of the sun and the opposite one. {48, 24, 32, 0} is a good start. */
+typedef struct welkin_resolution {
+    uint32_t up, down, azimuths;
+    int spectral; /* 0: the table holds X, Y, Z; otherwise the radiance at every wavelength of the file */
+} welkin_resolution;
+
+/* A sky in a table, and its luminance as a distribution of directions; private. May be shared by threads. */
+typedef struct welkin_baked {
+    const welkin_file *file;
+    welkin_resolution resolution;
+    uint32_t channels;
+    double dip, cos_azimuth, sin_azimuth;
+    double sun_height, sun_at, turn_at;   /* of the sun above the horizon; coordinates of it and of half of it */
+    double up_end, down_end, azimuth_end; /* coordinates of zenith, nadir and the azimuth opposite to the sun */
+    float *root;                          /* square roots, [up + 1 + down + 1][azimuths + 1][channels] */
+    float *marginal, *conditional;        /* [up + down + 1], [up + down][azimuths + 1]; cumulative */
+} welkin_baked;
+
 /* The name of an error's class. */
 WELKIN_API const char *welkin_error_name(welkin_error error);
 
@@ -190,6 +214,14 @@ WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direct
 /* CIE 1931 X, Y, Z in cd m^-2 of a radiance that welkin_radiance gave. */
 WELKIN_API void welkin_xyz(const welkin_file *file, const float *radiance, double xyz[3]);
 
+/* `srgb`, `rec2020`, `acescg` or `xyz`; null, or WELKIN_ERROR_RANGE, for what is none of these. */
+WELKIN_API const char *welkin_colour_space_name(welkin_colour_space space);
+WELKIN_API welkin_error welkin_colour_space_named(const char *name, welkin_colour_space *space);
+
+/* From X, Y, Z to a colour space: red, green and blue, in cd m^-2 for those of welkin_xyz. Colours outside of the gamut
+ * have negative components. WELKIN_ERROR_VALUE for what is not finite or does not stay so. */
+WELKIN_API welkin_error welkin_rgb(welkin_colour_space space, const double xyz[3], double rgb[3]);
+
 /* A radiance that welkin_radiance or welkin_in_scattering gave, at any wavelength in the range. In a file with a
  * spectrum the nodes are no means over absorption bands, and this is: also at the wavelength of a node. */
 WELKIN_API welkin_error welkin_radiance_at(const welkin_file *file, const float *radiance, double wavelength,
@@ -201,6 +233,32 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *r
 
 /* Solar irradiance, W m^-2 nm^-1. */
 WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *file, double wavelength, double *value);
+
+/* How many floats welkin_bake needs; 0 for a resolution out of range. */
+WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *resolution);
+
+/* Fills a table with a prepared sky, of (up + down + 2) (azimuths + 1) directions. The memory and the file must outlive
+ * the table, the sky need not. WELKIN_ERROR_SCRATCH for too little memory. */
+WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
+                                    float *memory, size_t memory_floats);
+
+/* As welkin_xyz and welkin_radiance, from the table; the latter only from one that is spectral, from others it is
+ * WELKIN_ERROR_MISSING. */
+WELKIN_API welkin_error welkin_baked_xyz(const welkin_baked *baked, const double direction[3], double xyz[3]);
+WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const double direction[3], float *radiance);
+
+/* Relative errors of a table at so many directions (at least 1) all over the sphere: the one that 99 % of them do not
+ * exceed (up to 5 % too large) and the largest. That of a direction is the largest of its channels: of X, Y and Z, or
+ * of all wavelengths; what is below 1e-4 of the channel's brightest node counts as that. `sky` is the one that was
+ * baked; WELKIN_ERROR_RANGE for a sky of another file. */
+WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welkin_sky *sky, uint32_t directions,
+                                           double *p99, double *largest);
+
+/* A unit vector for two uniform random numbers in 0..=1 (others: WELKIN_ERROR_RANGE), and its density per steradian,
+ * about proportional to the luminance of the sky and never 0; welkin_sample_pdf gives that of any direction. */
+WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3],
+                                      double *pdf);
+WELKIN_API welkin_error welkin_sample_pdf(const welkin_baked *baked, const double direction[3], double *pdf);
 
 /* Reads and checks the profiles of the air. */
 WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profile *air, const welkin_file *file,
@@ -2629,6 +2687,472 @@ WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavele
     i = at.row[0];
     t = fmin(fmax(u - (double)i, 0), 1);
     *value = (1 - t) * (double)welkin__f32(samples + 4 * (size_t)i) + t * (double)welkin__f32(samples + 4 * (size_t)(i + 1));
+    return WELKIN_OK;
+}
+
+/* ---- colour spaces ---- */
+
+static const char *const welkin__space_names[4] = {"srgb", "rec2020", "acescg", "xyz"};
+
+WELKIN_API const char *welkin_colour_space_name(welkin_colour_space space)
+{
+    return (unsigned)space < 4 ? welkin__space_names[space] : NULL;
+}
+
+WELKIN_API welkin_error welkin_colour_space_named(const char *name, welkin_colour_space *space)
+{
+    int i;
+    for (i = 0; name && i < 4; i++)
+        if (strcmp(name, welkin__space_names[i]) == 0) {
+            *space = (welkin_colour_space)i;
+            return WELKIN_OK;
+        }
+    return WELKIN_ERROR_RANGE;
+}
+
+WELKIN_API welkin_error welkin_rgb(welkin_colour_space space, const double xyz[3], double rgb[3])
+{
+    /* Rows of red, green and blue; inverses of primaries and white, the third after Bradford's adaptation. */
+    static const double matrix[4][3][3] = {{{3.24097, -1.5373832, -0.49861076},
+                                            {-0.96924365, 1.8759675, 0.04155506},
+                                            {0.05563008, -0.20397696, 1.0569715}},
+                                           {{1.7166512, -0.35567078, -0.2533663},
+                                            {-0.6666843, 1.6164812, 0.015768546},
+                                            {0.017639857, -0.042770613, 0.9421031}},
+                                           {{1.6605853, -0.31529556, -0.24150933},
+                                            {-0.65992606, 1.6083915, 0.017298595},
+                                            {0.009002569, -0.0035668764, 0.9136433}},
+                                           {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    double x = xyz[0], y = xyz[1], z = xyz[2]; /* the caller may convert in place */
+    int good = 1, i;
+    if ((unsigned)space >= 4) return WELKIN_ERROR_RANGE;
+    for (i = 0; i < 3; i++) {
+        const double *row = matrix[space][i];
+        rgb[i] = row[0] * x + row[1] * y + row[2] * z;
+        good &= fabs(rgb[i]) <= DBL_MAX;
+    }
+    return good ? WELKIN_OK : WELKIN_ERROR_VALUE;
+}
+
+/* ---- baked skies ----
+ *
+ * The table is uniform in three coordinates, which are 0 at the geometric horizon and at the azimuth of the sun:
+ *
+ *     up       above the horizon; dense at the horizon and at the height of the sun
+ *     down     below the horizon; dense there
+ *     azimuth  between a direction and the sun, either way; denser at the sun
+ *
+ * The horizon has nodes on both sides, and nothing is interpolated across it: the jump stays one. The rule is cubic
+ * with the slopes of parabolas through three nodes, as in the specification between chunks; azimuths are level at both
+ * ends, where the sky is symmetric. Square roots are what is interpolated, so light does not become negative.
+ *
+ * The distribution has a density that is constant in a cell between nodes: the mean luminance of its corners. */
+
+#define WELKIN__HEIGHT_SCALE 0.06 /* rad: how wide the dense parts of the coordinates are */
+#define WELKIN__AZIMUTH_SCALE 0.8
+#define WELKIN__BESIDE_HORIZON 1e-11 /* rad: where the sides of the horizon are looked at */
+#define WELKIN__EVEN_SHARE 1e-3 /* of samples, over all cells alike: what is dark at the corners may not be within */
+
+/* asinh, faster and less exact near 0, where nothing depends on it. */
+static double welkin__asinh(double x) { return log(x + sqrt(x * x + 1)); }
+
+/* From an angle above or below the horizon to a coordinate, 2 asinh sqrt(angle / scale), and back. The square root
+ * resolves rays that graze the ground, whose length has an infinite slope there. */
+static double welkin__from_horizon(double angle)
+{
+    double x = angle / WELKIN__HEIGHT_SCALE;
+    return log(1 + 2 * x + 2 * sqrt(x * (x + 1)));
+}
+
+static double welkin__horizon_angle(double coordinate)
+{
+    double s = sinh(coordinate / 2);
+    return WELKIN__HEIGHT_SCALE * s * s;
+}
+
+/* From half the height of the sun on, the coordinate is about the sun. */
+static void welkin__place_sun(welkin_baked *b, double height)
+{
+    b->sun_height = fmax(0, height);
+    b->turn_at = welkin__from_horizon(b->sun_height / 2);
+    b->sun_at = b->turn_at + welkin__asinh(b->sun_height / 2 / WELKIN__HEIGHT_SCALE);
+}
+
+static double welkin__up_coordinate(const welkin_baked *b, double height)
+{
+    if (height < b->sun_height / 2) return welkin__from_horizon(height);
+    return b->sun_at + welkin__asinh((height - b->sun_height) / WELKIN__HEIGHT_SCALE);
+}
+
+static double welkin__up_height(const welkin_baked *b, double coordinate)
+{
+    if (coordinate < b->turn_at) return welkin__horizon_angle(coordinate);
+    return b->sun_height + WELKIN__HEIGHT_SCALE * sinh(coordinate - b->sun_at);
+}
+
+/* Elevation of a row of nodes: `up` + 1 of them from the horizon to the zenith, then those from it to the nadir. */
+static double welkin__row_elevation(const welkin_baked *b, uint32_t row)
+{
+    uint32_t up = b->resolution.up, down = b->resolution.down;
+    if (row <= up) return welkin__up_height(b, b->up_end * row / up) - b->dip;
+    return -welkin__horizon_angle(b->down_end * (row - up - 1) / down) - b->dip;
+}
+
+static double welkin__column_azimuth(const welkin_baked *b, uint32_t column)
+{
+    return WELKIN__AZIMUTH_SCALE * sinh(b->azimuth_end * column / b->resolution.azimuths);
+}
+
+/* Where a direction is in the table. */
+typedef struct welkin__table_place {
+    int up;
+    double row, column; /* coordinates in intervals; rows count from the horizon */
+} welkin__table_place;
+
+static double welkin__intervals_before(double coordinate, double end, uint32_t intervals)
+{
+    return fmin(fmax(intervals * coordinate / end, 0), intervals);
+}
+
+static welkin_error welkin__find_place(const welkin_baked *b, const double direction[3], welkin__table_place *place)
+{
+    double v[3], height, along, across;
+    welkin_error error = welkin__normalise(direction, v);
+    if (error) return error;
+    height = atan2(v[2], sqrt(v[0] * v[0] + v[1] * v[1])) + b->dip;
+    along = v[0] * b->cos_azimuth + v[1] * b->sin_azimuth;
+    across = v[1] * b->cos_azimuth - v[0] * b->sin_azimuth;
+    place->up = height >= 0;
+    place->row = place->up ? welkin__intervals_before(welkin__up_coordinate(b, height), b->up_end, b->resolution.up)
+                           : welkin__intervals_before(welkin__from_horizon(-height), b->down_end, b->resolution.down);
+    place->column = welkin__intervals_before(welkin__asinh(atan2(fabs(across), along) / WELKIN__AZIMUTH_SCALE),
+                                             b->azimuth_end, b->resolution.azimuths);
+    return WELKIN_OK;
+}
+
+static uint32_t welkin__cell_at(double coordinate, uint32_t intervals)
+{
+    return coordinate < intervals ? (uint32_t)coordinate : intervals - 1;
+}
+
+/* The rule between nodes; slopes at the ends are 0 or those of one-sided parabolas. */
+static welkin__spline welkin__between(double coordinate, uint32_t intervals, int level_ends)
+{
+    uint32_t cell = welkin__cell_at(coordinate, intervals), k;
+    double t = coordinate - cell, first = t * (1 - t) * (1 - t), second = t * t * (t - 1);
+    welkin__spline s;
+    double *w = s.weight;
+    w[0] = w[3] = 0;
+    w[2] = intervals > 1 || level_ends ? t * t * (3 - 2 * t) : t;
+    w[1] = 1 - w[2];
+    if (cell > 0) {
+        w[0] -= first / 2;
+        w[2] += first / 2;
+    } else if (!level_ends && intervals > 1) {
+        w[1] -= 1.5 * first;
+        w[2] += 2 * first;
+        w[3] -= first / 2;
+    }
+    if (cell + 1 < intervals) {
+        w[1] -= second / 2;
+        w[3] += second / 2;
+    } else if (!level_ends && intervals > 1) {
+        w[0] += second / 2;
+        w[1] -= 2 * second;
+        w[2] += 1.5 * second;
+    }
+    for (k = 0; k < 4; k++) s.row[k] = cell + k < 1 ? 0 : cell + k - 1 > intervals ? intervals : cell + k - 1;
+    return s;
+}
+
+static welkin_error welkin__look_up(const welkin_baked *b, const double direction[3], float *values)
+{
+    size_t nc = b->channels, columns = b->resolution.azimuths + 1, c;
+    welkin__table_place place;
+    welkin__spline row, column;
+    int i, j;
+    welkin_error error = welkin__find_place(b, direction, &place);
+    if (error) return error;
+    row = welkin__between(place.row, place.up ? b->resolution.up : b->resolution.down, 0);
+    column = welkin__between(place.column, b->resolution.azimuths, 1);
+    for (c = 0; c < nc; c++) values[c] = 0;
+    for (i = 0; i < 4; i++) {
+        size_t first = (row.row[i] + (place.up ? 0 : b->resolution.up + 1)) * columns;
+        float weight[4];
+        for (j = 0; j < 4; j++) weight[j] = (float)(row.weight[i] * column.weight[j]);
+        welkin__add_rows(values, b->root + (first + column.row[0]) * nc, b->root + (first + column.row[1]) * nc,
+                         b->root + (first + column.row[2]) * nc, b->root + (first + column.row[3]) * nc, weight,
+                         b->channels);
+    }
+    for (c = 0; c < nc; c++) values[c] = welkin__narrow((double)values[c] * (double)values[c]);
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_baked_xyz(const welkin_baked *baked, const double direction[3], double xyz[3])
+{
+    float values[WELKIN_MAX_WAVELENGTHS];
+    welkin_error error = welkin__look_up(baked, direction, values);
+    int i;
+    if (error) return error;
+    if (baked->resolution.spectral)
+        welkin_xyz(baked->file, values, xyz);
+    else
+        for (i = 0; i < 3; i++) xyz[i] = (double)values[i];
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const double direction[3], float *radiance)
+{
+    return baked->resolution.spectral ? welkin__look_up(baked, direction, radiance) : WELKIN_ERROR_MISSING;
+}
+
+static size_t welkin__baked_nodes(const welkin_resolution *r)
+{
+    return (size_t)(r->up + r->down + 2) * (r->azimuths + 1);
+}
+
+static size_t welkin__bake_channels(const welkin_file *f, const welkin_resolution *r)
+{
+    return r->spectral ? f->wavelengths : 3;
+}
+
+WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *r)
+{
+    size_t cells = r->up + (size_t)r->down;
+    if (r->up < 1 || r->up > WELKIN_MAX_INTERVALS || r->down < 1 || r->down > WELKIN_MAX_INTERVALS) return 0;
+    if (r->azimuths < 1 || r->azimuths > WELKIN_MAX_INTERVALS) return 0;
+    return welkin__baked_nodes(r) * welkin__bake_channels(file, r) + cells + 1 + cells * (r->azimuths + 1);
+}
+
+/* What a table of the sky holds of a direction. */
+static welkin_error welkin__ask(const welkin_sky *sky, int spectral, const double direction[3], double *values)
+{
+    float radiance[WELKIN_MAX_WAVELENGTHS];
+    welkin_error error = welkin_radiance(sky, direction, radiance);
+    uint32_t w;
+    if (error) return error;
+    if (!spectral) welkin_xyz(sky->file, radiance, values);
+    for (w = 0; spectral && w < sky->file->wavelengths; w++) values[w] = (double)radiance[w];
+    return WELKIN_OK;
+}
+
+static void welkin__point(const welkin_baked *b, double sine, double level, double azimuth, double direction[3])
+{
+    double x = level * cos(azimuth), y = level * sin(azimuth);
+    direction[0] = x * b->cos_azimuth - y * b->sin_azimuth;
+    direction[1] = x * b->sin_azimuth + y * b->cos_azimuth;
+    direction[2] = sine;
+}
+
+static welkin_error welkin__bake_row(const welkin_baked *b, const welkin_sky *sky, uint32_t row)
+{
+    double elevation = welkin__row_elevation(b, row), direction[3], values[WELKIN_MAX_WAVELENGTHS];
+    uint32_t columns = b->resolution.azimuths + 1, j, c;
+    float *out = b->root + (size_t)row * columns * b->channels;
+    if (row == 0) elevation += WELKIN__BESIDE_HORIZON;
+    if (row == b->resolution.up + 1) elevation -= WELKIN__BESIDE_HORIZON;
+    for (j = 0; j < columns; j++, out += b->channels) {
+        welkin_error error;
+        welkin__point(b, sin(elevation), cos(elevation), welkin__column_azimuth(b, j), direction);
+        error = welkin__ask(sky, b->resolution.spectral, direction, values);
+        if (error) return error;
+        for (c = 0; c < b->channels; c++) out[c] = welkin__narrow(sqrt(fmax(values[c], 0)));
+    }
+    return WELKIN_OK;
+}
+
+static double welkin__node_luminance(const welkin_baked *b, size_t node)
+{
+    const float *root = b->root + node * b->channels;
+    float radiance[WELKIN_MAX_WAVELENGTHS];
+    double xyz[3];
+    uint32_t c;
+    if (!b->resolution.spectral) return (double)root[1] * (double)root[1];
+    for (c = 0; c < b->channels; c++) radiance[c] = welkin__narrow((double)root[c] * (double)root[c]);
+    welkin_xyz(b->file, radiance, xyz);
+    return fmax(xyz[1], 0);
+}
+
+/* The node at the start of a row of cells, towards the horizon; there is no row of cells at the horizon itself. */
+static uint32_t welkin__node_row(const welkin_baked *b, uint32_t row) { return row < b->resolution.up ? row : row + 1; }
+
+/* Solid angle of a cell, with its counterpart on the other side of the sun. */
+static double welkin__cell_solid_angle(const welkin_baked *b, uint32_t row, uint32_t column)
+{
+    uint32_t node = welkin__node_row(b, row);
+    double from = welkin__row_elevation(b, node), to = welkin__row_elevation(b, node + 1);
+    double height = 2 * fabs(sin((to - from) / 2)) * fabs(cos((from + to) / 2)); /* difference of sines */
+    return 2 * height * (welkin__column_azimuth(b, column + 1) - welkin__column_azimuth(b, column));
+}
+
+/* Cumulative shares, of which each is larger than what a float of 1 resolves. */
+static void welkin__accumulate(const double *weight, uint32_t n, float *cumulative)
+{
+    double total = 0, sum = 0, even = WELKIN__EVEN_SHARE;
+    uint32_t i;
+    for (i = 0; i < n; i++) total += weight[i];
+    if (!(total > 0)) even = total = 1;
+    cumulative[0] = 0;
+    for (i = 0; i < n; i++) {
+        sum += (1 - even) * weight[i] / total + even / n;
+        cumulative[i + 1] = (float)sum;
+    }
+    cumulative[n] = 1;
+}
+
+static void welkin__bake_distribution(const welkin_baked *b)
+{
+    uint32_t rows = b->resolution.up + b->resolution.down, columns = b->resolution.azimuths, i, j;
+    double cell[WELKIN_MAX_INTERVALS], row[2 * WELKIN_MAX_INTERVALS];
+    for (i = 0; i < rows; i++) {
+        size_t low = (size_t)welkin__node_row(b, i) * (columns + 1), high = low + columns + 1;
+        double before = welkin__node_luminance(b, low) + welkin__node_luminance(b, high);
+        row[i] = 0;
+        for (j = 0; j < columns; j++) {
+            double after = welkin__node_luminance(b, low + j + 1) + welkin__node_luminance(b, high + j + 1);
+            cell[j] = (before + after) / 4 * welkin__cell_solid_angle(b, i, j);
+            row[i] += cell[j];
+            before = after;
+        }
+        welkin__accumulate(cell, columns, b->conditional + (size_t)i * (columns + 1));
+    }
+    welkin__accumulate(row, rows, b->marginal);
+}
+
+WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
+                                    float *memory, size_t memory_floats)
+{
+    size_t floats = welkin_bake_floats(sky->file, resolution);
+    uint32_t rows = resolution->up + resolution->down, row;
+    welkin_error error = WELKIN_OK;
+    memset(baked, 0, sizeof *baked);
+    if (floats == 0) return WELKIN_ERROR_RANGE;
+    if (memory_floats < floats) return WELKIN_ERROR_SCRATCH;
+    baked->file = sky->file;
+    baked->resolution = *resolution;
+    baked->channels = (uint32_t)welkin__bake_channels(sky->file, resolution);
+    baked->dip = sky->dip;
+    welkin__place_sun(baked, asin(sky->sun[2]) + sky->dip);
+    baked->cos_azimuth = sky->cos_azimuth;
+    baked->sin_azimuth = sky->sin_azimuth;
+    baked->up_end = welkin__up_coordinate(baked, WELKIN__HALF_PI + sky->dip);
+    baked->down_end = welkin__from_horizon(WELKIN__HALF_PI - sky->dip);
+    baked->azimuth_end = welkin__asinh(WELKIN__PI / WELKIN__AZIMUTH_SCALE);
+    baked->root = memory;
+    baked->marginal = memory + welkin__baked_nodes(resolution) * baked->channels;
+    baked->conditional = baked->marginal + rows + 1;
+    for (row = 0; row < rows + 2 && !error; row++) error = welkin__bake_row(baked, sky, row);
+    if (!error) welkin__bake_distribution(baked);
+    return error;
+}
+
+/* Directions of a sequence that fills the sphere evenly. */
+static void welkin__spread(uint32_t index, double direction[3])
+{
+    double first = 0.5 + index * 0.7548776662466927, second = 0.5 + index * 0.5698402909980532;
+    double sine = 1 - 2 * (first - floor(first)), level = sqrt((1 - sine) * (1 + sine));
+    direction[0] = level * cos(2 * WELKIN__PI * second);
+    direction[1] = level * sin(2 * WELKIN__PI * second);
+    direction[2] = sine;
+}
+
+static double welkin__direction_error(const welkin_baked *b, const double *exact, const float *baked,
+                                      const double *least)
+{
+    double largest = 0;
+    uint32_t c;
+    for (c = 0; c < b->channels; c++) {
+        double difference = fabs((double)baked[c] - exact[c]);
+        if (difference > 0) largest = fmax(largest, difference / fmax(fabs(exact[c]), least[c]));
+    }
+    return largest;
+}
+
+#define WELKIN__ERROR_BINS 1024 /* sixteen for each factor of two, from 2^-40 */
+
+WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welkin_sky *sky, uint32_t directions,
+                                           double *p99, double *largest)
+{
+    uint32_t count[WELKIN__ERROR_BINS] = {0}, i, c, bin;
+    double least[WELKIN_MAX_WAVELENGTHS] = {0}, exact[WELKIN_MAX_WAVELENGTHS], direction[3], error;
+    float values[WELKIN_MAX_WAVELENGTHS];
+    uint64_t within = 0;
+    size_t node, nodes = welkin__baked_nodes(&baked->resolution);
+    *p99 = *largest = 0;
+    if (directions == 0 || sky->file != baked->file) return WELKIN_ERROR_RANGE;
+    for (node = 0; node < nodes; node++)
+        for (c = 0; c < baked->channels; c++) {
+            double root = (double)baked->root[node * baked->channels + c];
+            least[c] = fmax(least[c], 1e-4 * root * root);
+        }
+    for (i = 0; i < directions; i++) {
+        welkin_error failure;
+        welkin__spread(i, direction);
+        failure = welkin__ask(sky, baked->resolution.spectral, direction, exact);
+        if (!failure) failure = welkin__look_up(baked, direction, values);
+        if (failure) return failure;
+        error = welkin__direction_error(baked, exact, values, least);
+        *largest = fmax(*largest, error);
+        count[(uint32_t)fmin(fmax(16 * (log2(fmax(error, 1e-300)) + 40), 0), WELKIN__ERROR_BINS - 1)]++;
+    }
+    for (bin = 0; bin + 1 < WELKIN__ERROR_BINS && 100 * (within + count[bin]) < 99 * (uint64_t)directions; bin++)
+        within += count[bin];
+    *p99 = fmin(*largest, exp2((bin + 1) / 16.0 - 40));
+    return WELKIN_OK;
+}
+
+/* ---- sampling ---- */
+
+/* Density of a cell per steradian. */
+static double welkin__cell_pdf(const welkin_baked *b, uint32_t row, uint32_t column)
+{
+    const float *conditional = b->conditional + (size_t)row * (b->resolution.azimuths + 1) + column;
+    double marginal = (double)b->marginal[row + 1] - (double)b->marginal[row];
+    return marginal * ((double)conditional[1] - (double)conditional[0]) / welkin__cell_solid_angle(b, row, column);
+}
+
+/* The cell of a random number, and how far it is within. */
+static uint32_t welkin__invert(const float *cumulative, uint32_t n, double u, double *share)
+{
+    uint32_t low = 0, high = n;
+    while (high - low > 1) {
+        uint32_t middle = (low + high) / 2;
+        if ((double)cumulative[middle] <= u)
+            low = middle;
+        else
+            high = middle;
+    }
+    *share = (u - (double)cumulative[low]) / ((double)cumulative[low + 1] - (double)cumulative[low]);
+    return low;
+}
+
+WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3], double *pdf)
+{
+    uint32_t rows = baked->resolution.up + baked->resolution.down, columns = baked->resolution.azimuths;
+    uint32_t row, column, node;
+    double side = u2 < 0.5 ? 1 : -1, along, across, low, sine, azimuth;
+    if (!welkin__within(u1, 0, 1) || !welkin__within(u2, 0, 1)) return WELKIN_ERROR_RANGE;
+    row = welkin__invert(baked->marginal, rows, u1, &along);
+    column = welkin__invert(baked->conditional + (size_t)row * (columns + 1), columns, u2 < 0.5 ? 2 * u2 : 2 * u2 - 1,
+                            &across);
+    node = welkin__node_row(baked, row);
+    low = sin(welkin__row_elevation(baked, node));
+    sine = low + along * (sin(welkin__row_elevation(baked, node + 1)) - low);
+    azimuth = welkin__column_azimuth(baked, column);
+    azimuth += across * (welkin__column_azimuth(baked, column + 1) - azimuth);
+    welkin__point(baked, sine, sqrt(fmax((1 - sine) * (1 + sine), 0)), side * azimuth, direction);
+    *pdf = welkin__cell_pdf(baked, row, column);
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_sample_pdf(const welkin_baked *baked, const double direction[3], double *pdf)
+{
+    uint32_t up = baked->resolution.up, down = baked->resolution.down, row;
+    welkin__table_place place;
+    welkin_error error = welkin__find_place(baked, direction, &place);
+    if (error) return error;
+    row = place.up ? welkin__cell_at(place.row, up) : up + welkin__cell_at(place.row, down);
+    *pdf = welkin__cell_pdf(baked, row, welkin__cell_at(place.column, baked->resolution.azimuths));
     return WELKIN_OK;
 }
 

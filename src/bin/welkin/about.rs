@@ -4,9 +4,6 @@ use std::fmt;
 
 use welkin::Conditions;
 
-/// Primaries and white of linear sRGB, CIE 1931 x and y (Rec. ITU-R BT.709).
-pub const CHROMATICITIES: [[f32; 2]; 4] =
-    [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 /// Of RGB in cd m⁻².
 pub const LUMINANCE: &str = "cd.m^-2";
 /// Of spectra.

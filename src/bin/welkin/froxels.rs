@@ -6,11 +6,12 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use welkin::output;
-use welkin::{AerialPerspective, ColourAerialPerspective, Conditions};
+use welkin::{AerialPerspective, ColourAerialPerspective, ColourSpace, Conditions};
 
 use crate::Source;
 use crate::about::{About, LUMINANCE, RADIANCE};
 use crate::camera::{Camera, Heading, Lens};
+use crate::encoding::Encoding;
 use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
 use crate::naming::{self, Named};
@@ -54,6 +55,8 @@ pub struct Options {
     /// What to write where the name does not tell.
     #[arg(long, value_enum)]
     format: Option<Format>,
+    #[command(flatten)]
+    encoding: Encoding,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -94,7 +97,10 @@ pub fn run(options: &Options) -> Result<()> {
     let conditions = options.scene.conditions(&model)?;
     let aerial = match options.spectral {
         true => Aerial::Spectral(model.aerial_perspective(&conditions)?),
-        false => Aerial::Colour(model.colour_aerial_perspective(&conditions)?),
+        false => Aerial::Colour(
+            model.colour_aerial_perspective(&conditions)?,
+            options.encoding.space(),
+        ),
     };
     let [width, height, _] = options.size;
     let azimuth = options.heading.azimuth(0.0)?;
@@ -129,14 +135,14 @@ impl Options {
 /// What the volume is made of.
 enum Aerial {
     Spectral(AerialPerspective),
-    Colour(ColourAerialPerspective),
+    Colour(ColourAerialPerspective, ColourSpace),
 }
 
 impl Aerial {
     fn conditions(&self) -> &Conditions {
         match self {
             Self::Spectral(aerial) => aerial.conditions(),
-            Self::Colour(aerial) => aerial.conditions(),
+            Self::Colour(aerial, _) => aerial.conditions(),
         }
     }
 
@@ -151,7 +157,7 @@ impl Aerial {
                         .map(move |nm| format!("{kind}{nm}nm"))
                 })
                 .collect(),
-            Self::Colour(_) => COLOURS.map(str::to_owned).to_vec(),
+            Self::Colour(..) => COLOURS.map(str::to_owned).to_vec(),
         }
     }
 
@@ -175,9 +181,9 @@ impl Aerial {
                     out[half..].copy_from_slice(through);
                 }
             }
-            Self::Colour(aerial) => {
+            Self::Colour(aerial, space) => {
                 let [mut light, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; n]);
-                aerial.linear_srgb_along(from, direction, distances, &mut light, &mut factors)?;
+                aerial.rgb_along(from, direction, distances, *space, &mut light, &mut factors)?;
                 for (out, (light, factors)) in
                     out.chunks_exact_mut(6).zip(light.iter().zip(&factors))
                 {
@@ -252,13 +258,15 @@ fn layers(options: &Options, aerial: &Aerial, volume: &Volume) -> Result<Vec<u8>
             planes.push((format!("slice{slice:03}.{name}"), plane));
         }
     }
-    exr(Planes {
+    let planes = Planes {
         size: [width, height],
         planes,
         about,
         units,
-        comment: "in-scattered light: linear sRGB, cd m^-2 (R, G, B), or W m^-2 sr^-1 nm^-1 (by wavelength); transmittance (T and the same)",
-    })
+        space: options.encoding.space(),
+        comment: "in-scattered light, cd m^-2 (R, G, B), or W m^-2 sr^-1 nm^-1 (by wavelength); transmittance (T and the same)",
+    };
+    exr(planes, &options.encoding)
 }
 
 /// Header, then `[slice][row][column][channel]` as f32, all little-endian.

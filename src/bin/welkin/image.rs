@@ -5,8 +5,10 @@ use std::io::Cursor;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::*;
 use rayon::prelude::*;
+use welkin::ColourSpace;
 
-use crate::about::{About, CHROMATICITIES, LUMINANCE, Value};
+use crate::about::{About, LUMINANCE, Value};
+use crate::encoding::{self, Encoding};
 use crate::failure::{Failure, Result};
 use crate::header;
 use crate::tone::Film;
@@ -18,19 +20,26 @@ pub struct Planes {
     pub size: [usize; 2],
     pub planes: Vec<(String, Vec<f32>)>,
     pub about: About,
-    /// Of the planes; those in cd m⁻² are linear sRGB.
+    /// Of the planes.
     pub units: &'static str,
+    /// Of those in cd m⁻².
+    pub space: ColourSpace,
     pub comment: &'static str,
 }
 
-/// Encodes planes as OpenEXR, losslessly.
-pub fn exr(picture: Planes) -> Result<Vec<u8>> {
+/// Encodes planes as OpenEXR; says on the error stream what half precision changes.
+pub fn exr(mut picture: Planes, encoding: &Encoding) -> Result<Vec<u8>> {
+    encoding.convert(&mut picture);
+    encoding.warn(&picture);
     let channels = picture
         .planes
         .into_iter()
-        .map(|(name, values)| AnyChannel::new(name.as_str(), FlatSamples::F32(values)));
-    let about = picture.about.with(&[("units", picture.units)]);
+        .map(|(name, values)| AnyChannel::new(name.as_str(), samples(values, encoding)));
     let is_colour = picture.units == LUMINANCE;
+    let mut about = picture.about.with(&[("units", picture.units)]);
+    if is_colour {
+        about = about.with(&[("colorInteropID", encoding.interop_id())]);
+    }
     let mut attributes = LayerAttributes {
         comments: Some(picture.comment.into()),
         software_name: Some(SOFTWARE.into()),
@@ -44,15 +53,16 @@ pub fn exr(picture: Planes) -> Result<Vec<u8>> {
     let layer = Layer::new(
         (picture.size[0], picture.size[1]),
         attributes,
-        Encoding {
+        exr::image::Encoding {
+            compression: encoding.compression(),
             // Blocks in the order of the picture, not in that of their completion.
             line_order: LineOrder::Increasing,
-            ..Encoding::FAST_LOSSLESS
+            ..exr::image::Encoding::FAST_LOSSLESS
         },
         AnyChannels::sort(channels.collect()),
     );
     let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = is_colour.then(chromaticities);
+    image.attributes.chromaticities = is_colour.then(|| chromaticities(encoding));
     let mut bytes = Cursor::new(Vec::new());
     let written = image.write().to_buffered(&mut bytes);
     written.map_err(|e| Failure::message(format!("cannot encode the EXR: {e}")))?;
@@ -69,8 +79,15 @@ fn attribute(value: Value) -> AttributeValue {
     }
 }
 
-fn chromaticities() -> Chromaticities {
-    let [red, green, blue, white] = CHROMATICITIES.map(|[x, y]| Vec2(x, y));
+fn samples(values: Vec<f32>, encoding: &Encoding) -> FlatSamples {
+    match encoding.is_half() {
+        true => FlatSamples::F16(encoding::halves(&values)),
+        false => FlatSamples::F32(values),
+    }
+}
+
+fn chromaticities(encoding: &Encoding) -> Chromaticities {
+    let [red, green, blue, white] = encoding.space().chromaticities().map(|[x, y]| Vec2(x, y));
     Chromaticities {
         red,
         green,

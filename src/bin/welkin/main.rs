@@ -10,6 +10,7 @@ mod cells;
 mod difference;
 mod disc;
 mod edges;
+mod encoding;
 mod exposure;
 mod failure;
 mod folder;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use welkin::output::{self, Target};
 
 use crate::about::About;
+use crate::encoding::Encoding;
 use crate::failure::{Failure, Result};
 use crate::folder;
 use crate::naming::{self, Named};
@@ -21,6 +22,8 @@ pub struct Options {
     /// Write only this, to the very file that --out names, where its name does not tell.
     #[arg(long, value_enum)]
     format: Option<Format>,
+    #[command(flatten)]
+    encoding: Encoding,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -33,6 +36,7 @@ enum Format {
 pub struct Outputs {
     exr: Option<Target>,
     png: Option<Target>,
+    encoding: Encoding,
 }
 
 impl Options {
@@ -78,7 +82,8 @@ impl Options {
             }
             None => [with("exr"), with("png")],
         };
-        Ok(Outputs { exr, png })
+        let encoding = self.encoding;
+        Ok(Outputs { exr, png, encoding })
     }
 }
 
@@ -105,6 +110,7 @@ impl Outputs {
             png,
             film,
             about,
+            encoding: self.encoding,
         }
     }
 

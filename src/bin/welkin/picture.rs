@@ -1,8 +1,9 @@
 //! Pictures of skies, encoded.
 
-use welkin::{BandSky, PolarisedSky, Sky};
+use welkin::{BandSky, ColourSpace, PolarisedSky, Sky};
 
 use crate::about::{About, BAND_RADIANCE, LUMINANCE, RADIANCE};
+use crate::encoding::Encoding;
 use crate::failure::Result;
 use crate::image::{Planes, exr, png, png_of_display};
 use crate::polarised::{self, Colouring};
@@ -23,6 +24,7 @@ pub struct Wanted {
     pub png: bool,
     pub film: Film,
     pub about: About,
+    pub encoding: Encoding,
 }
 
 /// An encoded picture, as far as it is wanted.
@@ -48,14 +50,8 @@ impl Picture {
         Self::encoded(
             wanted,
             || {
-                exr(planes(
-                    view,
-                    sky,
-                    polarised,
-                    spectral,
-                    &pixels,
-                    &wanted.about,
-                )?)
+                let planes = planes(view, sky, polarised, spectral, &pixels, wanted)?;
+                exr(planes, &wanted.encoding)
             },
             || png(view.size, &pixels, &wanted.film, &wanted.about),
         )
@@ -75,7 +71,7 @@ impl Picture {
         let planes = || {
             let values = view.bands(bands)?;
             let (names, about) = (sensor.names.clone(), wanted.about.clone());
-            exr(match &sensor.wavelengths {
+            let planes = match &sensor.wavelengths {
                 Some(wavelengths) => Planes {
                     size: view.size,
                     planes: wavelengths
@@ -85,6 +81,7 @@ impl Picture {
                         .collect(),
                     about: about.with(&SPECTRUM),
                     units: RADIANCE,
+                    space: ColourSpace::Srgb,
                     comment: SPECTRAL_RADIANCE,
                 },
                 None => Planes {
@@ -92,9 +89,11 @@ impl Picture {
                     planes: names.into_iter().zip(values).collect(),
                     about,
                     units: BAND_RADIANCE,
+                    space: ColourSpace::Srgb,
                     comment: "integrals of response times spectral radiance, W m^-2 sr^-1",
                 },
-            })
+            };
+            exr(planes, &wanted.encoding)
         };
         Self::encoded(wanted, planes, || {
             png(view.size, &pixels, &wanted.film, &wanted.about)
@@ -121,7 +120,7 @@ impl Picture {
     pub fn of_pixels(size: [usize; 2], pixels: &[[f32; 3]], wanted: &Wanted) -> Result<Self> {
         let channel = |c: usize| pixels.iter().map(|p| p[c]).collect();
         let encode_exr = || {
-            exr(Planes {
+            let planes = Planes {
                 size,
                 planes: ["R", "G", "B"]
                     .iter()
@@ -130,8 +129,10 @@ impl Picture {
                     .collect(),
                 about: wanted.about.clone(),
                 units: LUMINANCE,
-                comment: "linear sRGB, cd m^-2",
-            })
+                space: ColourSpace::Srgb,
+                comment: wanted.encoding.comment(),
+            };
+            exr(planes, &wanted.encoding)
         };
         Self::encoded(wanted, encode_exr, || {
             png(size, pixels, &wanted.film, &wanted.about)
@@ -148,7 +149,10 @@ impl Picture {
         let light = colouring.light(view, sky)?;
         Self::encoded(
             wanted,
-            || exr(colouring.plane(view.size, &light, wanted.about.clone())),
+            || {
+                let plane = colouring.plane(view.size, &light, wanted.about.clone());
+                exr(plane, &wanted.encoding)
+            },
             || {
                 png_of_display(
                     view.size,
@@ -166,9 +170,9 @@ fn planes(
     polarised: Option<&PolarisedSky>,
     spectral: bool,
     pixels: &[[f32; 3]],
-    about: &About,
+    wanted: &Wanted,
 ) -> Result<Planes> {
-    let mut about = about.clone();
+    let mut about = wanted.about.clone();
     if spectral {
         about = about.with(&SPECTRUM);
     }
@@ -193,13 +197,14 @@ fn planes(
     };
     let (units, comment) = match spectral {
         true => (RADIANCE, SPECTRAL_RADIANCE),
-        false => (LUMINANCE, "linear sRGB, cd m^-2"),
+        false => (LUMINANCE, wanted.encoding.comment()),
     };
     Ok(Planes {
         size: view.size,
         planes,
         about,
         units,
+        space: ColourSpace::Srgb,
         comment,
     })
 }

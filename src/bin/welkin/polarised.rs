@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use welkin::{PolarisationFrame, PolarisedSky, Stokes, xyz_to_linear_srgb};
+use welkin::{ColourSpace, PolarisationFrame, PolarisedSky, Stokes, xyz_to_linear_srgb};
 
 use crate::about::About;
 use crate::image::Planes;
@@ -90,6 +90,7 @@ impl Colouring {
             planes: vec![(name.to_owned(), light.iter().map(number).collect())],
             about,
             units,
+            space: ColourSpace::Srgb,
             comment,
         }
     }

@@ -1,0 +1,23 @@
+/* What welkin_check_abi takes: a pointer to the version and sizes that a program was compiled with. */
+#define WELKIN_ABI_SIZES \
+    WELKIN_ABI_VERSION, (uint32_t)sizeof(void *), (uint32_t)sizeof(WelkinError), (uint32_t)sizeof(WelkinConditions), \
+    (uint32_t)sizeof(WelkinPolarisationFrame), (uint32_t)sizeof(WelkinStokes), (uint32_t)sizeof(WelkinBakeError), \
+    (uint32_t)sizeof(WelkinSample), (uint32_t)sizeof(WelkinRanges), (uint32_t)sizeof(WelkinMoon), \
+    (uint32_t)sizeof(WelkinBudget), (uint32_t)sizeof(WelkinPlanSummary), (uint32_t)sizeof(WelkinCameraVolume), \
+    {0, 0, 0}
+#ifndef __cplusplus
+#define WELKIN_ABI (&(const WelkinAbi){WELKIN_ABI_SIZES})
+#endif
+
+/* The layout that the library was compiled with. */
+#if UINTPTR_MAX == 0xffffffffffffffff
+#if defined(__cplusplus) && __cplusplus >= 201103L
+#define WELKIN_LAYOUT(condition, what) static_assert(condition, what)
+#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 201112L
+#define WELKIN_LAYOUT(condition, what) _Static_assert(condition, what)
+#endif
+#endif
+#ifdef WELKIN_LAYOUT
+LAYOUTS
+#undef WELKIN_LAYOUT
+#endif
