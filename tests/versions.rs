@@ -27,7 +27,7 @@ fn the_changelog_lists_the_versions_of_all_parts() {
     let specification = include_str!("../format-spec/SPEC.md");
     let c = include_str!("../format-spec/readers/c/welkin.h");
     let project = include_str!("../format-spec/readers/python/pyproject.toml");
-    let module = include_str!("../format-spec/readers/python/src/welkin_sky/__init__.py");
+    let module = include_str!("../format-spec/readers/python/src/welkin_reader/__init__.py");
     assert!(fitter.contains("\nversion.workspace = true\n"));
 
     let parts = [
@@ -44,7 +44,7 @@ fn the_changelog_lists_the_versions_of_all_parts() {
             between(c, "#define WELKIN_READER_VERSION \"", "\""),
         ),
         (
-            "reader in Python (distribution `welkin-sky`)",
+            "reader in Python (distribution `welkin-reader`)",
             between(module, "__version__ = \"", "\""),
         ),
         (

@@ -47,20 +47,20 @@ def read_block(stream):
 
 def main():
     reader, stream = load(), sys.stdin.buffer
-    welkin_sky = reader.welkin_sky
-    print("lacks" if welkin_sky.ZSTD else "lacks zstd", flush=True)
+    welkin_reader = reader.welkin_reader
+    print("lacks" if welkin_reader.ZSTD else "lacks zstd", flush=True)
     while (file := read_block(stream)) is not None:
         lines = read_block(stream).decode().splitlines()
         try:
-            model, refusal = welkin_sky.from_bytes(file), None
-        except welkin_sky.WelkinError as error:
+            model, refusal = welkin_reader.from_bytes(file), None
+        except welkin_reader.WelkinError as error:
             model, refusal = None, error
         for line in lines:
             try:
                 if refusal:
                     raise refusal
                 print(*(repr(float(number)) for number in answer(reader, model, line)))
-            except welkin_sky.WelkinError as error:
+            except welkin_reader.WelkinError as error:
                 print("error", error.error_class)
         sys.stdout.flush()
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from welkin_sky import _head
+from welkin_reader import _head
 
 RADIUS, TOP = 6.378e6, 1e5
 EDGES = np.array([0.0, 1e3, 3e3, 8e3, 16e3, 32e3, TOP])

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 from small_file import SOURCE_LEVEL, aerial_file
 
-import welkin_sky
+import welkin_reader
 
 
 def views():
@@ -20,7 +20,7 @@ class AerialPerspective(unittest.TestCase):
     def test_constant_source(self):
         """Where nothing absorbs, a constant source in the dark gives source · (1 − T)."""
         for phase in (1, 2):
-            model = welkin_sky.from_bytes(aerial_file(phase, 1e-4, 1e-4))
+            model = welkin_reader.from_bytes(aerial_file(phase, 1e-4, 1e-4))
             for altitude in (0.0, 1e3, 2e4):
                 place = {"altitude": altitude, "visibility": 5e4}
                 for distance in (100.0, 1e4, 3e5):
@@ -33,7 +33,7 @@ class AerialPerspective(unittest.TestCase):
 
     def test_from_above(self):
         """An observer above the air sees all of it, and from aside nothing."""
-        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-4))
+        model = welkin_reader.from_bytes(aerial_file(2, 1e-4, 1e-4))
         place = {"altitude": 4e7, "visibility": 5e4}
         night = {"solar_elevation": -1.5, "albedo": 0.0, **place}
         light = model.in_scattering([[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]], 4e7, **night)
@@ -43,7 +43,7 @@ class AerialPerspective(unittest.TestCase):
 
     def test_sunlight(self):
         """A short segment scatters its depth · phase function · sunlight / 4π."""
-        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-9))
+        model = welkin_reader.from_bytes(aerial_file(2, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
         light = model.in_scattering([1.0, 0, 0], 1.0, solar_elevation=0.5, albedo=0.0, **place)
         sun = [np.cos(0.5), 0.0, np.sin(0.5)]
@@ -53,7 +53,7 @@ class AerialPerspective(unittest.TestCase):
 
     def test_polarisation(self):
         """A short segment of molecules: Q and U of sunlight; the source is the same from everywhere."""
-        model = welkin_sky.from_bytes(aerial_file(1, 1e-4, 1e-9))
+        model = welkin_reader.from_bytes(aerial_file(1, 1e-4, 1e-9))
         place = {"altitude": 0.0, "visibility": 5e4}
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "solar_azimuth": 0.3, **place}
         sun = [np.cos(0.5) * np.cos(0.3), np.cos(0.5) * np.sin(0.3), np.sin(0.5)]
@@ -70,14 +70,14 @@ class AerialPerspective(unittest.TestCase):
             np.testing.assert_array_equal(light, model.in_scattering(view, 1.0, **scene))
 
     def test_conditions(self):
-        model = welkin_sky.from_bytes(aerial_file(2, 1e-4, 1e-4))
+        model = welkin_reader.from_bytes(aerial_file(2, 1e-4, 1e-4))
         scene = {"solar_elevation": 0.5, "albedo": 0.0, "altitude": 0.0, "visibility": 5e4}
-        with self.assertRaises(welkin_sky.DirectionError):
+        with self.assertRaises(welkin_reader.DirectionError):
             model.in_scattering([0.0, 0.0, 0.0], 1.0, **scene)
         for distance in (-1.0, 2e9):
-            with self.assertRaises(welkin_sky.PointError):
+            with self.assertRaises(welkin_reader.PointError):
                 model.in_scattering([0.0, 0.0, 1.0], distance, **scene)
-        with self.assertRaises(welkin_sky.MissingError):
+        with self.assertRaises(welkin_reader.MissingError):
             model.sky(**scene)
 
 

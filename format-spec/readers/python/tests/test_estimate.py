@@ -8,10 +8,10 @@ import unittest
 import numpy as np
 from small_file import RADIUS, TOP, Chunk, small_file, transmittance_chunk
 
-import welkin_sky
-from welkin_sky import _disc, _head
-from welkin_sky._geometry import Observer, sun_vector
-from welkin_sky._stops import Rays
+import welkin_reader
+from welkin_reader import _disc, _head
+from welkin_reader._geometry import Observer, sun_vector
+from welkin_reader._stops import Rays
 
 EXTINCTION = np.array([1e-5, 2e-6])
 ALBEDO = np.array([0.9, 0.6])
@@ -83,7 +83,7 @@ def sky_file(fields, estimate=None, features=_head.HAS_ESTIMATES, polarisation=(
 
 
 def open_sky(fields, altitude=0.0, solar_elevation=DAY, **options):
-    model = welkin_sky.from_bytes(sky_file(fields, **options))
+    model = welkin_reader.from_bytes(sky_file(fields, **options))
     scene = {"solar_elevation": solar_elevation, "solar_azimuth": 0.3, "albedo": 0.2}
     return model.sky(altitude=altitude, visibility=5e4, **scene)
 
@@ -183,20 +183,20 @@ class Estimates(unittest.TestCase):
     def test_feature(self):
         """The bit stands if and only if the chunk is there."""
         for estimate, features in ((None, 0), (b"", _head.HAS_ESTIMATES)):
-            with self.assertRaises(welkin_sky.InvalidValueError):
-                welkin_sky.from_bytes(sky_file([0], estimate, features))
-        with self.assertRaises(welkin_sky.FeatureError):
-            welkin_sky.from_bytes(sky_file([0], features=2 | 4))
+            with self.assertRaises(welkin_reader.InvalidValueError):
+                welkin_reader.from_bytes(sky_file([0], estimate, features))
+        with self.assertRaises(welkin_reader.FeatureError):
+            welkin_reader.from_bytes(sky_file([0], features=2 | 4))
 
     def test_field_codes(self):
         for code in (1 << 17, 1 << 23, 4 << _head.ESTIMATE_SHIFT, 255 << _head.ESTIMATE_SHIFT):
-            with self.assertRaises(welkin_sky.InvalidValueError):
-                welkin_sky.from_bytes(sky_file([code]))
+            with self.assertRaises(welkin_reader.InvalidValueError):
+                welkin_reader.from_bytes(sky_file([code]))
         # Only the chunk tells that there is no third one.
-        with self.assertRaises(welkin_sky.InvalidValueError):
+        with self.assertRaises(welkin_reader.InvalidValueError):
             open_sky([2 << _head.ESTIMATE_SHIFT])
-        with self.assertRaises(welkin_sky.InvalidValueError):
-            welkin_sky.from_bytes(small_file([], EXTINCTION, fields=[1 << _head.ESTIMATE_SHIFT]))
+        with self.assertRaises(welkin_reader.InvalidValueError):
+            welkin_reader.from_bytes(small_file([], EXTINCTION, fields=[1 << _head.ESTIMATE_SHIFT]))
 
     def test_refused(self):
         """What breaks section 6.10 is refused where the sky is asked, and only there."""
@@ -216,10 +216,10 @@ class Estimates(unittest.TestCase):
         chunks["short"], chunks["long"] = estimate_chunk()[:-4], estimate_chunk() + bytes(4)
         for name, chunk in chunks.items():
             with self.subTest(name):
-                model = welkin_sky.from_bytes(sky_file([DIFFUSE], chunk))
+                model = welkin_reader.from_bytes(sky_file([DIFFUSE], chunk))
                 place = {"altitude": 0.0, "visibility": 5e4}
                 self.assertEqual(model.transmittance(VIEWS, 1e3, **place).shape, (len(VIEWS), 2))
-                with self.assertRaises(welkin_sky.InvalidValueError):
+                with self.assertRaises(welkin_reader.InvalidValueError):
                     model.sky(solar_elevation=DAY, albedo=0.2, **place)
 
 
@@ -254,7 +254,7 @@ class View:
         self.elevation = elevation
         self.is_up = elevation >= -observer.dip
         self.ray_length = observer.ray_length(elevation, self.is_up)
-        self.angle = welkin_sky.sky.Angle(units, sun)
+        self.angle = welkin_reader.sky.Angle(units, sun)
 
 
 class Stops(unittest.TestCase):

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 from small_file import aerial_file
 
-import welkin_sky
+import welkin_reader
 
 NODES = np.array([400.0, 700.0])
 EXTINCTION = np.array([1e-4, 3e-5])
@@ -48,7 +48,7 @@ def spectrum_chunk(**changes):
 
 
 def open_file(spectrum, features=None):
-    return welkin_sky.from_bytes(aerial_file(1, EXTINCTION, 1e-5, spectrum, features))
+    return welkin_reader.from_bytes(aerial_file(1, EXTINCTION, 1e-5, spectrum, features))
 
 
 def between(cells):
@@ -69,11 +69,11 @@ class Spectrum(unittest.TestCase):
         self.assertEqual(self.model.wavelength_range, (400.0, 690.0))
         self.assertEqual(open_file(None).wavelength_range, (400.0, 700.0))
         for wavelength in (399.9999999, 690.0000001, np.nan):
-            with self.assertRaises(welkin_sky.RangeError):
+            with self.assertRaises(welkin_reader.RangeError):
                 self.model.transmittance_at(VIEWS, DISTANCE, wavelength, **PLACE)
-            with self.assertRaises(welkin_sky.RangeError):
+            with self.assertRaises(welkin_reader.RangeError):
                 self.model.in_scattering_at(VIEWS, DISTANCE, wavelength, **SCENE)
-            with self.assertRaises(welkin_sky.RangeError):
+            with self.assertRaises(welkin_reader.RangeError):
                 self.model.solar_irradiance(wavelength)
 
     def test_transmittance(self):
@@ -131,7 +131,7 @@ class Spectrum(unittest.TestCase):
 
     def test_without_spectrum(self):
         model = open_file(None)
-        with self.assertRaises(welkin_sky.MissingError):
+        with self.assertRaises(welkin_reader.MissingError):
             model.transmittance_at(VIEWS, DISTANCE, 400.0, **PLACE)
         light = model.in_scattering(VIEWS, DISTANCE, **SCENE)
         expected = np.exp(np.log(light) @ [0.5, 0.5])
@@ -141,9 +141,9 @@ class Spectrum(unittest.TestCase):
     def test_feature(self):
         """The bit stands if and only if the chunk is there."""
         for spectrum, features, refusal in (
-            (spectrum_chunk(), 0, welkin_sky.InvalidValueError),
-            (None, 1, welkin_sky.InvalidValueError),
-            (spectrum_chunk(), 4 | 1, welkin_sky.FeatureError),
+            (spectrum_chunk(), 0, welkin_reader.InvalidValueError),
+            (None, 1, welkin_reader.InvalidValueError),
+            (spectrum_chunk(), 4 | 1, welkin_reader.FeatureError),
         ):
             with self.assertRaises(refusal):
                 open_file(spectrum, features)
@@ -170,9 +170,9 @@ class Spectrum(unittest.TestCase):
             with self.subTest(name):
                 model = open_file(chunk)
                 self.assertEqual(model.transmittance(VIEWS, DISTANCE, **PLACE).shape, (3, 2))
-                with self.assertRaises(welkin_sky.InvalidValueError):
+                with self.assertRaises(welkin_reader.InvalidValueError):
                     model.transmittance_at(VIEWS, DISTANCE, 500.0, **PLACE)
-                with self.assertRaises(welkin_sky.InvalidValueError):
+                with self.assertRaises(welkin_reader.InvalidValueError):
                     model.in_scattering_at(VIEWS, DISTANCE, 500.0, **SCENE)
 
 

@@ -53,7 +53,7 @@ def _read(path, in_memory):
 
 
 class Model:
-    """A model of the clear sky. Made by `welkin_sky.open` or `welkin_sky.from_bytes`."""
+    """A model of the clear sky. Made by `welkin_reader.open` or `welkin_reader.from_bytes`."""
 
     def __init__(self, source, recipe=None):
         self._recipe = recipe

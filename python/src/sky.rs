@@ -1,0 +1,315 @@
+//! `Sky` and `ColourSky`: one set of conditions, any directions.
+
+use std::sync::Arc;
+
+use pyo3::prelude::*;
+use welkin::{BakedSky, ColourSky, ColourSpace, Result, Sky, SpectralInterpolation};
+
+use crate::arrays::{Array, Directions, fill, fill_each, list, wavelengths};
+use crate::baked::colour::PyBakedColourSky;
+use crate::baked::spectral::PyBakedSky;
+use crate::conditions;
+use crate::errors::{out_of_range, raise};
+use crate::rows::alone;
+
+/// The clear sky of one scene. Made by `Model.sky`.
+///
+/// Directions are arrays (…, 3) that point away from the observer, of any length: +z zenith, azimuth counter-clockwise
+/// from +x seen from above. Looking down gives the light of the air before black ground; the sun's disc is not
+/// included. `threads`: 1 is the calling thread; None all cores, or as many as RAYON_NUM_THREADS says.
+#[pyclass(frozen, name = "Sky", module = "welkin_sky")]
+pub struct PySky {
+    pub sky: Arc<Sky>,
+    interpolation: Arc<SpectralInterpolation>,
+}
+
+impl PySky {
+    pub fn new(sky: Sky, interpolation: &SpectralInterpolation) -> Self {
+        Self {
+            sky: Arc::new(sky),
+            interpolation: Arc::new(interpolation.clone()),
+        }
+    }
+}
+
+#[pymethods]
+impl PySky {
+    /// What the sky was prepared for.
+    #[getter]
+    fn conditions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        conditions::shown(py, self.sky.conditions())
+    }
+
+    /// Wavelengths of `radiance`, nm: (W,).
+    #[getter]
+    fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
+        list(py, self.sky.wavelengths())
+    }
+
+    /// Unit vector towards the sun's centre.
+    #[getter]
+    fn sun_direction(&self) -> (f32, f32, f32) {
+        self.sky.sun_direction().into()
+    }
+
+    /// Memory that the sky holds, bytes.
+    #[getter]
+    fn bytes(&self) -> usize {
+        self.sky.bytes()
+    }
+
+    /// The same sky, turned so that the sun has this azimuth (rad). Costs no preparation.
+    fn with_solar_azimuth(&self, py: Python<'_>, azimuth: f64) -> PyResult<Self> {
+        let mut sky = Sky::clone(&self.sky);
+        sky.set_solar_azimuth(azimuth).map_err(|e| raise(py, e))?;
+        Ok(Self {
+            sky: Arc::new(sky),
+            interpolation: Arc::clone(&self.interpolation),
+        })
+    }
+
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, W) float32.
+    #[pyo3(signature = (directions, *, threads=None))]
+    fn radiance<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let directions = Directions::directions(directions)?;
+        let tail = [self.sky.wavelengths().len()];
+        fill(py, threads, &directions, &tail, |directions, out| {
+            self.sky.radiance_batch(directions, out)
+        })
+    }
+
+    /// Radiance per unit of solar spectral irradiance, sr⁻¹, at `wavelengths`: (…, 3) → (…, W).
+    #[pyo3(signature = (directions, *, threads=None))]
+    fn relative_radiance<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let directions = Directions::directions(directions)?;
+        let tail = [self.sky.wavelengths().len()];
+        fill_each(py, threads, &directions, &tail, |direction, out| {
+            self.sky.relative_radiance(direction, out)
+        })
+    }
+
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K).
+    ///
+    /// The sky is evaluated once for all of them: many cost little more than one.
+    #[pyo3(signature = (directions, wavelengths, *, threads=None))]
+    fn radiance_at<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let solar = |l| self.interpolation.solar_irradiance(l);
+        self.at_wavelengths(py, directions, wavelengths, threads, solar)
+    }
+
+    /// Radiance per unit of solar spectral irradiance, sr⁻¹, at wavelengths in nm: (…, 3) → (…, K).
+    #[pyo3(signature = (directions, wavelengths, *, threads=None))]
+    fn relative_radiance_at<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        self.at_wavelengths(py, directions, wavelengths, threads, |_| 1.0)
+    }
+
+    /// CIE 1931 X, Y, Z, cd m⁻² (Y is luminance): (…, 3) → (…, 3).
+    #[pyo3(signature = (directions, *, threads=None))]
+    fn xyz<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let directions = Directions::directions(directions)?;
+        fill(py, threads, &directions, &[3], |directions, out| {
+            self.sky.xyz_batch(directions, out.as_chunks_mut().0)
+        })
+    }
+
+    /// Linear RGB, cd m⁻², not clipped: (…, 3) → (…, 3).
+    ///
+    /// space: "srgb", "rec2020", "acescg" or "xyz". White of 1 cd m⁻² is (1, 1, 1).
+    #[pyo3(signature = (directions, space="srgb", *, threads=None))]
+    fn rgb<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        space: &str,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let space = self::space(py, space)?;
+        let directions = Directions::directions(directions)?;
+        fill(py, threads, &directions, &[3], |directions, out| {
+            let out = out.as_chunks_mut().0;
+            self.sky.xyz_batch(directions, out)?;
+            to_space(out, space)
+        })
+    }
+
+    /// Bakes the sky into tables that are asked many times faster.
+    ///
+    /// tolerance: relative error that this may add at 95 % of directions and wavelengths.
+    #[pyo3(signature = (tolerance=BakedSky::TOLERANCE), text_signature = "($self, tolerance=0.0025)")]
+    fn bake(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyBakedSky> {
+        Ok(alone(py, || self.sky.bake(tolerance))?.into())
+    }
+
+    /// The same for colour alone.
+    #[pyo3(signature = (tolerance=BakedSky::TOLERANCE), text_signature = "($self, tolerance=0.0025)")]
+    fn bake_colour(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyBakedColourSky> {
+        Ok(alone(py, || self.sky.bake_colour(tolerance))?.into())
+    }
+}
+
+impl PySky {
+    fn at_wavelengths<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+        unit: impl Fn(f64) -> f64,
+    ) -> PyResult<Array<'py>> {
+        let asked = self::wavelengths(wavelengths)?;
+        let rule = &self.interpolation;
+        let [min, max] = rule.range();
+        if let Some(&value) = asked.iter().find(|&&l| !(min..=max).contains(&l)) {
+            return Err(out_of_range(py, "wavelength", [value, min, max], "nm"));
+        }
+        let asked: Vec<_> = asked.into_iter().map(|l| (l, unit(l))).collect();
+        let directions = Directions::directions(directions)?;
+        let nodes = self.sky.wavelengths().len();
+        fill(
+            py,
+            threads,
+            &directions,
+            &[asked.len()],
+            |directions, out| {
+                let mut values = vec![0.0; nodes];
+                let rows = out.chunks_exact_mut(asked.len().max(1));
+                for (&direction, row) in directions.iter().zip(rows) {
+                    self.sky.relative_radiance(direction, &mut values)?;
+                    for (out, &(wavelength, unit)) in row.iter_mut().zip(&asked) {
+                        let value = f64::from(rule.between(&values, wavelength)?) * unit;
+                        *out = value.min(f64::from(f32::MAX)) as f32;
+                    }
+                }
+                Ok(())
+            },
+        )
+    }
+}
+
+/// The sky of one scene for colour alone. Made by `Model.colour_sky`. Directions as of `Sky`.
+#[pyclass(frozen, name = "ColourSky", module = "welkin_sky")]
+pub struct PyColourSky {
+    pub sky: ColourSky,
+}
+
+impl From<ColourSky> for PyColourSky {
+    fn from(sky: ColourSky) -> Self {
+        Self { sky }
+    }
+}
+
+#[pymethods]
+impl PyColourSky {
+    /// What the sky was prepared for.
+    #[getter]
+    fn conditions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        conditions::shown(py, self.sky.conditions())
+    }
+
+    /// Unit vector towards the sun's centre.
+    #[getter]
+    fn sun_direction(&self) -> (f32, f32, f32) {
+        self.sky.sun_direction().into()
+    }
+
+    /// Memory that the sky holds, bytes.
+    #[getter]
+    fn bytes(&self) -> usize {
+        self.sky.bytes()
+    }
+
+    /// The same sky, turned so that the sun has this azimuth (rad). Costs no preparation.
+    fn with_solar_azimuth(&self, py: Python<'_>, azimuth: f64) -> PyResult<Self> {
+        let mut sky = self.sky.clone();
+        sky.set_solar_azimuth(azimuth).map_err(|e| raise(py, e))?;
+        Ok(sky.into())
+    }
+
+    /// CIE 1931 X, Y, Z, cd m⁻² (Y is luminance): (…, 3) → (…, 3).
+    #[pyo3(signature = (directions, *, threads=None))]
+    fn xyz<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let directions = Directions::directions(directions)?;
+        fill(py, threads, &directions, &[3], |directions, out| {
+            self.sky.xyz_batch(directions, out.as_chunks_mut().0)
+        })
+    }
+
+    /// Linear RGB, cd m⁻², not clipped: (…, 3) → (…, 3). space: as of `Sky.rgb`.
+    #[pyo3(signature = (directions, space="srgb", *, threads=None))]
+    fn rgb<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        space: &str,
+        threads: Option<usize>,
+    ) -> PyResult<Array<'py>> {
+        let space = self::space(py, space)?;
+        let directions = Directions::directions(directions)?;
+        fill(py, threads, &directions, &[3], |directions, out| {
+            let out = out.as_chunks_mut().0;
+            self.sky.xyz_batch(directions, out)?;
+            to_space(out, space)
+        })
+    }
+
+    /// Bakes the sky into tables that are asked many times faster. tolerance: as of `Sky.bake`.
+    #[pyo3(signature = (tolerance=BakedSky::TOLERANCE), text_signature = "($self, tolerance=0.0025)")]
+    fn bake(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyBakedColourSky> {
+        Ok(alone(py, || self.sky.bake(tolerance))?.into())
+    }
+
+    /// Bakes the sky into tables of the sizes of another one, of conditions nearby: the next frame, in half the time.
+    fn bake_like(&self, py: Python<'_>, other: &PyBakedColourSky) -> PyBakedColourSky {
+        py.detach(|| self.sky.bake_like(&other.sky)).into()
+    }
+}
+
+/// The matrix (3, 3) from CIE 1931 XYZ to a colour space by name: "srgb", "rec2020", "acescg" or "xyz".
+#[pyfunction]
+pub fn colour_space_matrix(py: Python<'_>, space: &str) -> PyResult<[[f32; 3]; 3]> {
+    Ok(self::space(py, space)?.matrix())
+}
+
+/// A colour space by name.
+pub fn space(py: Python<'_>, name: &str) -> PyResult<ColourSpace> {
+    name.parse().map_err(|error| raise(py, error))
+}
+
+fn to_space(colours: &mut [[f32; 3]], space: ColourSpace) -> Result<()> {
+    for colour in colours {
+        *colour = space.from_xyz(*colour);
+    }
+    Ok(())
+}
