@@ -209,7 +209,9 @@ impl Model {
             true => Some(self.estimate_chunk()?),
             false => None,
         };
-        PointQuery::assemble(head, chunks, self.spectrum_chunk()?, estimate)
+        let query = PointQuery::assemble(head, chunks, self.spectrum_chunk()?, estimate)?;
+        let light = self.head().solar_irradiance.as_slice();
+        Ok(query.under(self.is_moonlit().then_some(light)))
     }
 }
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::direction;
-use welkin::{Conditions, Model, Moon};
+use welkin::{Budget, Channels, Conditions, Model, Moon, PolarisationFrame, Stokes};
 
 const LINES: [[f64; 2]; 5] = [
     [90.0, 0.0],
@@ -46,6 +46,48 @@ fn spectra_are_those_of_the_sun_times_the_reflectance_of_the_moon() {
                 "{wavelength}: {got} {expected}"
             );
         }
+    }
+}
+
+/// Point queries of a moonlit model, with Stokes vectors and without, are in the light of the moon, too.
+#[test]
+fn point_queries_are_by_the_moon() {
+    let (model, moon) = (model(), moon(35.0, 40.0));
+    let conditions = moon.conditions(&Conditions::default());
+    let moonlit = model.moonlit(&moon).unwrap();
+    let sky = moonlit.sky(&conditions).unwrap();
+    let plan = |channels| {
+        let budget = Budget {
+            altitude: [0.0, 100.0],
+            visibility: [50e3, 70e3],
+            solar_elevation: [-0.05, 1.5],
+            tolerance: 0.01,
+            channels,
+        };
+        moonlit.plan(&budget).unwrap()
+    };
+    let n = model.wavelengths().len();
+    let [mut expected, mut got] = [(); 2].map(|()| vec![0.0; n]);
+    let mut vectors = vec![Stokes::default(); n];
+    let near = |got: &[f32], expected: &[f32]| {
+        for (got, expected) in got.iter().zip(expected) {
+            assert!((got / expected - 1.0).abs() < 1e-3, "{got} {expected}");
+        }
+    };
+    let query = moonlit.point_query(&plan(Channels::Spectral)).unwrap();
+    let stokes = moonlit
+        .polarised_point_query(&plan(Channels::Stokes))
+        .unwrap();
+    for line in LINES.map(ray) {
+        sky.radiance(line, &mut expected).unwrap();
+        query.radiance(&conditions, line, &mut got).unwrap();
+        near(&got, &expected);
+        let light = stokes.stokes(&conditions, line, PolarisationFrame::Vertical, &mut vectors);
+        light.unwrap();
+        let intensities: Vec<f32> = vectors.iter().map(|light| light.i).collect();
+        near(&intensities, &expected);
+        let at = query.radiance_at(&conditions, line, 612.0).unwrap();
+        near(&[at], &[sky.radiance_at(line, 612.0).unwrap()]);
     }
 }
 

@@ -28,6 +28,7 @@ fn the_changelog_lists_the_versions_of_all_parts() {
     let c = include_str!("../format-spec/readers/c/welkin.h");
     let project = include_str!("../format-spec/readers/python/pyproject.toml");
     let module = include_str!("../format-spec/readers/python/src/welkin_reader/__init__.py");
+    let package = include_str!("../python/Cargo.toml");
     assert!(fitter.contains("\nversion.workspace = true\n"));
 
     let parts = [
@@ -46,6 +47,10 @@ fn the_changelog_lists_the_versions_of_all_parts() {
         (
             "reader in Python (distribution `welkin-reader`)",
             between(module, "__version__ = \"", "\""),
+        ),
+        (
+            "package for Python (distribution `welkin-sky`)",
+            between(package, "\nversion = \"", "\""),
         ),
         (
             "least Rust, library and command",

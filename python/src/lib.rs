@@ -7,6 +7,7 @@ mod arrays;
 mod baked;
 mod bands;
 mod broadcast;
+mod buffers;
 mod conditions;
 mod errors;
 mod frame;

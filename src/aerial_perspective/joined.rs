@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::kernel::math::LANES;
 use crate::kernel::simd::dispatch;
 use crate::polarisation::Plane;
-use crate::sky::{ColourSpace, xyz_to_linear_srgb};
+use crate::sky::ColourSpace;
 use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 
 /// The share of light from beyond a segment below which the sky begins to take over.
@@ -151,11 +151,16 @@ impl JoinedAerialPerspective<'_> {
     /// # Errors
     /// As [`AerialPerspective::xyz`].
     pub fn linear_srgb(&self, to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        self.rgb(to, ColourSpace::Srgb)
+    }
+
+    /// As [`AerialPerspective::rgb`] from the observer.
+    ///
+    /// # Errors
+    /// As [`AerialPerspective::xyz`].
+    pub fn rgb(&self, to: [f64; 3], space: ColourSpace) -> Result<([f32; 3], [f32; 3])> {
         let (light, through) = self.xyz(to)?;
-        Ok((
-            xyz_to_linear_srgb(light),
-            self.aerial.factors(through, ColourSpace::Srgb),
-        ))
+        Ok((space.from_xyz(light), self.aerial.factors(through, space)))
     }
 
     /// Hands what the segment does to `emit` block by block.

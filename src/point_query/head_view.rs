@@ -132,14 +132,15 @@ impl<'a> HeadView<'a> {
         [start, start + (self.solar.len() - 1) as f64 * step]
     }
 
-    /// Solar spectral irradiance, W m⁻² nm⁻¹.
-    pub fn solar_irradiance(&self, wavelength: f64) -> f32 {
+    /// Spectral irradiance of the light, W m⁻² nm⁻¹: from samples in place of the sun's, if there are any.
+    pub fn irradiance(&self, samples: Option<&[f32]>, wavelength: f64) -> f32 {
         let [start, step] = self.solar_axis;
         let last = self.solar.len() - 1;
+        let sample = |i: usize| samples.map_or_else(|| self.solar[i].get(), |samples| samples[i]);
         let u = ((wavelength - start) / step).clamp(0.0, last as f64);
         let i = (u as usize).min(last - 1);
         let t = (u - i as f64) as f32;
-        let [a, b] = [i, i + 1].map(|i| self.solar[i].get());
+        let [a, b] = [i, i + 1].map(sample);
         (1.0 - t) * a + t * b
     }
 }

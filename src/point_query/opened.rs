@@ -40,7 +40,9 @@ pub struct PointQuery<'a> {
     pub(super) axes: [Axis; 2],
     /// The ends of the axis of solar elevations before it is divided evenly.
     pub(super) suns: [f64; 2],
-    /// Solar spectral irradiance at the wavelengths.
+    /// Samples of the spectral irradiance of the moon, in its light.
+    moonlight: Option<&'a [f32]>,
+    /// Spectral irradiance of the light at the wavelengths.
     pub(super) irradiance: [f32; WAVELENGTH_BLOCKS * WIDTH],
     pub(super) light: Light,
     /// What lies between the wavelengths, if the file says.
@@ -113,26 +115,33 @@ impl<'a> PointQuery<'a> {
         )?;
         let rank = chunks.basis().map_or(0, |basis| basis.stride);
         limit("components", rank, MOST_RANK)?;
-        let mut irradiance = [0.0; WAVELENGTH_BLOCKS * WIDTH];
-        for (value, wavelength) in irradiance.iter_mut().zip(head.wavelengths) {
-            *value = head.solar_irradiance(wavelength.get());
-        }
         let altitudes = head.altitudes.iter().map(|h| h.get().cbrt());
         let visibilities = head.visibilities.iter().map(|v| 1.0 / v.get());
-        Ok(Self {
+        let query = Self {
             light: Light::new(&head)?,
             axes: [
                 Axis::new("altitudes", altitudes)?,
                 Axis::new("visibilities", visibilities)?,
             ],
             suns: head.elevation.ends(),
-            irradiance,
+            moonlight: None,
+            irradiance: [0.0; WAVELENGTH_BLOCKS * WIDTH],
             interpolation: Interpolation::default(),
             head,
             chunks,
             spectrum,
             estimate,
-        })
+        };
+        Ok(query.under(None))
+    }
+
+    /// In the light of the moon, whose spectral irradiance stands where the sun's does in the file; or of the sun.
+    pub(crate) fn under(mut self, moonlight: Option<&'a [f32]>) -> Self {
+        self.moonlight = moonlight;
+        for (value, wavelength) in self.irradiance.iter_mut().zip(self.head.wavelengths) {
+            *value = self.head.irradiance(moonlight, wavelength.get());
+        }
+        self
     }
 
     /// The same with another interpolation between chunks than [`Interpolation::Full`].
@@ -147,8 +156,8 @@ impl<'a> PointQuery<'a> {
         self.head.wavelengths.iter().map(|l| l.get())
     }
 
-    /// Solar spectral irradiance (W m⁻² nm⁻¹) at a wavelength, nm.
+    /// Spectral irradiance (W m⁻² nm⁻¹) of the sun, or of the moon in its light, at a wavelength, nm.
     pub(crate) fn solar_irradiance(&self, wavelength: f64) -> f32 {
-        self.head.solar_irradiance(wavelength)
+        self.head.irradiance(self.moonlight, wavelength)
     }
 }

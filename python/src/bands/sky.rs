@@ -79,7 +79,7 @@ impl PyBandSky {
 /// A sky in bands as tables. Made by `BandSky.bake`. Directions as of `Sky`.
 #[pyclass(frozen, name = "BakedBandSky", module = "welkin_sky")]
 pub struct PyBakedBandSky {
-    sky: BakedBandSky,
+    pub sky: BakedBandSky,
 }
 
 #[pymethods]
@@ -153,7 +153,7 @@ impl PyBakedBandSky {
 /// A sky in bands with its polarisation. Made by `Model.polarised_band_sky`. Directions as of `Sky`.
 #[pyclass(frozen, name = "PolarisedBandSky", module = "welkin_sky")]
 pub struct PyPolarisedBandSky {
-    sky: PolarisedBandSky,
+    pub sky: PolarisedBandSky,
 }
 
 impl From<PolarisedBandSky> for PyPolarisedBandSky {
