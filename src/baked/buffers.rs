@@ -7,11 +7,8 @@ use super::baked_colour::BakedColourSky;
 use super::baked_polarised::BakedPolarisedSky;
 use super::baked_spectral::{BakedSky, LANES};
 use super::coordinates::{CROWDING, LocalFrame, POLE};
-use super::spline_table::{ENVELOPE, Grid, SUN, Table};
+use super::spline_table::{ENVELOPE, GROUP, Grid, SUN, Table, regrouped};
 use crate::kernel::lanes::Lanes;
-
-/// Channels of a group.
-const GROUP: usize = 4;
 
 /// Where a baked sky is looked up: 80 bytes with the layout that std140 and std430 give these fields.
 ///
@@ -177,22 +174,4 @@ fn header(frame: &LocalFrame, grid: Grid, channels: usize) -> BufferHeader {
         polarised: 0,
         layout: SkyBuffers::LAYOUT,
     }
-}
-
-/// From `[block][length]` with so many channels in a block to `[group of four][length]`; lanes before `first` are left
-/// out.
-pub(super) fn regrouped<const N: usize>(
-    cells: &[Lanes<N>],
-    length: usize,
-    groups: usize,
-    [first, channels]: [usize; 2],
-) -> Vec<[f32; 4]> {
-    let mut out = Vec::with_capacity(groups * length);
-    for channel in (0..groups).map(|group| group * GROUP) {
-        let (block, lane) = (channel / channels, first + channel % channels);
-        let block = &cells[block * length..][..length];
-        let group = |cell: &Lanes<N>| core::array::from_fn(|i| cell.0[lane + i]);
-        out.extend(block.iter().map(group));
-    }
-    out
 }

@@ -4,7 +4,6 @@
 //! Both are smooth wherever the radiance is: at the neutral points, in the aureole and, as the azimuth is an axis of
 //! its own, at the poles. U over the sine of the azimuth is even in it, as Q is.
 
-use super::buffers::regrouped;
 use super::comparison_sites::{Site, WIDTH, sites};
 use super::coordinates::LocalFrame;
 use super::frame_rotation::FrameRotation;
@@ -12,7 +11,7 @@ use super::grid_choice::{BakeError, Errors, bake, largest};
 use super::grid_nodes::{GridNodes, Known};
 use super::hemisphere_spline::{self, joined};
 use super::refinement::Half;
-use super::spline_table::{Grid, Spots};
+use super::spline_table::{Grid, Spots, regrouped};
 use crate::bands::Projection;
 use crate::error::Result;
 use crate::geometry::{Ray, Side};

@@ -14,6 +14,9 @@ pub(super) const SUN: u32 = 32;
 /// Coefficients over the angle from the sun.
 pub(super) const ENVELOPE: usize = SUN as usize + 3;
 
+/// Channels that are handed out together.
+pub(super) const GROUP: usize = 4;
+
 /// Intervals of the other axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Grid {
@@ -194,4 +197,22 @@ fn weighted<const N: usize, const W: usize>(
     let cells = &cells[..4];
     let term = |k: usize| cells[k] * weight[k].0[i];
     (term(0) + term(1)) + (term(2) + term(3))
+}
+
+/// From `[block][length]` with so many channels in a block to `[group of four][length]`; lanes before `first` are left
+/// out.
+pub(super) fn regrouped<const N: usize>(
+    cells: &[Lanes<N>],
+    length: usize,
+    groups: usize,
+    [first, channels]: [usize; 2],
+) -> Vec<[f32; 4]> {
+    let mut out = Vec::with_capacity(groups * length);
+    for channel in (0..groups).map(|group| group * GROUP) {
+        let (block, lane) = (channel / channels, first + channel % channels);
+        let block = &cells[block * length..][..length];
+        let group = |cell: &Lanes<N>| core::array::from_fn(|i| cell.0[lane + i]);
+        out.extend(block.iter().map(group));
+    }
+    out
 }
