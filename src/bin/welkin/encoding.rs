@@ -4,8 +4,8 @@ use exr::prelude::{Compression, f16};
 use rayon::prelude::*;
 use welkin::ColourSpace;
 
-use crate::about::LUMINANCE;
-use crate::image::Planes;
+/// Planes by name.
+pub type Planes = [(String, Vec<f32>)];
 
 #[derive(clap::Args, Clone, Copy)]
 #[command(next_help_heading = "EXR files")]
@@ -93,39 +93,32 @@ impl Encoding {
     }
 
     /// Takes the planes R, G and B of each layer of a picture in linear sRGB to the colour space.
-    pub fn convert(&self, picture: &mut Planes) {
-        if self.space() == picture.space || picture.units != LUMINANCE {
-            return;
-        }
-        let layers: Vec<String> = picture
-            .planes
-            .iter()
-            .filter_map(|(name, _)| red(name))
-            .collect();
+    pub fn convert(&self, planes: &mut Planes) {
+        let layers: Vec<String> = planes.iter().filter_map(|(name, _)| red(name)).collect();
         for layer in layers {
             let channels = ["R", "G", "B"].map(|channel| {
                 let name = format!("{layer}{channel}");
-                picture.planes.iter().position(|plane| plane.0 == name)
+                planes.iter().position(|plane| plane.0 == name)
             });
             if let [Some(r), Some(g), Some(b)] = channels {
-                let [r, g, b] = [r, g, b].map(|i| core::mem::take(&mut picture.planes[i].1));
+                let [r, g, b] = [r, g, b].map(|i| core::mem::take(&mut planes[i].1));
                 let converted = converted(self.space(), [&r, &g, &b]);
                 for (i, values) in channels.into_iter().flatten().zip(converted) {
-                    picture.planes[i].1 = values;
+                    planes[i].1 = values;
                 }
             }
         }
     }
 
     /// Says what half precision does to a picture that is about to be written.
-    pub fn warn(&self, picture: &Planes) {
+    pub fn warn(&self, planes: &Planes) {
         if !self.is_half() {
             return;
         }
         let largest = f16::MAX.to_f32();
         let smallest = f16::MIN_POSITIVE.to_f32();
         let count = |is: &(dyn Fn(f32) -> bool + Sync)| -> usize {
-            let planes = picture.planes.par_iter();
+            let planes = planes.par_iter();
             planes
                 .map(|(_, values)| values.iter().filter(|v| is(v.abs())).count())
                 .sum()

@@ -29,8 +29,10 @@ pub struct Planes {
 
 /// Encodes planes as OpenEXR; says on the error stream what half precision changes.
 pub fn exr(mut picture: Planes, encoding: &Encoding) -> Result<Vec<u8>> {
-    encoding.convert(&mut picture);
-    encoding.warn(&picture);
+    if picture.units == LUMINANCE && picture.space != encoding.space() {
+        encoding.convert(&mut picture.planes);
+    }
+    encoding.warn(&picture.planes);
     let channels = picture
         .planes
         .into_iter()
