@@ -20,6 +20,24 @@ const HOPELESS: f32 = 0.5;
 /// A camera-aligned volume ("froxels"). Row `r`, column `c`, slice `k` ends at `from + depths[k] · (axis + x·right +
 /// y·up)` with `x = (2c + 1) / columns − 1` and `y = 1 − (2r + 1) / rows`: with `axis` a unit vector and the other two
 /// across it, as long as the tangents of half the fields of view, slices are planes and depths are along the axis.
+///
+/// ```
+/// use welkin::{CameraVolume, Conditions, Model};
+///
+/// let aerial = Model::default_model()?.colour_aerial_perspective(&Conditions::default())?;
+/// let volume = CameraVolume {
+///     from: [0.0, 0.0, 2.0],
+///     axis: [1.0, 0.0, 0.0],
+///     right: [0.0, -0.8, 0.0],
+///     up: [0.0, 0.0, 0.45],
+///     size: [32, 18],
+///     depths: &[100.0, 1e3, 10e3, 50e3],
+/// };
+/// let [mut light, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; 32 * 18 * 4]);
+/// aerial.linear_srgb_volume(&volume, &mut light, &mut factors)?;
+/// assert!(light[3][2] > light[0][2] && factors[3][2] < factors[0][2]);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct CameraVolume<'a> {
     /// The camera, m, in the frame of the conditions: the origin is the ground below their place, +z up there.

@@ -13,6 +13,16 @@ use crate::kernel::lanes::Lanes;
 /// Where a baked sky is looked up: 80 bytes with the layout that std140 and std430 give these fields.
 ///
 /// Units are those of the sky: +z up, azimuths counter-clockwise from +x.
+///
+/// ```
+/// use welkin::{BakedSky, Conditions, Model};
+///
+/// let sky = Model::default_model()?.colour_sky(&Conditions::default())?.bake(BakedSky::TOLERANCE)?;
+/// let header = sky.buffers().header;
+/// assert_eq!((header.channels, header.groups, header.polarised), (3, 1, 0));
+/// assert!(header.sun[2] > 0.3 && header.horizon == 0.0);
+/// # Ok::<(), welkin::Error>(())
+/// ```
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, IntoBytes, Immutable)]
 pub struct BufferHeader {
