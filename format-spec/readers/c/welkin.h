@@ -10,9 +10,9 @@
  * questions to it are WELKIN_ERROR_STATE, sizes 0; what it was to return, and memory that it got, hold nothing of use.
  * What is not a number or too large in the arguments is an error (of range, direction or point), and results that come
  * without one are finite: what a float cannot hold is WELKIN_ERROR_VALUE, but for what comes from tables, and Q and U,
- * which stop at FLT_MAX. Arrays of radiance that are handed back must be ones that these functions gave. No pointer may be NULL, but
- * for `user` of welkin_unpack and `name` of welkin_colour_space_named; nor may a struct be asked that no call has
- * filled.
+ * which stop at FLT_MAX. Arrays of radiance that are handed back must be ones that these functions gave. No pointer may
+ * be NULL, but for `user` of welkin_unpack and `name` of welkin_colour_space_named; nor may a struct be asked that no
+ * call has filled.
  *
  * With WELKIN_STATIC defined, all functions are private to the file that includes the implementation, and those that it
  * does not use are no warnings. Or define WELKIN_API: what stands before each function.
@@ -309,8 +309,8 @@ WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profil
 
 /* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction, in m. The
  * segment is straight, and nothing is in its way: below the ground, where the start may be, too, the air is that at the
- * ground. Altitudes above the spherical planet are -1e9..=1e9, distances 0..=4e9, and the components of the end, from the
- * ground below or above the start, -1e9..=1e9; others are WELKIN_ERROR_POINT. */
+ * ground. Altitudes above the spherical planet are -1e9..=1e9, distances 0..=4e9, and the components of the end, from
+ * the ground below or above the start, -1e9..=1e9; others are WELKIN_ERROR_POINT. */
 WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
                                              const double direction[3], double distance, float *transmittance);
 
