@@ -148,6 +148,9 @@ static void fail_bake(const welkin_file *file)
     CHECK(!welkin_bake(&baked, &sky, &colour, memory, least));
     FAILS(welkin_bake(&baked, &sky, &none, memory, least), RANGE);
     refuse_baked(&baked, &sky);
+    sky.radiance.channel[0] = HUGE_VALF; /* the sky answers WELKIN_ERROR_VALUE, when the table is half done */
+    FAILS(welkin_bake(&baked, &sky, &colour, memory, least), VALUE);
+    refuse_baked(&baked, &sky);
 }
 
 static void fail_segments(const welkin_file *file)

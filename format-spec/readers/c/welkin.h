@@ -220,8 +220,8 @@ typedef size_t welkin_decompress(void *user, void *out, size_t capacity, const v
 /* Bytes that welkin_unpack needs, 0 if no chunk is compressed (or if there are too many for a size_t). */
 WELKIN_API size_t welkin_unpacked_length(const welkin_file *file);
 
-/* Writes the same file without compression to `out`, and opens that in place of the compressed one. A chunk that cannot
- * be decoded is an error where it is used. */
+/* Writes the same file without compression to `out`, and opens that in place of the compressed one, which stays open
+ * after an error. A chunk that cannot be decoded is an error where it is used. */
 WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out,
                                       size_t capacity);
 
