@@ -258,14 +258,15 @@ static void count_floats(const welkin_file *file)
     for (i = 0; i < 4; i++) {
         size_t channels = some[i].spectral ? file->wavelengths : 3;
         if (some[i].up > WELKIN_MAX_INTERVALS) continue;
-        CHECK(WELKIN_BAKE_FLOATS(some[i].up, some[i].down, some[i].azimuths, channels) == welkin_bake_floats(file, &some[i]));
+        CHECK(WELKIN_BAKE_FLOATS(some[i].up, some[i].down, some[i].azimuths, channels) ==
+              welkin_bake_floats(file, &some[i]));
     }
 }
 
 int main(int count, char **arguments)
 {
     FILE *stream = count == 2 ? fopen(arguments[1], "rb") : NULL;
-    size_t most = (size_t)1 << 26, length;
+    size_t most = (size_t)1 << 26, length, aerial_floats;
     unsigned char *bytes = stream ? malloc(most) : NULL;
     welkin_file file;
     welkin_error error;
@@ -281,7 +282,8 @@ int main(int count, char **arguments)
         return 2;
     }
     scratch_floats = welkin_scratch_floats(&file, WELKIN_POLARISED | WELKIN_DENSE);
-    if (scratch_floats < welkin_aerial_perspective_floats(&file)) scratch_floats = welkin_aerial_perspective_floats(&file);
+    aerial_floats = welkin_aerial_perspective_floats(&file);
+    if (scratch_floats < aerial_floats) scratch_floats = aerial_floats;
     memory_floats = welkin_bake_floats(&file, &colour);
     scratch = allocate(scratch_floats * sizeof *scratch);
     memory = allocate(memory_floats * sizeof *memory);
