@@ -171,6 +171,11 @@ int main(int count, char **arguments)
     }
     draw_directions(directions);
     printf("%u wavelengths, %u fields, rank %u\n", file.wavelengths, file.fields, file.rank);
+    printf("floats of scratch: %zu, dense %zu, polarised %zu, both %zu; aerial perspective %zu\n",
+           welkin_scratch_floats(&file, 0), welkin_scratch_floats(&file, WELKIN_DENSE),
+           welkin_scratch_floats(&file, WELKIN_POLARISED),
+           welkin_scratch_floats(&file, WELKIN_POLARISED | WELKIN_DENSE),
+           welkin_aerial_perspective_floats(&file));
     failed = time_mode(&file, 0, "radiance", directions);
     failed |= time_mode(&file, WELKIN_DENSE, "radiance, dense", directions);
     if (file.polarisation_rank) {

@@ -20,7 +20,11 @@ static unsigned char *unpack(welkin_file *file, unsigned char *bytes)
     size_t length = welkin_unpacked_length(file);
     unsigned char *unpacked = length ? malloc(length) : NULL;
     if (!unpacked) return bytes;
-    if (welkin_unpack(file, inflate, NULL, unpacked, length)) fprintf(stderr, "the file does not unpack\n");
+    if (welkin_unpack(file, inflate, NULL, unpacked, length)) {
+        fprintf(stderr, "the file does not unpack\n");
+        free(unpacked);
+        return bytes;
+    }
     free(bytes);
     return unpacked;
 }

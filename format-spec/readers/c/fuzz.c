@@ -163,6 +163,8 @@ static void ask_unpacked(const welkin_file *packed)
     size_t length = welkin_unpacked_length(packed);
     welkin_file file = *packed;
     void *out = length && length <= 4 * MOST_FLOATS ? malloc(length) : NULL;
+    if (out && welkin_unpack(&file, decode, NULL, out, length - 1) != WELKIN_ERROR_SCRATCH) abort();
+    if (file.bytes != packed->bytes) abort(); /* still open */
     if (out && !welkin_unpack(&file, decode, NULL, out, length)) ask(&file);
     free(out);
 }

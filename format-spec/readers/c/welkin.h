@@ -4,7 +4,18 @@
  *
  * The caller gives the bytes of a file and keeps them alive; nothing is allocated, there is no mutable global, and
  * every number of the file is checked before use. Bytes may be unaligned; the host may have either byte order.
- * Numbers must be IEEE 754, so do not compile the implementation with -ffast-math.
+ * Numbers must be IEEE 754: with -ffast-math or -ffinite-math-only the implementation does not compile.
+ *
+ * Look at every error. After one, what the call was to open, prepare or bake is empty, whatever it was before, and
+ * questions to it are WELKIN_ERROR_STATE, sizes 0; what it was to return, and memory that it got, hold nothing of use.
+ * What is not a number or too large in the arguments is an error (of range, direction or point), and results that come
+ * without one are finite: what a float cannot hold is WELKIN_ERROR_VALUE, but for what comes from tables, and Q and U,
+ * which stop at FLT_MAX. Arrays of radiance that are handed back must be ones that these functions gave. No pointer may
+ * be NULL, but for `user` of welkin_unpack and `name` of welkin_colour_space_named; nor may a struct be asked that no
+ * call has filled.
+ *
+ * With WELKIN_STATIC defined, all functions are private to the file that includes the implementation, and those that it
+ * does not use are no warnings. Or define WELKIN_API: what stands before each function.
  *
  * Arrays of results belong to the wavelengths that the file stores, its nodes. Functions whose names end in _at answer
  * at any wavelength in its range.
@@ -22,10 +33,17 @@ extern "C" {
 #endif
 
 #ifndef WELKIN_API
+#ifndef WELKIN_STATIC
 #define WELKIN_API extern
+#elif defined(__GNUC__)
+#define WELKIN_API static __attribute__((unused))
+#else
+#define WELKIN_API static
+#endif
 #endif
 
-/* The classes of errors of the specification, and one for a scratch that is too small. */
+/* The classes of errors of the specification; one for a scratch that is too small; and one for questions to what is
+ * not open or not prepared, as after a call that failed. */
 typedef enum welkin_error {
     WELKIN_OK = 0,
     WELKIN_ERROR_MAGIC,
@@ -39,17 +57,35 @@ typedef enum welkin_error {
     WELKIN_ERROR_MISSING,
     WELKIN_ERROR_DIRECTION,
     WELKIN_ERROR_POINT,
-    WELKIN_ERROR_SCRATCH
+    WELKIN_ERROR_SCRATCH,
+    WELKIN_ERROR_STATE
 } welkin_error;
 
 /* Of this reader; the files have versions of their own. */
 #define WELKIN_READER_VERSION "1.1.0"
 
-#define WELKIN_MAX_WAVELENGTHS 256
-#define WELKIN_MAX_FIELDS 16
 #define WELKIN_MAX_CONSTITUENTS 16
+
+/* Arrays on the stack are this long. Less may be defined, alike wherever the header is included: files that need more
+ * do not open (WELKIN_ERROR_VALUE), tables of more intervals are not baked. */
+#ifndef WELKIN_MAX_WAVELENGTHS
+#define WELKIN_MAX_WAVELENGTHS 256
+#endif
+#ifndef WELKIN_MAX_FIELDS
+#define WELKIN_MAX_FIELDS 16
+#endif
+#ifndef WELKIN_MAX_RANK
 #define WELKIN_MAX_RANK 4096
+#endif
+#ifndef WELKIN_MAX_INTERVALS
 #define WELKIN_MAX_INTERVALS 512
+#endif
+#if WELKIN_MAX_WAVELENGTHS < 16 || WELKIN_MAX_WAVELENGTHS % 16 || WELKIN_MAX_RANK < 16 || WELKIN_MAX_RANK % 16
+#error "WELKIN_MAX_WAVELENGTHS and WELKIN_MAX_RANK must be multiples of 16"
+#endif
+#if WELKIN_MAX_WAVELENGTHS > 256 || WELKIN_MAX_FIELDS > 16 || WELKIN_MAX_RANK > 4096 || WELKIN_MAX_INTERVALS > 512
+#error "the largest WELKIN_MAX_ values are 256 wavelengths, 16 fields, rank 4096 and 512 intervals"
+#endif
 
 /* What lies between the nodes: where the tables of the spectrum chunk are; private. */
 typedef struct welkin_spectrum {
@@ -184,8 +220,8 @@ typedef size_t welkin_decompress(void *user, void *out, size_t capacity, const v
 /* Bytes that welkin_unpack needs, 0 if no chunk is compressed (or if there are too many for a size_t). */
 WELKIN_API size_t welkin_unpacked_length(const welkin_file *file);
 
-/* Writes the same file without compression to `out`, and opens that in place of the compressed one. A chunk that cannot
- * be decoded is an error where it is used. */
+/* Writes the same file without compression to `out`, and opens that in place of the compressed one, which stays open
+ * after an error. A chunk that cannot be decoded is an error where it is used. */
 WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *decompress, void *user, void *out,
                                       size_t capacity);
 
@@ -196,10 +232,11 @@ WELKIN_API double welkin_visibility(const welkin_file *file, uint32_t index);
 /* First and last wavelength that can be asked, nm: of the spectrum's cells, or in a file without one of the nodes. */
 WELKIN_API welkin_error welkin_wavelength_range(const welkin_file *file, double range[2]);
 
-/* How many floats welkin_prepare needs. */
+/* How many floats welkin_prepare needs, with the same flags. */
 WELKIN_API size_t welkin_scratch_floats(const welkin_file *file, unsigned flags);
 
-/* Reads and checks what the conditions need. The scratch and the file must outlive the sky. */
+/* Reads and checks what the conditions need. The scratch and the file must outlive the sky. WELKIN_ERROR_RANGE also for
+ * unknown flags. */
 WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
                                        unsigned flags, float *scratch, size_t scratch_floats);
 
@@ -234,11 +271,16 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *file, const float *r
 /* Solar irradiance, W m^-2 nm^-1. */
 WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *file, double wavelength, double *value);
 
-/* How many floats welkin_bake needs; 0 for a resolution out of range. */
+/* How many floats welkin_bake needs; 0 for a resolution out of range. The macro says the same of constants in their
+ * range, for arrays of fixed size: channels are 3, or in spectral tables the wavelengths of the file. */
+#define WELKIN_BAKE_FLOATS(up, down, azimuths, channels) \
+    (((size_t)(up) + (down) + 2) * ((size_t)(azimuths) + 1) * (channels) + (size_t)(up) + (down) + 1 + \
+     ((size_t)(up) + (down)) * ((size_t)(azimuths) + 1))
 WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *resolution);
 
-/* Fills a table with a prepared sky, of (up + down + 2) (azimuths + 1) directions. The memory and the file must outlive
- * the table, the sky need not. WELKIN_ERROR_SCRATCH for too little memory. */
+/* Fills a table with a prepared sky, of (up + down + 2) (azimuths + 1) directions. The memory must outlive the table;
+ * the sky and its scratch need not. Nor need the file and its bytes, unless the table is spectral: colours and samples
+ * come from the memory alone. WELKIN_ERROR_SCRATCH for too little memory. */
 WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
                                     float *memory, size_t memory_floats);
 
@@ -250,12 +292,13 @@ WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const d
 /* Relative errors of a table at so many directions (at least 1) all over the sphere: the one that 99 % of them do not
  * exceed (up to 5 % too large) and the largest. That of a direction is the largest of its channels: of X, Y and Z, or
  * of all wavelengths; what is below 1e-4 of the channel's brightest node counts as that. `sky` is the one that was
- * baked; WELKIN_ERROR_RANGE for a sky of another file. */
+ * baked, and still there; WELKIN_ERROR_RANGE for a sky of another file. */
 WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welkin_sky *sky, uint32_t directions,
                                            double *p99, double *largest);
 
 /* A unit vector for two uniform random numbers in 0..=1 (others: WELKIN_ERROR_RANGE), and its density per steradian,
- * about proportional to the luminance of the sky and never 0; welkin_sample_pdf gives that of any direction. */
+ * about proportional to the luminance of the sky; welkin_sample_pdf gives that of any direction. It is never 0, also
+ * where the sky is black: there the library in Rust, whose samples are others, says 0. */
 WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, double u2, double direction[3],
                                       double *pdf);
 WELKIN_API welkin_error welkin_sample_pdf(const welkin_baked *baked, const double direction[3], double *pdf);
@@ -264,7 +307,10 @@ WELKIN_API welkin_error welkin_sample_pdf(const welkin_baked *baked, const doubl
 WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profile *air, const welkin_file *file,
                                                      double visibility);
 
-/* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction. */
+/* Transmittance at every wavelength of the file, from a point at an altitude over a distance in a direction, in m. The
+ * segment is straight, and nothing is in its way: below the ground, where the start may be, too, the air is that at the
+ * ground. Altitudes above the spherical planet are -1e9..=1e9, distances 0..=4e9, and the components of the end, from
+ * the ground below or above the start, -1e9..=1e9; others are WELKIN_ERROR_POINT. */
 WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile *air, double altitude,
                                              const double direction[3], double distance, float *transmittance);
 
@@ -284,7 +330,8 @@ WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspect
                                                           size_t scratch_floats);
 
 /* Light that the air of a segment scatters towards its start, per unit of solar irradiance, sr^-1, at every wavelength
- * of the file. An integral over some hundred points: for checks and for tables, not for each pixel. */
+ * of the file. Segments are those of welkin_transmittance; what lies below the ground is lit as at the ground. An
+ * integral over some hundred points: for checks and for tables, not for each pixel. */
 WELKIN_API welkin_error welkin_in_scattering(const welkin_aerial_perspective *aerial, double altitude,
                                              const double direction[3], double distance, float *light);
 
@@ -299,7 +346,12 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
 
 #endif /* WELKIN_H */
 
-#ifdef WELKIN_IMPLEMENTATION
+#if defined(WELKIN_IMPLEMENTATION) && !defined(WELKIN__IMPLEMENTED)
+#define WELKIN__IMPLEMENTED
+
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "welkin.h checks numbers of files, which -ffast-math and -ffinite-math-only remove"
+#endif
 
 #include <float.h>
 #include <math.h>
@@ -808,6 +860,7 @@ WELKIN_API const char *welkin_error_name(welkin_error error)
     case WELKIN_ERROR_DIRECTION: return "direction";
     case WELKIN_ERROR_POINT: return "point";
     case WELKIN_ERROR_SCRATCH: return "scratch";
+    case WELKIN_ERROR_STATE: return "state";
     }
     return "unknown";
 }
@@ -1056,19 +1109,14 @@ static int welkin__is_declared(const welkin_file *f, uint32_t feature, welkin_er
     return (chunk != WELKIN_ERROR_MISSING) == ((f->features & feature) != 0);
 }
 
-static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t length, int unpacked)
+static welkin_error welkin__check_file(welkin_file *file)
 {
     uint64_t head;
-    welkin_error error;
-    memset(file, 0, sizeof *file);
-    error = welkin__check_start((const unsigned char *)bytes, length);
+    welkin_error error = welkin__check_start(file->bytes, file->length);
     if (error) return error;
-    file->bytes = (const unsigned char *)bytes;
-    file->length = length;
-    file->unpacked = unpacked;
     welkin__read_header(file);
     head = welkin__place_arrays(file);
-    if (welkin__u64(file->bytes + 24) != head || head > length) return WELKIN_ERROR_LENGTH;
+    if (welkin__u64(file->bytes + 24) != head || head > file->length) return WELKIN_ERROR_LENGTH;
     if (welkin__head_crc(file->bytes, (size_t)head) != welkin__u32(file->bytes + 32)) return WELKIN_ERROR_CHECKSUM;
     if (!welkin__counts_are_good(file) || !welkin__axes_are_good(file) || !welkin__header_numbers_are_good(file) ||
         !welkin__tables_are_good(file) || !welkin__metadata_is_good(file))
@@ -1082,6 +1130,19 @@ static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t le
         return WELKIN_ERROR_VALUE;
     file->metadata = (const char *)(file->bytes + file->metadata_at);
     return WELKIN_OK;
+}
+
+/* What is not open, and below what is not prepared, is all zero: questions look at a pointer that is then null. */
+static welkin_error welkin__open(welkin_file *file, const void *bytes, size_t length, int unpacked)
+{
+    welkin_error error;
+    memset(file, 0, sizeof *file);
+    file->bytes = (const unsigned char *)bytes;
+    file->length = length;
+    file->unpacked = unpacked;
+    error = welkin__check_file(file);
+    if (error) memset(file, 0, sizeof *file);
+    return error;
 }
 
 WELKIN_API welkin_error welkin_open(welkin_file *file, const void *bytes, size_t length)
@@ -1195,7 +1256,10 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
 {
     unsigned char *bytes = (unsigned char *)out;
     size_t head = file->directory_at + (size_t)WELKIN__ENTRY * file->chunk_count, length = head;
+    welkin_file unpacked;
+    welkin_error error;
     uint32_t i;
+    if (!file->bytes) return WELKIN_ERROR_STATE;
     if (welkin_unpacked_length(file) == 0) return WELKIN_OK;
     if (capacity < welkin_unpacked_length(file)) return WELKIN_ERROR_SCRATCH;
     memset(bytes, 0, capacity);
@@ -1212,7 +1276,9 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
     }
     welkin__put_u64(bytes + 16, length);
     welkin__put_u32(bytes + 32, welkin__head_crc(bytes, head));
-    return welkin__open(file, bytes, length, 1);
+    error = welkin__open(&unpacked, bytes, length, 1);
+    if (!error) *file = unpacked;
+    return error;
 }
 
 /* ---- interpolation between nodes ---- */
@@ -1782,14 +1848,15 @@ static void welkin__prepare_geometry(welkin_sky *sky, const welkin_conditions *c
     sky->sun[2] = sin(c->solar_elevation);
 }
 
-WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
-                                       unsigned flags, float *scratch, size_t scratch_floats)
+static welkin_error welkin__prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
+                                    unsigned flags, float *scratch, size_t scratch_floats)
 {
     welkin_conditions c = *conditions;
     welkin__scene scene;
     welkin__spline elevation;
     welkin_error error;
-    memset(sky, 0, sizeof *sky);
+    if (!file->bytes) return WELKIN_ERROR_STATE;
+    if (flags & ~(WELKIN_POLARISED | WELKIN_DENSE)) return WELKIN_ERROR_RANGE;
     sky->file = file;
     sky->flags = flags;
     if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
@@ -1806,6 +1873,16 @@ WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file,
     error = welkin__prepare_columns(sky, &scene);
     if (!error) error = welkin__prepare_radiance(sky, &scene, &elevation);
     if (!error && flags & WELKIN_POLARISED) error = welkin__prepare_polarisation(sky, &scene, &elevation);
+    return error;
+}
+
+WELKIN_API welkin_error welkin_prepare(welkin_sky *sky, const welkin_file *file, const welkin_conditions *conditions,
+                                       unsigned flags, float *scratch, size_t scratch_floats)
+{
+    welkin_error error;
+    memset(sky, 0, sizeof *sky);
+    error = welkin__prepare(sky, file, conditions, flags, scratch, scratch_floats);
+    if (error) memset(sky, 0, sizeof *sky);
     return error;
 }
 
@@ -1877,7 +1954,7 @@ static void welkin__find_gamma(const welkin_sky *sky, welkin__view *view)
 
 static welkin_error welkin__look(const welkin_sky *sky, const double direction[3], welkin__view *view)
 {
-    welkin_error error = welkin__normalise(direction, view->v);
+    welkin_error error = sky->file ? welkin__normalise(direction, view->v) : WELKIN_ERROR_STATE;
     if (error) return error;
     view->level = sqrt(view->v[0] * view->v[0] + view->v[1] * view->v[1]);
     welkin__find_alpha(sky, view);
@@ -2457,9 +2534,11 @@ WELKIN_API welkin_error welkin_stokes(const welkin_sky *sky, const double direct
     welkin__light light;
     double p1, p2, level = sky->sun[0] * sky->cos_azimuth + sky->sun[1] * sky->sin_azimuth;
     welkin__view view;
-    uint32_t nw = sky->file->wavelengths, w;
-    welkin_error error = sky->flags & WELKIN_POLARISED ? welkin__look(sky, direction, &view) : WELKIN_ERROR_MISSING;
+    uint32_t nw, w;
+    welkin_error error = WELKIN_ERROR_MISSING;
+    if (!sky->file || sky->flags & WELKIN_POLARISED) error = welkin__look(sky, direction, &view);
     if (error) return error;
+    nw = sky->file->wavelengths;
     welkin__find_light(sky, &view, &light);
     welkin__sum_fields(sky, &view, &light, sum, polarising);
     error = welkin__finish(nw, light.envelope, sum, radiance);
@@ -2508,6 +2587,7 @@ WELKIN_API void welkin_xyz(const welkin_file *f, const float *radiance, double x
 static welkin_error welkin__spectral_axis(const welkin_file *f, const unsigned char **axis, uint32_t *n)
 {
     int nodes = f->spectrum.error == WELKIN_ERROR_MISSING;
+    if (!f->bytes) return WELKIN_ERROR_STATE;
     *axis = nodes ? f->bytes + f->wavelength_at : f->spectrum.wavelength;
     *n = nodes ? f->wavelengths : f->spectrum.cells;
     return nodes ? WELKIN_OK : f->spectrum.error;
@@ -2676,12 +2756,14 @@ WELKIN_API welkin_error welkin_stokes_at(const welkin_file *f, const float *radi
 
 WELKIN_API welkin_error welkin_irradiance_at(const welkin_file *f, double wavelength, double *value)
 {
-    const unsigned char *p = f->bytes + f->solar_range_at, *samples = f->bytes + f->solar_at;
+    const unsigned char *p, *samples;
     welkin__spline at;
     double u, t;
     uint32_t i;
     welkin_error error = welkin__check_wavelength(f, wavelength);
     if (error) return error;
+    p = f->bytes + f->solar_range_at;
+    samples = f->bytes + f->solar_at;
     u = (wavelength - welkin__f64(p)) / welkin__f64(p + 8);
     at = welkin__free_spline(u, f->solar_samples - 1); /* for its clamped interval */
     i = at.row[0];
@@ -2817,7 +2899,7 @@ static double welkin__intervals_before(double coordinate, double end, uint32_t i
 static welkin_error welkin__find_place(const welkin_baked *b, const double direction[3], welkin__table_place *place)
 {
     double v[3], height, along, across;
-    welkin_error error = welkin__normalise(direction, v);
+    welkin_error error = b->root ? welkin__normalise(direction, v) : WELKIN_ERROR_STATE;
     if (error) return error;
     height = atan2(v[2], sqrt(v[0] * v[0] + v[1] * v[1])) + b->dip;
     along = v[0] * b->cos_azimuth + v[1] * b->sin_azimuth;
@@ -2903,7 +2985,8 @@ WELKIN_API welkin_error welkin_baked_xyz(const welkin_baked *baked, const double
 
 WELKIN_API welkin_error welkin_baked_radiance(const welkin_baked *baked, const double direction[3], float *radiance)
 {
-    return baked->resolution.spectral ? welkin__look_up(baked, direction, radiance) : WELKIN_ERROR_MISSING;
+    if (baked->root && !baked->resolution.spectral) return WELKIN_ERROR_MISSING;
+    return welkin__look_up(baked, direction, radiance);
 }
 
 static size_t welkin__baked_nodes(const welkin_resolution *r)
@@ -2919,6 +3002,7 @@ static size_t welkin__bake_channels(const welkin_file *f, const welkin_resolutio
 WELKIN_API size_t welkin_bake_floats(const welkin_file *file, const welkin_resolution *r)
 {
     size_t cells = r->up + (size_t)r->down;
+    if (!file->bytes) return 0;
     if (r->up < 1 || r->up > WELKIN_MAX_INTERVALS || r->down < 1 || r->down > WELKIN_MAX_INTERVALS) return 0;
     if (r->azimuths < 1 || r->azimuths > WELKIN_MAX_INTERVALS) return 0;
     return welkin__baked_nodes(r) * welkin__bake_channels(file, r) + cells + 1 + cells * (r->azimuths + 1);
@@ -3019,13 +3103,13 @@ static void welkin__bake_distribution(const welkin_baked *b)
     welkin__accumulate(row, rows, b->marginal);
 }
 
-WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
-                                    float *memory, size_t memory_floats)
+static welkin_error welkin__bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
+                                 float *memory, size_t memory_floats)
 {
-    size_t floats = welkin_bake_floats(sky->file, resolution);
+    size_t floats = sky->file ? welkin_bake_floats(sky->file, resolution) : 0;
     uint32_t rows = resolution->up + resolution->down, row;
     welkin_error error = WELKIN_OK;
-    memset(baked, 0, sizeof *baked);
+    if (!sky->file) return WELKIN_ERROR_STATE;
     if (floats == 0) return WELKIN_ERROR_RANGE;
     if (memory_floats < floats) return WELKIN_ERROR_SCRATCH;
     baked->file = sky->file;
@@ -3046,10 +3130,20 @@ WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, 
     return error;
 }
 
+WELKIN_API welkin_error welkin_bake(welkin_baked *baked, const welkin_sky *sky, const welkin_resolution *resolution,
+                                    float *memory, size_t memory_floats)
+{
+    welkin_error error;
+    memset(baked, 0, sizeof *baked);
+    error = welkin__bake(baked, sky, resolution, memory, memory_floats);
+    if (error) memset(baked, 0, sizeof *baked);
+    return error;
+}
+
 /* Directions of a sequence that fills the sphere evenly. */
 static void welkin__spread(uint32_t index, double direction[3])
 {
-    double first = 0.5 + index * 0.7548776662466927, second = 0.5 + index * 0.5698402909980532;
+    double first = 0.5 + (double)index * 0.7548776662466927, second = 0.5 + (double)index * 0.5698402909980532;
     double sine = 1 - 2 * (first - floor(first)), level = sqrt((1 - sine) * (1 + sine));
     direction[0] = level * cos(2 * WELKIN__PI * second);
     direction[1] = level * sin(2 * WELKIN__PI * second);
@@ -3074,11 +3168,11 @@ WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welk
                                            double *p99, double *largest)
 {
     uint32_t count[WELKIN__ERROR_BINS] = {0}, i, c, bin;
-    double least[WELKIN_MAX_WAVELENGTHS] = {0}, exact[WELKIN_MAX_WAVELENGTHS], direction[3], error;
+    double least[WELKIN_MAX_WAVELENGTHS] = {0}, exact[WELKIN_MAX_WAVELENGTHS], direction[3], error, most = 0;
     float values[WELKIN_MAX_WAVELENGTHS];
     uint64_t within = 0;
     size_t node, nodes = welkin__baked_nodes(&baked->resolution);
-    *p99 = *largest = 0;
+    if (!baked->root || !sky->file) return WELKIN_ERROR_STATE;
     if (directions == 0 || sky->file != baked->file) return WELKIN_ERROR_RANGE;
     for (node = 0; node < nodes; node++)
         for (c = 0; c < baked->channels; c++) {
@@ -3092,12 +3186,13 @@ WELKIN_API welkin_error welkin_baked_error(const welkin_baked *baked, const welk
         if (!failure) failure = welkin__look_up(baked, direction, values);
         if (failure) return failure;
         error = welkin__direction_error(baked, exact, values, least);
-        *largest = fmax(*largest, error);
+        most = fmax(most, error);
         count[(uint32_t)fmin(fmax(16 * (log2(fmax(error, 1e-300)) + 40), 0), WELKIN__ERROR_BINS - 1)]++;
     }
     for (bin = 0; bin + 1 < WELKIN__ERROR_BINS && 100 * (within + count[bin]) < 99 * (uint64_t)directions; bin++)
         within += count[bin];
-    *p99 = fmin(*largest, exp2((bin + 1) / 16.0 - 40));
+    *p99 = fmin(most, exp2((bin + 1) / 16.0 - 40));
+    *largest = most;
     return WELKIN_OK;
 }
 
@@ -3131,6 +3226,7 @@ WELKIN_API welkin_error welkin_sample(const welkin_baked *baked, double u1, doub
     uint32_t rows = baked->resolution.up + baked->resolution.down, columns = baked->resolution.azimuths;
     uint32_t row, column, node;
     double side = u2 < 0.5 ? 1 : -1, along, across, low, sine, azimuth;
+    if (!baked->root) return WELKIN_ERROR_STATE;
     if (!welkin__within(u1, 0, 1) || !welkin__within(u2, 0, 1)) return WELKIN_ERROR_RANGE;
     row = welkin__invert(baked->marginal, rows, u1, &along);
     column = welkin__invert(baked->conditional + (size_t)row * (columns + 1), columns, u2 < 0.5 ? 2 * u2 : 2 * u2 - 1,
@@ -3193,17 +3289,21 @@ WELKIN_API welkin_error welkin_transmittance_prepare(welkin_transmittance_profil
 {
     welkin__stencil b;
     welkin__entry entry;
+    welkin_error error;
     uint32_t i;
     memset(air, 0, sizeof *air);
-    air->file = file;
+    if (!file->bytes) return WELKIN_ERROR_STATE;
     if (!welkin__into_axis(file->bytes + file->visibility_at, file->visibilities, &visibility)) return WELKIN_ERROR_RANGE;
     if (welkin__find(file, WELKIN__TRANSMITTANCE, WELKIN__NONE, WELKIN__NONE, &entry)) return WELKIN_ERROR_MISSING;
+    air->file = file;
     b = welkin__linear(file->bytes + file->visibility_at, file->visibilities, visibility, WELKIN__INVERSE);
     for (i = 0; i < 2; i++) {
         air->visibility_node[i] = b.node[i];
         air->visibility_weight[i] = b.weight[i];
     }
-    return welkin__read_profile(air, &entry);
+    error = welkin__read_profile(air, &entry);
+    if (error) memset(air, 0, sizeof *air);
+    return error;
 }
 
 /* A straight line: w = low + s²/2R at the distance s from the point closest to the planet's centre. */
@@ -3272,12 +3372,12 @@ static welkin_error welkin__segment(double altitude, const double direction[3], 
 static welkin_error welkin__segment_columns(const welkin_transmittance_profile *air, double altitude,
                                             const double direction[3], double distance, double *columns)
 {
-    double v[3], radius = air->file->planet_radius;
+    double v[3], radius;
     welkin__line line;
     uint32_t k;
-    welkin_error error = welkin__segment(altitude, direction, distance, v);
+    welkin_error error = air->file ? welkin__segment(altitude, direction, distance, v) : WELKIN_ERROR_STATE;
     if (error) return error;
-    line.radius = radius;
+    line.radius = radius = air->file->planet_radius;
     line.start = (radius + altitude) * v[2];
     line.end = line.start + distance;
     line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
@@ -3291,9 +3391,11 @@ WELKIN_API welkin_error welkin_transmittance(const welkin_transmittance_profile 
 {
     const welkin_file *f = air->file;
     double columns[WELKIN_MAX_CONSTITUENTS];
-    size_t nw = f->wavelengths, table = f->constituents * nw, w, k;
+    size_t nw, table, w, k;
     welkin_error error = welkin__segment_columns(air, altitude, direction, distance, columns);
     if (error) return error;
+    nw = f->wavelengths;
+    table = f->constituents * nw;
     for (w = 0; w < nw; w++) {
         double depth = 0;
         for (k = 0; k < f->constituents; k++) {
@@ -3340,11 +3442,11 @@ WELKIN_API welkin_error welkin_transmittance_at(const welkin_transmittance_profi
                                                 const double direction[3], double distance, const double *wavelengths,
                                                 size_t count, float *transmittance)
 {
-    const welkin_spectrum *s = &air->file->spectrum;
+    const welkin_spectrum *s = air->file ? &air->file->spectrum : NULL;
     double columns[WELKIN_MAX_CONSTITUENTS];
     size_t w;
     uint32_t c;
-    welkin_error error = s->error;
+    welkin_error error = s ? s->error : WELKIN_ERROR_STATE;
     if (!error) error = welkin__segment_columns(air, altitude, direction, distance, columns);
     for (w = 0; w < count && !error; w++) error = welkin__check_wavelength(air->file, wavelengths[w]);
     for (w = 0; w < count && !error; w++) {
@@ -3581,17 +3683,18 @@ static welkin_error welkin__find_sources(welkin_aerial_perspective *aerial, cons
     return WELKIN_OK;
 }
 
-WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspective *aerial, const welkin_file *file,
-                                                          const welkin_conditions *conditions, float *scratch,
-                                                          size_t scratch_floats)
+static welkin_error welkin__aerial_perspective_prepare(welkin_aerial_perspective *aerial, const welkin_file *file,
+                                                       const welkin_conditions *conditions, float *scratch,
+                                                       size_t scratch_floats)
 {
-    const unsigned char *axis = file->bytes + file->visibility_at;
+    const unsigned char *axis;
     welkin_conditions c = *conditions;
     welkin__stencil cubic, linear;
     welkin__entry basis, entries[4];
     welkin_error error;
-    memset(aerial, 0, sizeof *aerial);
+    if (!file->bytes) return WELKIN_ERROR_STATE;
     aerial->air.file = file;
+    axis = file->bytes + file->visibility_at;
     c.altitude = welkin_altitude(file, 0);
     if (!welkin__conditions_into_range(file, &c)) return WELKIN_ERROR_RANGE;
     cubic = welkin__cubic(axis, file->visibilities, c.visibility, WELKIN__INVERSE);
@@ -3604,6 +3707,17 @@ WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspect
     if (error) return error;
     welkin__prepare_air_tables(aerial, &c, &linear, &scratch);
     return welkin__read_sources(aerial, entries, &linear, &scratch);
+}
+
+WELKIN_API welkin_error welkin_aerial_perspective_prepare(welkin_aerial_perspective *aerial, const welkin_file *file,
+                                                          const welkin_conditions *conditions, float *scratch,
+                                                          size_t scratch_floats)
+{
+    welkin_error error;
+    memset(aerial, 0, sizeof *aerial);
+    error = welkin__aerial_perspective_prepare(aerial, file, conditions, scratch, scratch_floats);
+    if (error) memset(aerial, 0, sizeof *aerial);
+    return error;
 }
 
 /* Cosine and sine of the azimuth of the view less that of the sun, counter-clockwise around the vertical; 0 where there
@@ -3965,15 +4079,16 @@ static welkin_error welkin__in_scattering(const welkin_aerial_perspective *aeria
                                           const double direction[3], double distance,
                                           double (*sum)[WELKIN_MAX_WAVELENGTHS])
 {
-    double radius = aerial->air.file->planet_radius;
+    double radius;
     welkin__line line;
     welkin__sight sight;
     int good = 1;
     uint32_t w;
-    welkin_error error = welkin__segment(altitude, direction, distance, sight.v);
+    welkin_error error = WELKIN_ERROR_STATE;
+    if (aerial->air.file) error = welkin__segment(altitude, direction, distance, sight.v);
     if (error) return error;
     welkin__find_sun(&sight, aerial->sun);
-    line.radius = radius;
+    line.radius = radius = aerial->air.file->planet_radius;
     line.start = (radius + altitude) * sight.v[2];
     line.end = line.start + distance;
     line.low = altitude + (altitude * altitude - line.start * line.start) / (2 * radius);
@@ -3988,7 +4103,7 @@ WELKIN_API welkin_error welkin_in_scattering(const welkin_aerial_perspective *ae
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
     welkin_error error = welkin__in_scattering(aerial, altitude, direction, distance, sum);
-    for (w = 0; w < aerial->air.file->wavelengths && !error; w++) light[w] = welkin__narrow(sum[0][w]);
+    for (w = 0; !error && w < aerial->air.file->wavelengths; w++) light[w] = welkin__narrow(sum[0][w]);
     return error;
 }
 
@@ -3999,7 +4114,7 @@ WELKIN_API welkin_error welkin_in_scattering_stokes(const welkin_aerial_perspect
     double sum[3][WELKIN_MAX_WAVELENGTHS] = {{0}};
     uint32_t w;
     welkin_error error = welkin__in_scattering(aerial, altitude, direction, distance, sum);
-    for (w = 0; w < aerial->air.file->wavelengths && !error; w++) {
+    for (w = 0; !error && w < aerial->air.file->wavelengths; w++) {
         light[w] = welkin__narrow(sum[0][w]);
         error = welkin__limit_polarisation(light[w], sum[1][w], sum[2][w], &q[w], &u[w]);
     }
