@@ -12,8 +12,8 @@ use library::{BakedColourSky, SkySampler, SolarDisc};
 const SAME_SUN: f64 = 1e-4;
 
 /// Draws directions in proportion to the luminance of a sky, with or without the sun's disc. All directions are drawn,
-/// also those below the horizon, where the light is that of the air before black ground: no draw on the ground, 34 % of
-/// those for the sky at 1500 m (sun 8° high) and 73 % at 10 km. Renderers with a terrain count such draws as blocked.
+/// also those below the horizon, where the light is that of the air before black ground: of the draws of the sky none on
+/// the ground, 34 % at 1500 m (sun 8° high) and 73 % at 10 km. Where geometry is in the way they count as blocked.
 pub struct WelkinSkySampler(pub(crate) SkySampler);
 
 /// Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous
