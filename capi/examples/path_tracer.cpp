@@ -26,7 +26,6 @@ constexpr Vec3 CAMERA = {0.0f, 0.0f, 20.0f};    // m
 float dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec3 plus(const Vec3 &a, float s, const Vec3 &b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
 Vec3 unit(const Vec3 &a) { return plus({}, 1.0f / std::sqrt(dot(a, a)), a); }
-welkin::Point point(const Vec3 &a) { return {double(a[0]), double(a[1]), double(a[2])}; }
 
 // A small generator: numbers in 0..1.
 struct Random {
@@ -68,10 +67,8 @@ Vec3 lit(const welkin::SkySampler &sampler, const Vec3 &at, const Vec3 &normal, 
     Vec3 sum{};
     for (int i = 0; i < SAMPLES; ++i) {
         const bool own = i % 2 == 0;
-        const Vec3 drawn = own ? cosine_direction(normal, random) : [&] {
-            const welkin::Sample sample = sampler.sample(random.next(), random.next());
-            return Vec3{sample.direction[0], sample.direction[1], sample.direction[2]};
-        }();
+        const Vec3 drawn =
+            own ? cosine_direction(normal, random) : sampler.sample(random.next(), random.next()).direction;
         const float cosine = dot(drawn, normal);
         if (cosine <= 0.0f || trace(plus(at, 0.1f, normal), drawn).distance > 0.0f) continue;
         const float density = 0.5f * (cosine / PI + sampler.pdf(drawn));
@@ -116,7 +113,7 @@ std::vector<Vec3> render(const welkin::BakedColourSky &sky, const welkin::SkySam
             const Vec3 at = plus(CAMERA, hit.distance, view);
             const float albedo = at[2] > 0.1f ? 0.8f : 0.2f;
             const Vec3 own = welkin::from_xyz(welkin::Space::srgb, lit(sampler, at, hit.normal, random));
-            const auto [light, factors] = air.rgb(point(CAMERA), point(at));
+            const auto [light, factors] = air.rgb(welkin::to_point(CAMERA), welkin::to_point(at));
             Vec3 seen{};
             for (std::size_t c = 0; c < 3; ++c) seen[c] = light[c] + factors[c] * albedo * own[c];
             picture.push_back(seen);

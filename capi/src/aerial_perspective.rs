@@ -417,6 +417,28 @@ pub unsafe extern "C" fn welkin_aerial_perspective_joined_xyz(
     })
 }
 
+/// The same in a colour space (WELKIN_SPACE_SRGB …), as welkin_aerial_perspective_rgb.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn welkin_aerial_perspective_joined_rgb(
+    aerial: *const WelkinAerialPerspective,
+    sky: *const WelkinSky,
+    to: *const f64,
+    space: i32,
+    light: *mut f32,
+    factors: *mut f32,
+    error: *mut WelkinError,
+) -> WelkinStatus {
+    call!(error, {
+        let space = space_of(space)?;
+        let (light_3, factors_3) = shared(aerial, "aerial")?
+            .0
+            .joined_to(&shared(sky, "sky")?.0)?
+            .rgb(array(to, "to")?, space)?;
+        put_array(light, light_3, "light")?;
+        put_array(factors, factors_3, "factors")?;
+    })
+}
+
 /// The same in linear sRGB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_aerial_perspective_joined_srgb(

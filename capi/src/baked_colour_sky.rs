@@ -48,7 +48,9 @@ pub unsafe extern "C" fn welkin_colour_sky_bake(
 }
 
 /// Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun
-/// that moves, in half the time. The tolerance is kept about as well as `other` keeps it.
+/// that moves, in half the time. Nothing is measured: welkin_baked_colour_sky_bake_error then tells the error of
+/// `other`, which holds for conditions close to its own. Bake afresh every degree or so; from 10 to −8° at 9 km the
+/// 95th percentile grows to 0.8 %.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn welkin_colour_sky_bake_like(
     sky: *const WelkinColourSky,

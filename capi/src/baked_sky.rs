@@ -255,7 +255,8 @@ pub unsafe extern "C" fn welkin_baked_sky_hero_soa(
 }
 
 /// Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
-/// with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
+/// with this `normal[3]`. Below the horizon the ground is black, but the air before it is included: what a plane that
+/// looks down gets of the ground is missing, not what it gets of the air. Takes some thousand queries.
 ///
 /// Errors as of welkin_baked_sky_radiance.
 #[unsafe(no_mangle)]

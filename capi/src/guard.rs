@@ -26,6 +26,8 @@ pub enum Failure {
     },
     /// A struct has a field that is set and not known.
     UnknownField(&'static str),
+    /// A number that cannot be, or that does not go with another.
+    Range(String),
     /// A constant or a text that means nothing.
     Argument(&'static str, i64),
     /// This build lacks something.
@@ -51,6 +53,7 @@ impl Failure {
             Failure::Length(..) => WelkinStatus::Length,
             Failure::Overlap => WelkinStatus::Overlap,
             Failure::StructSize { .. } | Failure::UnknownField(_) => WelkinStatus::Struct,
+            Failure::Range(_) => WelkinStatus::Range,
             Failure::Argument(..) => WelkinStatus::Argument,
             Failure::Unsupported(_) => WelkinStatus::Unsupported,
             Failure::Abi(_) => WelkinStatus::Abi,
@@ -82,7 +85,7 @@ impl fmt::Display for Failure {
             }
             Failure::Argument(what, got) => write!(f, "{got} is no {what}"),
             Failure::Unsupported(what) => write!(f, "this library was built without {what}"),
-            Failure::Abi(detail) => f.write_str(detail),
+            Failure::Range(detail) | Failure::Abi(detail) => f.write_str(detail),
         }
     }
 }

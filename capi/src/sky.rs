@@ -11,7 +11,11 @@ use crate::structs::{WelkinConditions, conditions_of, put_conditions};
 use library::Sky;
 
 /// The clear sky at one set of conditions: radiance for any direction, exact. Nothing allocates after it is prepared.
-/// Ground that is seen is black; the sun's disc is not included.
+/// The sun's disc is not included.
+///
+/// Below the horizon the ground itself is black, but the air before it is included, so the radiance there is not zero
+/// above the ground. Renderers with a terrain take no sky there: they lay their geometry over it and add the air of
+/// aerial perspective.
 pub struct WelkinSky(pub(crate) Sky);
 
 /// Prepares a sky. Reads only what the conditions need.

@@ -7,6 +7,7 @@
 
 mod common;
 
+use std::f64::consts::TAU;
 use std::ffi::CString;
 use std::io::Write;
 use std::ptr::{null, null_mut};
@@ -343,4 +344,66 @@ fn skies_that_do_not_belong_together_are_refused() {
     assert!(text.contains("visibility"));
     // SAFETY: freed once.
     unsafe { welkin_aerial_perspective_free(aerial) };
+}
+
+#[test]
+fn discs_of_another_sun_are_refused() {
+    let scene = Scene::new();
+    let (mut given, _) = conditions();
+    let disc = make!(welkin_solar_disc_new(scene.model, &given));
+    let mut sampler = make!(welkin_baked_colour_sky_sampler(scene.baked, disc));
+    // SAFETY: freed once.
+    unsafe { welkin_sky_sampler_free(sampler) };
+    // A sky that was turned since, by more and by less than counts.
+    for (turn, good) in [(1e-3, false), (-2e-4, false), (5e-5, true), (TAU, true)] {
+        good!(welkin_baked_colour_sky_set_solar_azimuth(
+            scene.baked,
+            given.solar_azimuth + turn
+        ));
+        if good {
+            sampler = make!(welkin_baked_colour_sky_sampler(scene.baked, disc));
+            // SAFETY: freed once.
+            unsafe { welkin_sky_sampler_free(sampler) };
+        } else {
+            sampler = std::ptr::dangling_mut();
+            let text =
+                bad!(Range: welkin_baked_colour_sky_sampler(scene.baked, disc, &mut sampler));
+            assert!(text.contains("the disc is of a sun") && sampler.is_null());
+        }
+    }
+    given.solar_elevation += 0.01;
+    let higher = make!(welkin_solar_disc_new(scene.model, &given));
+    bad!(Range: welkin_baked_colour_sky_sampler(scene.baked, higher, &mut sampler));
+    // SAFETY: each is freed once.
+    unsafe {
+        welkin_solar_disc_free(disc);
+        welkin_solar_disc_free(higher);
+    }
+}
+
+#[test]
+fn random_numbers_are_numbers() {
+    let scene = Scene::new();
+    let sampler = make!(welkin_baked_colour_sky_sampler(scene.baked, null()));
+    let untouched = WelkinSample {
+        direction: [7.0; 3],
+        pdf: 7.0,
+        xyz: [7.0; 3],
+        part: 7,
+    };
+    let mut samples = [untouched; 2];
+    for point in [[f32::NAN, 0.5], [0.5, f32::NAN]] {
+        bad!(Range: welkin_sky_sampler_sample(sampler, point.as_ptr(), &mut samples[0]));
+        let points = [0.5, 0.5, point[0], point[1]];
+        bad!(Range: welkin_sky_sampler_sample_batch(sampler, points.as_ptr(), 2, samples.as_mut_ptr()));
+    }
+    assert_eq!(samples, [untouched; 2]);
+    good!(welkin_sky_sampler_sample(
+        sampler,
+        [-1.0, f32::INFINITY].as_ptr(),
+        &mut samples[0]
+    ));
+    assert!(samples[0].pdf > 0.0);
+    // SAFETY: freed once.
+    unsafe { welkin_sky_sampler_free(sampler) };
 }

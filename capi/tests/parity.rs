@@ -668,6 +668,15 @@ fn air() {
             factors.as_mut_ptr()
         ));
         assert_eq!([light, factors], lf(expected.rgb(from, to, space).unwrap()));
+        good!(welkin_aerial_perspective_joined_rgb(
+            aerial,
+            sky,
+            t,
+            constant,
+            light.as_mut_ptr(),
+            factors.as_mut_ptr()
+        ));
+        assert_eq!([light, factors], lf(joined.rgb(to, space).unwrap()));
     }
     good!(welkin_aerial_perspective_joined_srgb(
         aerial,

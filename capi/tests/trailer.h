@@ -1,10 +1,9 @@
 /* What welkin_check_abi takes: a pointer to the version and sizes that a program was compiled with. */
 #define WELKIN_ABI_SIZES \
-    WELKIN_ABI_VERSION, (uint32_t)sizeof(void *), (uint32_t)sizeof(WelkinError), (uint32_t)sizeof(WelkinConditions), \
-    (uint32_t)sizeof(WelkinPolarisationFrame), (uint32_t)sizeof(WelkinStokes), (uint32_t)sizeof(WelkinBakeError), \
-    (uint32_t)sizeof(WelkinSample), (uint32_t)sizeof(WelkinRanges), (uint32_t)sizeof(WelkinMoon), \
-    (uint32_t)sizeof(WelkinBudget), (uint32_t)sizeof(WelkinPlanSummary), (uint32_t)sizeof(WelkinCameraVolume), \
-    {0, 0, 0}
+    WELKIN_ABI_VERSION, sizeof(void *), sizeof(WelkinError), sizeof(WelkinConditions), \
+    sizeof(WelkinPolarisationFrame), sizeof(WelkinStokes), sizeof(WelkinBakeError), sizeof(WelkinSample), \
+    sizeof(WelkinRanges), sizeof(WelkinMoon), sizeof(WelkinBudget), sizeof(WelkinPlanSummary), \
+    sizeof(WelkinCameraVolume), {0, 0, 0}
 #ifndef __cplusplus
 #define WELKIN_ABI (&(const WelkinAbi){WELKIN_ABI_SIZES})
 #endif

@@ -294,12 +294,18 @@ typedef struct WelkinPolarisedSky WelkinPolarisedSky;
 
 /**
  * The clear sky at one set of conditions: radiance for any direction, exact. Nothing allocates after it is prepared.
- * Ground that is seen is black; the sun's disc is not included.
+ * The sun's disc is not included.
+ *
+ * Below the horizon the ground itself is black, but the air before it is included, so the radiance there is not zero
+ * above the ground. Renderers with a terrain take no sky there: they lay their geometry over it and add the air of
+ * aerial perspective.
  */
 typedef struct WelkinSky WelkinSky;
 
 /**
- * Draws directions in proportion to the luminance of a sky, with or without the sun's disc.
+ * Draws directions in proportion to the luminance of a sky, with or without the sun's disc. All directions are drawn,
+ * also those below the horizon, where the light is that of the air before black ground: of the draws of the sky none on
+ * the ground, 34 % at 1500 m (sun 8° high) and 73 % at 10 km. Where geometry is in the way they count as blocked.
  */
 typedef struct WelkinSkySampler WelkinSkySampler;
 
@@ -1243,7 +1249,8 @@ WelkinStatus welkin_baked_sky_hero_soa(const struct WelkinBakedSky *baked,
 
 /**
  * Spectral irradiance, W m⁻² nm⁻¹, `irradiance[count]`, that the sky without the sun's disc gives one side of a plane
- * with this `normal[3]`. Ground below the horizon is black. Takes some thousand queries.
+ * with this `normal[3]`. Below the horizon the ground is black, but the air before it is included: what a plane that
+ * looks down gets of the ground is missing, not what it gets of the air. Takes some thousand queries.
  *
  * Errors as of welkin_baked_sky_radiance.
  */
@@ -1271,7 +1278,9 @@ WelkinStatus welkin_colour_sky_bake(const struct WelkinColourSky *sky,
 
 /**
  * Bakes a sky into tables of the sizes of `other`, which holds that at conditions nearby: the next frame under a sun
- * that moves, in half the time. The tolerance is kept about as well as `other` keeps it.
+ * that moves, in half the time. Nothing is measured: welkin_baked_colour_sky_bake_error then tells the error of
+ * `other`, which holds for conditions close to its own. Bake afresh every degree or so; from 10 to −8° at 9 km the
+ * 95th percentile grows to 0.8 %.
  */
 WelkinStatus welkin_colour_sky_bake_like(const struct WelkinColourSky *sky,
                                          const struct WelkinBakedColourSky *other,
@@ -1496,7 +1505,11 @@ WelkinStatus welkin_baked_polarised_sky_hero_batch(const struct WelkinBakedPolar
 
 /**
  * Prepares draws of a baked sky and, unless `disc` is null, of the sun's disc, as often as its share of the luminous
- * flux is. The new handle needs neither of them any more.
+ * flux is. The new handle needs neither of them any more. Both must have been prepared for the same conditions:
+ * altitudes and visibilities are not compared, as discs do not tell them.
+ *
+ * Errors: WELKIN_STATUS_RANGE where the sun of `disc` stands more than 1e-4 rad from that of `baked`, as after turning
+ * the sky.
  */
 WelkinStatus welkin_baked_colour_sky_sampler(const struct WelkinBakedColourSky *baked,
                                              const struct WelkinSolarDisc *disc,
@@ -1515,7 +1528,7 @@ size_t welkin_sky_sampler_bytes(const struct WelkinSkySampler *sampler);
 
 /**
  * Maps a point of the unit square, `point[2]`, to a direction with its density and light. Numbers outside 0..1 are
- * clamped.
+ * clamped. Errors: WELKIN_STATUS_RANGE for NaN.
  */
 WelkinStatus welkin_sky_sampler_sample(const struct WelkinSkySampler *sampler,
                                        const float *point,
@@ -1642,7 +1655,10 @@ WelkinStatus welkin_solar_disc_irradiance(const struct WelkinSolarDisc *disc,
 
 /**
  * Bakes skies for all solar elevations from `elevations[0]` to `elevations[1]` (rad); the sun of the conditions does
- * not count. Takes as long as baking some tens of skies. Errors as of welkin_sky_new and welkin_sky_bake.
+ * not count. By day that takes as long as baking some tens of skies (0..30° at 1500 m: 41 skies, 0.4 s, 0.9 MB);
+ * through twilight, where skies change from one tenth of a degree to the next, seconds and some MB.
+ *
+ * Errors as of welkin_sky_new and welkin_sky_bake.
  */
 WelkinStatus welkin_sun_course_new(const struct WelkinModel *model,
                                    const struct WelkinConditions *conditions,
@@ -1693,7 +1709,8 @@ WelkinStatus welkin_sun_course_at(const struct WelkinSunCourse *course,
 
 /**
  * The same into a sky that is there already, in its memory: for a sun that moves with every frame. Not while another
- * thread uses that sky. Its samplers keep the sky that they were made of.
+ * thread uses that sky. Its samplers keep the sky that they were made of, and discs are to be prepared anew. Takes
+ * some microseconds, and up to a millisecond where the tables of the baked skies change size, as they do in twilight.
  */
 WelkinStatus welkin_sun_course_write(const struct WelkinSunCourse *course,
                                      double elevation,
@@ -2152,6 +2169,17 @@ WelkinStatus welkin_aerial_perspective_joined_xyz(const struct WelkinAerialPersp
                                                   struct WelkinError *error);
 
 /**
+ * The same in a colour space (WELKIN_SPACE_SRGB …), as welkin_aerial_perspective_rgb.
+ */
+WelkinStatus welkin_aerial_perspective_joined_rgb(const struct WelkinAerialPerspective *aerial,
+                                                  const struct WelkinSky *sky,
+                                                  const double *to,
+                                                  int32_t space,
+                                                  float *light,
+                                                  float *factors,
+                                                  struct WelkinError *error);
+
+/**
  * The same in linear sRGB.
  */
 WelkinStatus welkin_aerial_perspective_joined_srgb(const struct WelkinAerialPerspective *aerial,
@@ -2261,11 +2289,10 @@ WelkinStatus welkin_colour_aerial_perspective_srgb_volume(const struct WelkinCol
 
 /* What welkin_check_abi takes: a pointer to the version and sizes that a program was compiled with. */
 #define WELKIN_ABI_SIZES \
-    WELKIN_ABI_VERSION, (uint32_t)sizeof(void *), (uint32_t)sizeof(WelkinError), (uint32_t)sizeof(WelkinConditions), \
-    (uint32_t)sizeof(WelkinPolarisationFrame), (uint32_t)sizeof(WelkinStokes), (uint32_t)sizeof(WelkinBakeError), \
-    (uint32_t)sizeof(WelkinSample), (uint32_t)sizeof(WelkinRanges), (uint32_t)sizeof(WelkinMoon), \
-    (uint32_t)sizeof(WelkinBudget), (uint32_t)sizeof(WelkinPlanSummary), (uint32_t)sizeof(WelkinCameraVolume), \
-    {0, 0, 0}
+    WELKIN_ABI_VERSION, sizeof(void *), sizeof(WelkinError), sizeof(WelkinConditions), \
+    sizeof(WelkinPolarisationFrame), sizeof(WelkinStokes), sizeof(WelkinBakeError), sizeof(WelkinSample), \
+    sizeof(WelkinRanges), sizeof(WelkinMoon), sizeof(WelkinBudget), sizeof(WelkinPlanSummary), \
+    sizeof(WelkinCameraVolume), {0, 0, 0}
 #ifndef __cplusplus
 #define WELKIN_ABI (&(const WelkinAbi){WELKIN_ABI_SIZES})
 #endif
