@@ -6,10 +6,10 @@ use numpy::{
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyString, PyTuple};
+use pyo3::types::{PyList, PyTuple};
 use welkin::Result;
 
-use crate::errors::refuse;
+use crate::errors::{out_of_range, refuse};
 use crate::rows::{self, block_rows};
 use crate::threads::Threads;
 
@@ -103,21 +103,20 @@ pub fn wavelengths(values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
 }
 
 /// One number, from anything that is one; `else_ask` says who takes arrays.
-pub fn scalar(values: &Bound<'_, PyAny>, what: &str, else_ask: &str) -> PyResult<f64> {
-    let is_real = |v: &Bound<'_, PyAny>| !v.is_instance_of::<PyString>() && !is_array(v);
-    if is_real(values) {
-        let told = |_| {
-            let got = values.get_type();
-            PyTypeError::new_err(format!("{what} must be a real number, got {got}"))
-        };
-        return values.extract().map_err(told);
+pub fn scalar(value: &Bound<'_, PyAny>, what: &str, else_ask: &str) -> PyResult<f64> {
+    if is_array(value) {
+        let array = numbers::<f64>(value, what)?;
+        let got = shown(array.shape());
+        let message = format!("{what} must be one number, got the shape {got}{else_ask}");
+        return Err(refuse(value.py(), "length", &message));
     }
-    let array = numbers::<f64>(values, what)?;
-    let message = format!(
-        "{what} must be one number, got the shape {}{else_ask}",
-        shown(array.shape())
-    );
-    Err(refuse(values.py(), "length", &message))
+    let told = |_| {
+        let got = value
+            .repr()
+            .map_or_else(|_| "something else".into(), |r| r.to_string());
+        PyTypeError::new_err(format!("{what} must be a real number, got {got}"))
+    };
+    value.extract().map_err(told)
 }
 
 /// Whether it has any axes, as arrays, lists and the columns of tables do.
@@ -131,16 +130,28 @@ fn is_array(value: &Bound<'_, PyAny>) -> bool {
     }
 }
 
-/// Lowest and highest of a range.
-pub fn pair(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; 2]> {
+/// Lowest and highest of a range, within another.
+pub fn pair(
+    values: &Bound<'_, PyAny>,
+    what: &'static str,
+    [min, max]: [f64; 2],
+    unit: &'static str,
+) -> PyResult<[f64; 2]> {
+    let py = values.py();
     let array = numbers::<f64>(values, what)?;
     let (class, got) = match *array.as_slice()? {
         [low, high] if low > high => ("value", format!("({low}, {high})")),
-        [low, high] if array.shape() == [2] => return Ok([low, high]),
+        [low, high] if array.shape() == [2] => {
+            let is_outside = |value: &f64| !(min..=max).contains(value);
+            return match [low, high].into_iter().find(is_outside) {
+                Some(value) => Err(out_of_range(py, what, [value, min, max], unit)),
+                None => Ok([low, high]),
+            };
+        }
         _ => ("length", format!("the shape {}", shown(array.shape()))),
     };
     let message = format!("{what} must be a pair (lowest, highest), got {got}");
-    Err(refuse(values.py(), class, &message))
+    Err(refuse(py, class, &message))
 }
 
 /// A shape as Python shows it.

@@ -36,16 +36,17 @@ impl PyModel {
         tolerance: f64,
         channels: &str,
     ) -> PyResult<PyPlan> {
-        let within = |given: Option<&Bound<'_, PyAny>>, name, whole| {
-            given.map_or(Ok(whole), |given| pair(given, name))
+        let within = |given: Option<&Bound<'_, PyAny>>, name, whole, unit| {
+            given.map_or(Ok(whole), |given| pair(given, name, whole, unit))
         };
         let budget = Budget {
-            altitude: within(altitude, "altitude", self.model.altitude_range())?,
-            visibility: within(visibility, "visibility", self.model.visibility_range())?,
+            altitude: within(altitude, "altitude", self.model.altitude_range(), "m")?,
+            visibility: within(visibility, "visibility", self.model.visibility_range(), "m")?,
             solar_elevation: within(
                 solar_elevation,
                 "solar_elevation",
                 self.model.solar_elevation_range(),
+                "rad",
             )?,
             tolerance,
             channels: channels_of(py, channels)?,

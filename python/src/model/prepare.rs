@@ -178,7 +178,12 @@ impl PyModel {
         keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PySunCourse> {
         let conditions = conditions::read(conditions, keywords)?;
-        let elevations = pair(elevations, "elevations")?;
+        let elevations = pair(
+            elevations,
+            "elevations",
+            self.model.solar_elevation_range(),
+            "rad",
+        )?;
         let made = || self.model.sun_course(&conditions, elevations, tolerance);
         Ok(alone(py, made)?.into())
     }
