@@ -19,7 +19,7 @@ def make_immutable(kind: type) -> None:
     setattr(kind, "__deepcopy__", lambda self, memo: self)
     if kind is not _native.Model:
         setattr(kind, "__reduce__", _refuse_to_pickle)
-    if kind.__repr__ is object.__repr__:
+    if "__repr__" not in vars(kind):
         setattr(kind, "__repr__", _shown)
 
 
