@@ -61,7 +61,7 @@ impl<'py> Columns<'py> {
                 Some(given) => given,
                 None => (*value).into_pyobject(py)?.into_any(),
             };
-            operands.push(Operand::scalars(&given, *name)?);
+            operands.push(Operand::scalars(&given, name)?);
         }
         let operands = <[_; 5]>::try_from(operands)
             .ok()
