@@ -19,7 +19,8 @@ use crate::threads::Threads;
 /// Directions are arrays (…, 3) that point away from the observer, of any length: +z zenith, azimuth counter-clockwise
 /// from +x seen from above. Looking down gives the light of the air before black ground; the sun's disc is not
 /// included. Spectra are what `radiance_at` gives: `radiance` gives the nodes of the model, which within absorption
-/// bands are not the spectral radiance (see `wavelengths`). `threads`: 1 is the calling thread; None all cores, or as many as RAYON_NUM_THREADS says.
+/// bands are not the spectral radiance (see `wavelengths`). `threads`: 1 is the calling thread; None all cores, or as
+/// many as RAYON_NUM_THREADS says.
 #[pyclass(frozen, name = "Sky", module = "welkin_sky")]
 pub struct PySky {
     pub sky: Arc<Sky>,
@@ -45,9 +46,9 @@ impl PySky {
 
     /// Wavelengths of `radiance`, nm: (W,), the nodes of the model.
     ///
-    /// At nodes within absorption bands (580, 605, 740, 762, 763, 825, 939, 941 nm) values are terms that spectra are
-    /// made of and not the spectral quantity there, from which they differ by up to 40 %: `radiance_at`
-    /// gives that at any wavelength, these among them.
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they differ by up to 40 %:
+    /// `radiance_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.sky.wavelengths())

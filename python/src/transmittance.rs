@@ -11,8 +11,10 @@ use crate::threads::Threads;
 /// The air at one visibility: transmittance along straight lines. Made by `Model.transmittance`.
 ///
 /// Points are arrays (…, 3) in metres: the origin is on the ground, +z up there, the planet's centre at (0, 0, −R).
-/// Starts, ends and directions are broadcast against each other. Nothing blocks the way between two points. For spectra ask the methods `…_at`: those without give
-/// the nodes of the model, which are not the spectrum within absorption bands (see `wavelengths`).
+/// Starts, ends and directions are broadcast against each other. Nothing blocks the way between two points.
+///
+/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within
+/// absorption bands (see `wavelengths`).
 #[pyclass(frozen, name = "Transmittance", module = "welkin_sky")]
 pub struct PyTransmittance {
     air: Transmittance,
@@ -28,9 +30,9 @@ impl From<Transmittance> for PyTransmittance {
 impl PyTransmittance {
     /// Wavelengths of the results, nm: (W,), the nodes of the model.
     ///
-    /// At nodes within absorption bands (580, 605, 740, 762, 763, 825, 939, 941 nm) values are terms that spectra are
-    /// made of and not the spectral quantity there, from which they differ by up to 40 %: `between_at`
-    /// gives that at any wavelength, these among them.
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they may differ several times over:
+    /// `between_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.air.wavelengths())
