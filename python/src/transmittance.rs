@@ -31,7 +31,7 @@ impl PyTransmittance {
     /// Wavelengths of the results, nm: (W,), the nodes of the model.
     ///
     /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
-    /// terms that spectra are made of and not the spectral quantity there, from which they may differ several times over:
+    /// terms that spectra are made of and not the spectral quantity there, which may be several times as much:
     /// `between_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {

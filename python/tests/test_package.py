@@ -160,8 +160,9 @@ def test_data_sets(model, sky, polarised, baked_colour):
     stokes = polarised.to_xarray([0.5], [2.0]).stokes
     assert stokes.dims == ("elevation", "azimuth", "component", "wavelength")
     assert np.allclose(stokes[0, 0].sel(component="I"), expected, rtol=1e-5)
-    for baked in (sky.bake().to_xarray([0.5], [2.0]).radiance, polarised.bake().to_xarray([0.5], [2.0]).stokes[:, :, 0]):
-        assert np.allclose(baked[0, 0], expected, rtol=0.02)
+    baked, of_light = (one.bake().to_xarray([0.5], [2.0]) for one in (sky, polarised))
+    for spectra in (baked.radiance, of_light.stokes[:, :, 0]):
+        assert np.allclose(spectra[0, 0], expected, rtol=0.02)
     assert baked_colour.to_xarray().xyz.shape == (91, 72, 3)
     bands = model.band_sky(model.bands([450.0, 550.0]), **SCENE).to_xarray([0.5], [2.0])
     assert bands.radiance.dims == ("elevation", "azimuth", "band")

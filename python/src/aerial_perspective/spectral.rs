@@ -19,8 +19,10 @@ use crate::transmittance::{Lines, PyTransmittance, each};
 /// Transmittance and in-scattered light of segments in one scene. Made by `Model.aerial_perspective`.
 ///
 /// Points are arrays (…, 3) in metres: the origin is on the ground, +z up there. Starts and ends are broadcast against
-/// each other. What is seen of a thing is in_scattering + transmittance · thing, for spectra by the methods `…_at`: those
-/// without give the nodes of the model, which are not the spectrum within absorption bands (see `wavelengths`).
+/// each other. What is seen of a thing is in_scattering + transmittance · thing.
+///
+/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within absorption
+/// bands (see `wavelengths`).
 #[pyclass(frozen, name = "AerialPerspective", module = "welkin_sky")]
 pub struct PyAerialPerspective {
     pub aerial: Arc<AerialPerspective>,
@@ -45,7 +47,7 @@ impl PyAerialPerspective {
     /// Wavelengths of the results, nm: (W,), the nodes of the model.
     ///
     /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
-    /// terms that spectra are made of and not the spectral quantity there, from which they may differ several times over:
+    /// terms that spectra are made of and not the spectral quantity there, which may be several times as much:
     /// `in_scattering_at` and `transmittance.between_at` give that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {

@@ -21,8 +21,9 @@ use opening::Recipe;
 /// A model of the clear sky: a file, of which only what questions need is read.
 ///
 /// Made by `default_model`, `open`, `from_bytes` or `stream`. Frame of everything: metres, radians, nanometres; +z is
-/// the zenith, azimuths count counter-clockwise from +x seen from above. Spectra are what the methods `…_at` give: those
-/// without give the nodes of the model (see `wavelengths`).
+/// the zenith, azimuths count counter-clockwise from +x seen from above.
+///
+/// Spectra are what the methods `…_at` give: those without give the nodes of the model (see `wavelengths`).
 #[pyclass(frozen, name = "Model", module = "welkin_sky")]
 pub struct PyModel {
     pub model: Arc<Model>,
