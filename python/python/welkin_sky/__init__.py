@@ -11,7 +11,8 @@ arrays of directions::
     spectrum = sky.radiance_at([0.0, 0.0, 1.0], np.arange(400.0, 701.0, 5.0))     # W m⁻² sr⁻¹ nm⁻¹
 
 Spectra are what the methods `…_at` give. Those without (`radiance`, `stokes`, `between`, `in_scattering`) give the
-nodes of the model at its `wavelengths`, of which the others make spectra; within absorption bands they are not the spectrum.
+nodes of the model at its `wavelengths`, of which the others make spectra; within absorption bands they are not the
+spectrum.
 
 Units are SI, angles radians, wavelengths nanometres. +z is the zenith, azimuths count counter-clockwise from +x seen
 from above, directions point away from the observer and need not be normalised. Arrays may have any real dtype and any

@@ -21,8 +21,8 @@ use crate::transmittance::{Lines, PyTransmittance, each};
 /// Points are arrays (…, 3) in metres: the origin is on the ground, +z up there. Starts and ends are broadcast against
 /// each other. What is seen of a thing is in_scattering + transmittance · thing.
 ///
-/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within absorption
-/// bands (see `wavelengths`).
+/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within
+/// absorption bands (see `wavelengths`).
 #[pyclass(frozen, name = "AerialPerspective", module = "welkin_sky")]
 pub struct PyAerialPerspective {
     pub aerial: Arc<AerialPerspective>,
