@@ -6,11 +6,12 @@ use numpy::{
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyList, PyTuple};
 use welkin::Result;
 
-use crate::errors::refuse;
+use crate::errors::{out_of_range, refuse};
 use crate::rows::{self, block_rows};
+use crate::threads::Threads;
 
 pub type Array<'py, T = f32> = Bound<'py, PyArrayDyn<T>>;
 
@@ -101,6 +102,58 @@ pub fn wavelengths(values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     Err(refuse(values.py(), "length", &message))
 }
 
+/// One number, from anything that is one; `else_ask` says who takes arrays.
+pub fn scalar(value: &Bound<'_, PyAny>, what: &str, else_ask: &str) -> PyResult<f64> {
+    if is_array(value) {
+        let array = numbers::<f64>(value, what)?;
+        let got = shown(array.shape());
+        let message = format!("{what} must be one number, got the shape {got}{else_ask}");
+        return Err(refuse(value.py(), "length", &message));
+    }
+    let told = |_| {
+        let got = value
+            .repr()
+            .map_or_else(|_| "something else".into(), |r| r.to_string());
+        PyTypeError::new_err(format!("{what} must be a real number, got {got}"))
+    };
+    value.extract().map_err(told)
+}
+
+/// Whether it has any axes, as arrays, lists and the columns of tables do.
+fn is_array(value: &Bound<'_, PyAny>) -> bool {
+    match value
+        .getattr("ndim")
+        .and_then(|axes| axes.extract::<usize>())
+    {
+        Ok(axes) => axes > 0,
+        Err(_) => value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>(),
+    }
+}
+
+/// Lowest and highest of a range, within another.
+pub fn pair(
+    values: &Bound<'_, PyAny>,
+    what: &'static str,
+    [min, max]: [f64; 2],
+    unit: &'static str,
+) -> PyResult<[f64; 2]> {
+    let py = values.py();
+    let array = numbers::<f64>(values, what)?;
+    let (class, got) = match *array.as_slice()? {
+        [low, high] if low > high => ("value", format!("({low}, {high})")),
+        [low, high] if array.shape() == [2] => {
+            let is_outside = |value: &f64| !(min..=max).contains(value);
+            return match [low, high].into_iter().find(is_outside) {
+                Some(value) => Err(out_of_range(py, what, [value, min, max], unit)),
+                None => Ok([low, high]),
+            };
+        }
+        _ => ("length", format!("the shape {}", shown(array.shape()))),
+    };
+    let message = format!("{what} must be a pair (lowest, highest), got {got}");
+    Err(refuse(py, class, &message))
+}
+
 /// A shape as Python shows it.
 pub fn shown(shape: &[usize]) -> String {
     match shape {
@@ -158,7 +211,7 @@ impl<'py, T: Element> Output<'py, T> {
 /// Fills an array (…, tail) for directions or other vectors (…, N), blocks of rows at a time.
 pub fn fill<'py, T, U, const N: usize>(
     py: Python<'py>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     vectors: &Vectors<'py, U, N>,
     tail: &[usize],
     work: impl Fn(&[[U; N]], &mut [T]) -> Result<()> + Sync,
@@ -178,7 +231,7 @@ where
 /// The same, one row at a time.
 pub fn fill_each<'py, T, U, const N: usize>(
     py: Python<'py>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     vectors: &Vectors<'py, U, N>,
     tail: &[usize],
     work: impl Fn([U; N], &mut [T]) -> Result<()> + Sync,

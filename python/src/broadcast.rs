@@ -11,10 +11,14 @@ use crate::errors::refuse;
 
 /// Numbers, or vectors of `N` of them, that may be one for all rows.
 pub struct Operand<'py, T: Element, const N: usize> {
+    name: &'static str,
     array: PyReadonlyArrayDyn<'py, T>,
     /// Whether the last length is that of vectors.
     is_vectors: bool,
 }
+
+/// A leading shape, and what has it.
+pub type Named<'a> = (&'static str, &'a [usize]);
 
 /// What an operand has for each row of the common shape.
 #[derive(Clone, Copy)]
@@ -34,16 +38,17 @@ impl<T: Copy, const N: usize> Values<'_, T, N> {
 
 impl<'py, T: Element + Copy, const N: usize> Operand<'py, T, N> {
     /// Vectors (…, N).
-    pub fn vectors(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Self> {
-        let array = numbers(values, what)?;
+    pub fn vectors(values: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
+        let array = numbers(values, name)?;
         if array.shape().last() == Some(&N) {
             return Ok(Self {
+                name,
                 array,
                 is_vectors: true,
             });
         }
         let message = format!(
-            "{what} must have the shape (…, {N}), got {}",
+            "{name} must have the shape (…, {N}), got {}",
             shown(array.shape())
         );
         Err(refuse(values.py(), "length", &message))
@@ -55,6 +60,10 @@ impl<'py, T: Element + Copy, const N: usize> Operand<'py, T, N> {
             true => &shape[..shape.len() - 1],
             false => shape,
         }
+    }
+
+    pub fn named(&self) -> Named<'_> {
+        (self.name, self.lead())
     }
 
     /// Repeats what is neither one for all nor one for each.
@@ -70,6 +79,7 @@ impl<'py, T: Element + Copy, const N: usize> Operand<'py, T, N> {
         let spread = numpy.call_method1("broadcast_to", (self.array.as_any(), shape))?;
         let whole = numpy.call_method1("require", (spread, dtype::<T>(py), ("C", "A")))?;
         Ok(Self {
+            name: self.name,
             array: whole.cast_into::<PyArrayDyn<T>>()?.try_readonly()?,
             is_vectors: self.is_vectors,
         })
@@ -85,25 +95,29 @@ impl<'py, T: Element + Copy, const N: usize> Operand<'py, T, N> {
 }
 
 impl<'py> Operand<'py, f64, 1> {
-    pub fn scalars(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Self> {
+    pub fn scalars(values: &Bound<'py, PyAny>, name: &'static str) -> PyResult<Self> {
         Ok(Self {
-            array: numbers(values, what)?,
+            name,
+            array: numbers(values, name)?,
             is_vectors: false,
         })
     }
 }
 
 /// The shape that shapes have in common.
-pub fn common(py: Python<'_>, shapes: &[&[usize]]) -> PyResult<Vec<usize>> {
-    let tuples = shapes.iter().map(|shape| PyTuple::new(py, shape.iter()));
+pub fn common(py: Python<'_>, operands: &[Named<'_>]) -> PyResult<Vec<usize>> {
+    let tuples = operands.iter();
+    let tuples = tuples.map(|(_, shape)| PyTuple::new(py, shape.iter()));
     let tuples = PyTuple::new(py, tuples.collect::<PyResult<Vec<_>>>()?)?;
     let shape = py
         .import("numpy")?
         .getattr("broadcast_shapes")?
         .call1(tuples);
     let told = |_| {
-        let all: Vec<_> = shapes.iter().map(|shape| shown(shape)).collect();
-        let message = format!("shapes do not broadcast: {}", all.join(", "));
+        let several = operands.iter().filter(|(_, shape)| !shape.is_empty());
+        let all = several.map(|(name, shape)| format!("{name} {}", shown(shape)));
+        let all = all.collect::<Vec<_>>().join(", ");
+        let message = format!("leading shapes do not broadcast: {all}");
         refuse(py, "length", &message)
     };
     shape.map_err(told)?.extract()

@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use welkin::Conditions;
 
-use crate::broadcast::{Operand, Values};
+use crate::arrays::scalar;
+use crate::broadcast::{Named, Operand, Values};
 
 pub const NAMES: [&str; 5] = [
     "solar_elevation",
@@ -15,6 +16,8 @@ pub const NAMES: [&str; 5] = [
     "altitude",
 ];
 
+const ELSE_ASK: &str = ": for arrays of conditions ask the model, as model.radiance(directions, …)";
+
 /// One set of conditions: the defaults, what `base` has, and over that the keywords.
 pub fn read(
     base: Option<&Bound<'_, PyAny>>,
@@ -23,7 +26,7 @@ pub fn read(
     let mut conditions = Conditions::default();
     for (name, value) in NAMES.iter().zip(fields(&mut conditions)) {
         if let Some(given) = given(name, base, keywords)? {
-            *value = given.extract()?;
+            *value = scalar(&given, name, ELSE_ASK)?;
         }
     }
     Ok(conditions)
@@ -66,8 +69,8 @@ impl<'py> Columns<'py> {
         Ok(Self { operands })
     }
 
-    pub fn shapes(&self) -> impl Iterator<Item = &[usize]> {
-        self.operands.iter().map(Operand::lead)
+    pub fn shapes(&self) -> impl Iterator<Item = Named<'_>> {
+        self.operands.iter().map(Operand::named)
     }
 
     pub fn spread(self, lead: &[usize]) -> PyResult<Self> {

@@ -1,5 +1,6 @@
 //! From the library's errors to the exceptions of `welkin_sky.errors`.
 
+use std::f64::consts::FRAC_PI_2;
 use std::io;
 
 use pyo3::prelude::*;
@@ -8,7 +9,7 @@ use welkin::Error;
 
 /// The exception for an error, with what the error knows as attributes.
 pub fn raise(py: Python<'_>, error: Error) -> PyErr {
-    let message = error.to_string();
+    let message = format!("{error}{}", hint(&error));
     let class = error.class();
     let attributes = PyDict::new(py);
     let cause = match describe(&attributes, error) {
@@ -21,6 +22,22 @@ pub fn raise(py: Python<'_>, error: Error) -> PyErr {
         raised.set_cause(py, cause);
     }
     raised
+}
+
+/// An angle of more than a quarter turn that would be in range if it were in degrees.
+fn hint(error: &Error) -> &'static str {
+    match *error {
+        Error::OutOfRange {
+            value,
+            min,
+            max,
+            unit: "rad",
+            ..
+        } if value.abs() > FRAC_PI_2 && (min..=max).contains(&value.to_radians()) => {
+            " (in degrees? use np.radians)"
+        }
+        _ => "",
+    }
 }
 
 /// An exception of the same kind as an [`Error`] of this class.

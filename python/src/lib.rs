@@ -19,6 +19,7 @@ mod sampler;
 mod sky;
 mod solar_disc;
 mod source;
+mod spectrum;
 mod sun_course;
 mod threads;
 mod transmittance;

@@ -1,17 +1,45 @@
 //! Moonlight: the fields of a `Moon`, and the sum of two skies.
 
+use std::f64::consts::FRAC_PI_2;
+
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use welkin::{Moon, SkySum};
 
-use crate::arrays::{Array, Directions, fill_each};
+use crate::arrays::{Array, Directions, fill_each, scalar};
+use crate::errors::{out_of_range, refuse};
+use crate::model::PyModel;
 use crate::sky::space;
+use crate::threads::Threads;
+
+impl PyModel {
+    /// A moon whose light this model can take, from an object with its fields.
+    pub fn moon(&self, moon: &Bound<'_, PyAny>) -> PyResult<Moon> {
+        let py = moon.py();
+        if self.model.is_moonlit() {
+            let message = "the model is moonlit already: ask the one that it was made of";
+            return Err(refuse(py, "value", message));
+        }
+        let moon = read(moon)?;
+        for (parameter, value) in [("elevation", moon.elevation), ("azimuth", moon.azimuth)] {
+            if !value.is_finite() {
+                let limits = [value, f64::MIN, f64::MAX];
+                return Err(out_of_range(py, parameter, limits, "rad"));
+            }
+        }
+        if moon.elevation.abs() > FRAC_PI_2 {
+            let limits = [moon.elevation, -FRAC_PI_2, FRAC_PI_2];
+            return Err(out_of_range(py, "elevation", limits, "rad"));
+        }
+        Ok(moon)
+    }
+}
 
 /// A moon from an object with its fields.
-pub fn read(moon: &Bound<'_, PyAny>) -> PyResult<Moon> {
+fn read(moon: &Bound<'_, PyAny>) -> PyResult<Moon> {
     let field = |name: &str| -> PyResult<f64> {
         let told = |_| PyTypeError::new_err("moon must be a welkin_sky.Moon");
-        moon.getattr(name).map_err(told)?.extract()
+        scalar(&moon.getattr(name).map_err(told)?, name, "")
     };
     Ok(Moon {
         elevation: field("elevation")?,
@@ -59,13 +87,15 @@ impl PySkySum {
         self.sky.parts().len()
     }
 
-    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the wavelengths of the model: (…, 3) → (…, W).
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the nodes of the model: (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `Sky.wavelengths`.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(py, threads, &directions, &[self.width], |direction, out| {
@@ -79,7 +109,7 @@ impl PySkySum {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(py, threads, &directions, &[3], |direction, out| {
@@ -95,7 +125,7 @@ impl PySkySum {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let space = self::space(py, space)?;
         let directions = Directions::directions(directions)?;

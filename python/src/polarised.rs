@@ -11,8 +11,11 @@ use crate::conditions;
 use crate::errors::raise;
 use crate::frame;
 use crate::rows::alone;
+use crate::threads::Threads;
 
 /// The clear sky of one scene with its polarisation. Made by `Model.polarised_sky`. Directions as of `Sky`.
+///
+/// Spectra are what `stokes_at` gives: `stokes` gives the nodes of the model (see `wavelengths`).
 #[pyclass(frozen, name = "PolarisedSky", module = "welkin_sky")]
 pub struct PyPolarisedSky {
     pub sky: Arc<PolarisedSky>,
@@ -32,7 +35,11 @@ impl PyPolarisedSky {
         conditions::shown(py, self.sky.sky().conditions())
     }
 
-    /// Wavelengths of `stokes`, nm: (W,).
+    /// Wavelengths of `stokes`, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they differ by up to 40 %:
+    /// `stokes_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.sky.sky().wavelengths())
@@ -57,13 +64,15 @@ impl PyPolarisedSky {
         Ok(sky.into())
     }
 
-    /// Spectral radiance without polarisation, W m⁻² sr⁻¹ nm⁻¹: (…, 3) → (…, W).
+    /// Radiance without polarisation at the nodes `wavelengths`, W m⁻² sr⁻¹ nm⁻¹: (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `stokes_at` for I.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.sky.sky().wavelengths().len()];
@@ -72,7 +81,9 @@ impl PyPolarisedSky {
         })
     }
 
-    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, 3, W).
+    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths`: (…, 3) → (…, 3, W).
+    ///
+    /// Within absorption bands the nodes are not spectra: see `wavelengths`, and ask `stokes_at`.
     ///
     /// frame: where Q > 0 is. "vertical" (None): in the vertical plane of the view direction; "sun_aligned": across the
     /// plane of view and sun; or an axis (x, y, z), such as a camera's up vector. U > 0 is 45° to the right of it.
@@ -82,7 +93,7 @@ impl PyPolarisedSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         self.spectra(py, directions, threads, |direction, stokes| {
@@ -97,7 +108,7 @@ impl PyPolarisedSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         self.spectra(py, directions, threads, |direction, stokes| {
@@ -113,7 +124,7 @@ impl PyPolarisedSky {
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         let asked = self::wavelengths(wavelengths)?;
@@ -142,7 +153,7 @@ impl PyPolarisedSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         let directions = Directions::directions(directions)?;
@@ -164,7 +175,7 @@ impl PyPolarisedSky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         work: impl Fn([f32; 3], &mut [Stokes]) -> welkin::Result<()> + Sync,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
@@ -176,7 +187,7 @@ impl PyPolarisedSky {
 /// Fills an array (…, 3, width) with I, Q and U of each direction.
 pub fn stokes_rows<'py>(
     py: Python<'py>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     directions: &Directions<'py>,
     width: usize,
     work: impl Fn([f32; 3], &mut [Stokes]) -> welkin::Result<()> + Sync,

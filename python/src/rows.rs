@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use welkin::Result;
 
 use crate::errors::raise;
-use crate::threads::pool;
+use crate::threads::{Threads, pool};
 
 /// Most rows of a block, which one thread works on at a time.
 pub const MOST_ROWS: usize = 512;
@@ -24,7 +24,7 @@ pub fn block_rows(rows: usize) -> usize {
 /// Calls `work` with all blocks, which `number` counts. The first error in their order is raised.
 pub fn run<B: Send>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     blocks: impl IntoIterator<Item = B>,
     work: impl Fn(usize, B) -> Result<()> + Sync,
 ) -> PyResult<()> {

@@ -6,6 +6,7 @@ use welkin::{Part, SkySampler};
 
 use crate::arrays::{Array, Directions, Output, Vectors, fill_each};
 use crate::rows::{block_rows, run};
+use crate::threads::Threads;
 
 /// Draws directions by the luminance of a sky, with or without the sun. Made by `BakedColourSky.sampler`.
 #[pyclass(frozen, name = "SkySampler", module = "welkin_sky")]
@@ -30,7 +31,7 @@ impl PySkySampler {
         &self,
         py: Python<'py>,
         unit_square: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let numbers = Vectors::<f32, 2>::read(unit_square, "unit_square")?;
         let (lead, numbers) = (numbers.lead(), numbers.rows()?);
@@ -76,7 +77,7 @@ impl PySkySampler {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(py, threads, &directions, &[], |direction, out| {
@@ -91,7 +92,7 @@ impl PySkySampler {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(py, threads, &directions, &[3], |direction, out| {

@@ -5,18 +5,22 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use welkin::{BakedSky, ColourSky, ColourSpace, Result, Sky, SpectralInterpolation};
 
-use crate::arrays::{Array, Directions, fill, fill_each, list, wavelengths};
+use crate::arrays::{Array, Directions, Output, fill, fill_each, list};
 use crate::baked::colour::PyBakedColourSky;
 use crate::baked::spectral::PyBakedSky;
 use crate::conditions;
-use crate::errors::{out_of_range, raise};
+use crate::errors::raise;
 use crate::rows::alone;
+use crate::spectrum::Spectrum;
+use crate::threads::Threads;
 
 /// The clear sky of one scene. Made by `Model.sky`.
 ///
 /// Directions are arrays (…, 3) that point away from the observer, of any length: +z zenith, azimuth counter-clockwise
 /// from +x seen from above. Looking down gives the light of the air before black ground; the sun's disc is not
-/// included. `threads`: 1 is the calling thread; None all cores, or as many as RAYON_NUM_THREADS says.
+/// included. Spectra are what `radiance_at` gives: `radiance` gives the nodes of the model, which within absorption
+/// bands are not the spectral radiance (see `wavelengths`). `threads`: 1 is the calling thread; None all cores, or as
+/// many as RAYON_NUM_THREADS says.
 #[pyclass(frozen, name = "Sky", module = "welkin_sky")]
 pub struct PySky {
     pub sky: Arc<Sky>,
@@ -40,7 +44,11 @@ impl PySky {
         conditions::shown(py, self.sky.conditions())
     }
 
-    /// Wavelengths of `radiance`, nm: (W,).
+    /// Wavelengths of `radiance`, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they differ by up to 40 %:
+    /// `radiance_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.sky.wavelengths())
@@ -68,13 +76,15 @@ impl PySky {
         })
     }
 
-    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, W) float32.
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths`: (…, 3) → (…, W) float32.
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `radiance_at`.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.sky.wavelengths().len()];
@@ -89,7 +99,7 @@ impl PySky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.sky.wavelengths().len()];
@@ -100,14 +110,14 @@ impl PySky {
 
     /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K).
     ///
-    /// The sky is evaluated once for all of them: many cost little more than one.
+    /// The nodes are evaluated once for all of them; each wavelength then costs a tenth of that or so.
     #[pyo3(signature = (directions, wavelengths, *, threads=None))]
     fn radiance_at<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let solar = |l| self.interpolation.solar_irradiance(l);
         self.at_wavelengths(py, directions, wavelengths, threads, solar)
@@ -120,7 +130,7 @@ impl PySky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         self.at_wavelengths(py, directions, wavelengths, threads, |_| 1.0)
     }
@@ -131,7 +141,7 @@ impl PySky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill(py, threads, &directions, &[3], |directions, out| {
@@ -141,14 +151,14 @@ impl PySky {
 
     /// Linear RGB, cd m⁻², not clipped: (…, 3) → (…, 3).
     ///
-    /// space: "srgb", "rec2020", "acescg" or "xyz". White of 1 cd m⁻² is (1, 1, 1).
+    /// space: "srgb", "rec2020", "acescg" or "xyz", in any case. White of 1 cd m⁻² is (1, 1, 1).
     #[pyo3(signature = (directions, space="srgb", *, threads=None))]
     fn rgb<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let space = self::space(py, space)?;
         let directions = Directions::directions(directions)?;
@@ -180,36 +190,21 @@ impl PySky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         unit: impl Fn(f64) -> f64,
     ) -> PyResult<Array<'py>> {
-        let asked = self::wavelengths(wavelengths)?;
-        let rule = &self.interpolation;
-        let [min, max] = rule.range();
-        if let Some(&value) = asked.iter().find(|&&l| !(min..=max).contains(&l)) {
-            return Err(out_of_range(py, "wavelength", [value, min, max], "nm"));
-        }
-        let asked: Vec<_> = asked.into_iter().map(|l| (l, unit(l))).collect();
+        let spectrum = Spectrum::read(&self.interpolation, wavelengths, unit)?;
         let directions = Directions::directions(directions)?;
-        let nodes = self.sky.wavelengths().len();
-        fill(
-            py,
-            threads,
-            &directions,
-            &[asked.len()],
-            |directions, out| {
-                let mut values = vec![0.0; nodes];
-                let rows = out.chunks_exact_mut(asked.len().max(1));
-                for (&direction, row) in directions.iter().zip(rows) {
-                    self.sky.relative_radiance(direction, &mut values)?;
-                    for (out, &(wavelength, unit)) in row.iter_mut().zip(&asked) {
-                        let value = f64::from(rule.between(&values, wavelength)?) * unit;
-                        *out = value.min(f64::from(f32::MAX)) as f32;
-                    }
-                }
-                Ok(())
-            },
-        )
+        let (nodes, width) = (self.sky.wavelengths().len(), spectrum.len());
+        fill(py, threads, &directions, &[width], |directions, out| {
+            let mut values = vec![0.0; nodes];
+            let rows = out.chunks_exact_mut(width.max(1));
+            for (&direction, row) in directions.iter().zip(rows) {
+                self.sky.relative_radiance(direction, &mut values)?;
+                spectrum.write(&values, row)?;
+            }
+            Ok(())
+        })
     }
 }
 
@@ -258,7 +253,7 @@ impl PyColourSky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill(py, threads, &directions, &[3], |directions, out| {
@@ -273,7 +268,7 @@ impl PyColourSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let space = self::space(py, space)?;
         let directions = Directions::directions(directions)?;
@@ -296,15 +291,20 @@ impl PyColourSky {
     }
 }
 
-/// The matrix (3, 3) from CIE 1931 XYZ to a colour space by name: "srgb", "rec2020", "acescg" or "xyz".
+/// The matrix (3, 3) float32 from CIE 1931 XYZ to a colour space by name, as of `Sky.rgb`.
 #[pyfunction]
-pub fn colour_space_matrix(py: Python<'_>, space: &str) -> PyResult<[[f32; 3]; 3]> {
-    Ok(self::space(py, space)?.matrix())
+pub fn colour_space_matrix<'py>(py: Python<'py>, space: &str) -> PyResult<Array<'py>> {
+    let matrix = self::space(py, space)?.matrix();
+    let mut output = Output::new(py, &[3, 3], &[])?;
+    output.all()?.copy_from_slice(matrix.as_flattened());
+    Ok(output.array)
 }
 
-/// A colour space by name.
+/// A colour space by name, whatever its case.
 pub fn space(py: Python<'_>, name: &str) -> PyResult<ColourSpace> {
-    name.parse().map_err(|error| raise(py, error))
+    let lower = name.to_ascii_lowercase();
+    let space = lower.parse().or_else(|_| name.parse());
+    space.map_err(|error| raise(py, error))
 }
 
 fn to_space(colours: &mut [[f32; 3]], space: ColourSpace) -> Result<()> {

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use welkin::SolarDisc;
 
 use crate::arrays::{Array, Directions, Vectors, fill_each, list, wavelengths};
+use crate::threads::Threads;
 
 /// The disc of the sun as an observer sees it through the air. Made by `Model.solar_disc`. Directions as of `Sky`.
 ///
@@ -21,7 +22,11 @@ impl From<SolarDisc> for PySolarDisc {
 
 #[pymethods]
 impl PySolarDisc {
-    /// Wavelengths of `radiance`, nm: (W,).
+    /// Wavelengths of `radiance`, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, which may be several times as much:
+    /// `radiance_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.disc.wavelengths())
@@ -45,13 +50,15 @@ impl PySolarDisc {
         self.disc.solid_angle()
     }
 
-    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, W).
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths`: (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `radiance_at`.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.disc.wavelengths().len()];
@@ -67,7 +74,7 @@ impl PySolarDisc {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let asked = self::wavelengths(wavelengths)?;
         let directions = Directions::directions(directions)?;
@@ -93,7 +100,7 @@ impl PySolarDisc {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(py, threads, &directions, &[3], |direction, out| {
@@ -109,7 +116,7 @@ impl PySolarDisc {
         &self,
         py: Python<'py>,
         normals: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let normals = Vectors::read(normals, "normals")?;
         let tail = [self.disc.wavelengths().len()];

@@ -6,11 +6,15 @@ use welkin::{Result, Transmittance};
 use crate::arrays::{Array, Output, list, wavelengths};
 use crate::broadcast::{Operand, common};
 use crate::rows::{block_rows, run};
+use crate::threads::Threads;
 
 /// The air at one visibility: transmittance along straight lines. Made by `Model.transmittance`.
 ///
 /// Points are arrays (…, 3) in metres: the origin is on the ground, +z up there, the planet's centre at (0, 0, −R).
 /// Starts, ends and directions are broadcast against each other. Nothing blocks the way between two points.
+///
+/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within
+/// absorption bands (see `wavelengths`).
 #[pyclass(frozen, name = "Transmittance", module = "welkin_sky")]
 pub struct PyTransmittance {
     air: Transmittance,
@@ -24,20 +28,26 @@ impl From<Transmittance> for PyTransmittance {
 
 #[pymethods]
 impl PyTransmittance {
-    /// Wavelengths of the results, nm: (W,).
+    /// Wavelengths of the results, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, which may be several times as much:
+    /// `between_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.air.wavelengths())
     }
 
-    /// Transmittance between points: (…, 3), (…, 3) → (…, W).
+    /// Transmittance between points at `wavelengths`: (…, 3), (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral transmittance: see `wavelengths`, and ask `between_at`.
     #[pyo3(signature = (start, end, *, threads=None))]
     fn between<'py>(
         &self,
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let width = self.air.wavelengths().len();
         let lines = Lines::read(start, end, "end")?;
@@ -53,7 +63,7 @@ impl PyTransmittance {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let width = self.air.wavelengths().len();
         let lines = Lines::read(start, end, "end")?;
@@ -69,7 +79,7 @@ impl PyTransmittance {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let width = self.air.wavelengths().len();
         let lines = Lines::read(start, directions, "directions")?;
@@ -85,7 +95,7 @@ impl PyTransmittance {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let width = self.air.wavelengths().len();
         let lines = Lines::read(start, directions, "directions")?;
@@ -104,7 +114,7 @@ impl PyTransmittance {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let asked = self::wavelengths(wavelengths)?;
         let lines = Lines::read(start, end, "end")?;
@@ -121,7 +131,7 @@ impl PyTransmittance {
         start: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let asked = self::wavelengths(wavelengths)?;
         let lines = Lines::read(start, directions, "directions")?;
@@ -141,11 +151,15 @@ pub struct Lines<'py> {
 }
 
 impl<'py> Lines<'py> {
-    pub fn read(start: &Bound<'py, PyAny>, end: &Bound<'py, PyAny>, what: &str) -> PyResult<Self> {
+    pub fn read(
+        start: &Bound<'py, PyAny>,
+        end: &Bound<'py, PyAny>,
+        what: &'static str,
+    ) -> PyResult<Self> {
         let py = start.py();
         let start = Operand::vectors(start, "start")?;
         let end = Operand::vectors(end, what)?;
-        let lead = common(py, &[start.lead(), end.lead()])?;
+        let lead = common(py, &[start.named(), end.named()])?;
         Ok(Self {
             start: start.spread(&lead)?,
             end: end.spread(&lead)?,
@@ -168,7 +182,7 @@ impl<'py> Lines<'py> {
     pub fn fill(
         &self,
         py: Python<'py>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         width: usize,
         work: impl Fn([f64; 3], [f64; 3], &mut [f32]) -> Result<()> + Sync,
     ) -> PyResult<Array<'py>> {
@@ -194,7 +208,7 @@ impl<'py> Lines<'py> {
     pub fn fill_two(
         &self,
         py: Python<'py>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         tails: [&[usize]; 2],
         work: impl Fn([f64; 3], [f64; 3], &mut [f32], &mut [f32]) -> Result<()> + Sync,
     ) -> PyResult<(Array<'py>, Array<'py>)> {

@@ -7,7 +7,7 @@ use crate::aerial_perspective::colour::PyColourAerialPerspective;
 use crate::aerial_perspective::{Pair, distances};
 use crate::arrays::{Output, vector};
 use crate::rows::alone;
-use crate::threads::pool;
+use crate::threads::{Threads, pool};
 
 #[pymethods]
 impl PyColourAerialPerspective {
@@ -27,7 +27,7 @@ impl PyColourAerialPerspective {
         up: &Bound<'py, PyAny>,
         size: [usize; 2],
         depths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let depths = distances(depths)?;
         let volume = CameraVolume {

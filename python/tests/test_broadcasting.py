@@ -49,6 +49,22 @@ def test_all_conditions_may_be_arrays(model, rng, directions):
         assert np.allclose(polarised[i], expected, rtol=1e-3, atol=1e-4 * expected[0].max())
 
 
+def test_spectra_and_bands_under_any_conditions(model, directions):
+    scenes = {"solar_elevation": np.linspace(0.0, 1.0, 4), "visibility": 40e3}
+    at = [330.0, 550.0, 762.0, 939.0]
+    bands = model.bands([450.0, welkin_sky.Response.table([600.0, 650.0, 700.0], [0.0, 1.0, 0.0])])
+    some = directions[:4]
+    spectra = model.radiance_at(some, at, **scenes)
+    values = model.band_radiance(some, bands, **scenes)
+    assert spectra.shape == (4, 4) and values.shape == (4, 2)
+    for i, elevation in enumerate(scenes["solar_elevation"]):
+        scene = {**scenes, "solar_elevation": elevation}
+        assert np.allclose(spectra[i], model.sky(**scene).radiance_at(some[i], at), rtol=1e-3)
+        assert np.allclose(values[i], model.band_sky(bands, **scene).radiance(some[i]), rtol=2e-3)
+        for k, wavelength in enumerate(at):
+            assert np.array_equal(spectra[i, k], model.radiance_at(some[i], wavelength, **scene)[0])
+
+
 def test_defaults_and_objects_are_taken(model, directions):
     conditions = welkin_sky.Conditions(**SCENE)
     expected = model.radiance(directions, **SCENE)
@@ -60,9 +76,9 @@ def test_defaults_and_objects_are_taken(model, directions):
 
 
 def test_what_does_not_broadcast_is_refused(model, directions):
-    with pytest.raises(welkin_sky.LengthError):
+    with pytest.raises(welkin_sky.LengthError, match=r"albedo \(4,\), directions \(5,\)"):
         model.radiance(directions[:5], albedo=np.zeros(4))
-    with pytest.raises(welkin_sky.LengthError):
+    with pytest.raises(welkin_sky.LengthError, match=r"start \(4,\), end \(5,\)"):
         model.transmittance(40e3).between(np.zeros((4, 3)), np.zeros((5, 3)))
 
 

@@ -1,9 +1,11 @@
 """Documentation, stubs, grids, plots and data sets."""
 
+import copy
 import importlib.util
 import inspect
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 
@@ -11,7 +13,7 @@ import numpy as np
 import pytest
 
 import welkin_sky
-from conftest import SCENE
+from conftest import MODEL_FILE, SCENE
 
 ROOM = pathlib.Path(__file__).resolve().parents[1]
 
@@ -86,8 +88,11 @@ def test_fish_eye():
     assert np.array_equal(image, grid.directions, equal_nan=True)
     odd = welkin_sky.fish_eye(33)
     assert np.allclose(odd.directions[16, 16], [0, 0, 1])
-    with pytest.raises(ValueError):
-        welkin_sky.fish_eye(0)
+    for make, few in ((welkin_sky.fish_eye, 0), (welkin_sky.lat_long, 1)):
+        with pytest.raises(welkin_sky.InvalidValueError):
+            make(few)
+        with pytest.raises(TypeError, match="whole number"):
+            make(8.5)
 
 
 def test_lat_long():
@@ -145,7 +150,8 @@ def test_data_sets(model, sky, polarised, baked_colour):
     assert data.radiance.dims == ("elevation", "azimuth", "wavelength")
     assert data.radiance.shape == (2, 3, 24) and data.radiance.attrs["units"] == "W m-2 sr-1 nm-1"
     direction = [np.cos(0.5) * np.cos(2.0), np.cos(0.5) * np.sin(2.0), np.sin(0.5)]
-    expected = sky.radiance(direction)
+    expected = sky.radiance_at(direction, sky.wavelengths)
+    assert "radiance_at" in data.radiance.attrs["comment"]
     assert np.allclose(data.radiance.sel(elevation=0.5, azimuth=2.0), expected, rtol=1e-5)
     assert np.allclose(data.xyz.sel(primary="Y"), sky.xyz(_towards(data))[..., 1])
     assert data.attrs["visibility"] == SCENE["visibility"]
@@ -154,12 +160,32 @@ def test_data_sets(model, sky, polarised, baked_colour):
     stokes = polarised.to_xarray([0.5], [2.0]).stokes
     assert stokes.dims == ("elevation", "azimuth", "component", "wavelength")
     assert np.allclose(stokes[0, 0].sel(component="I"), expected, rtol=1e-5)
+    baked, of_light = (one.bake().to_xarray([0.5], [2.0]) for one in (sky, polarised))
+    for spectra in (baked.radiance, of_light.stokes[:, :, 0]):
+        assert np.allclose(spectra[0, 0], expected, rtol=0.02)
     assert baked_colour.to_xarray().xyz.shape == (91, 72, 3)
     bands = model.band_sky(model.bands([450.0, 550.0]), **SCENE).to_xarray([0.5], [2.0])
     assert bands.radiance.dims == ("elevation", "azimuth", "band")
 
 
-def _towards(data):
-    from welkin_sky.grids import directions
+def test_what_never_changes_is_its_own_copy(model, sky, tmp_path, monkeypatch):
+    curve = welkin_sky.Response.wavelength(550.0)
+    bands = model.bands([curve])
+    aerial = model.aerial_perspective(**SCENE)
+    made = [sky, sky.bake(), bands, curve, aerial, aerial.transmittance, model.solar_disc(), model.plan()]
+    for one in (model, *made):
+        assert copy.copy(one) is one and copy.deepcopy([one])[0] is one
+        assert repr(one).startswith(f"<welkin_sky.{type(one).__name__}: ")
+    for one in made:
+        with pytest.raises(TypeError, match="pickle"):
+            pickle.dumps(one)
+    assert "visibility 47 km" in repr(sky) and "550 to 550 nm" in repr(curve)
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(MODEL_FILE.parent)
+    pickled = pickle.dumps(welkin_sky.open(MODEL_FILE.name))
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert pickle.loads(pickled).file_bytes == MODEL_FILE.stat().st_size
 
-    return directions(data.elevation.values[:, None], data.azimuth.values)
+
+def _towards(data):
+    return welkin_sky.directions(data.elevation.values[:, None], data.azimuth.values)

@@ -91,6 +91,10 @@ def test_stokes_frames(polarised, directions):
 
 
 def test_polarisers(polarised, directions):
+    for wrong in (np.ones((5, 24)), np.ones(3), 1.0, np.ones((3, 4, 3))):
+        for ask in (welkin_sky.degree_of_polarisation, welkin_sky.angle_of_polarisation):
+            with pytest.raises(welkin_sky.LengthError, match="stokes"):
+                ask(wrong)
     stokes = polarised.stokes(directions)
     angle = welkin_sky.angle_of_polarisation(stokes)
     across = welkin_sky.through_polariser(stokes, 0.4)
@@ -293,6 +297,14 @@ def test_moonlight(model, directions):
     assert full < 0.05
     with pytest.raises(welkin_sky.RangeError):
         model.moonlit(welkin_sky.Moon(distance=1.0))
+    for bad in ({"elevation": 45.0}, {"elevation": np.nan}, {"azimuth": np.inf}):
+        for light in (model.moonlit, model.sky_with_moon):
+            with pytest.raises(welkin_sky.RangeError) as refused:
+                light(welkin_sky.Moon(**bad))
+            assert [refused.value.parameter] == list(bad)
+    for twice in (by_moon.moonlit, by_moon.sky_with_moon):
+        with pytest.raises(welkin_sky.InvalidValueError, match="moonlit already"):
+            twice(moon)
 
 
 def test_conditions(model):
@@ -309,5 +321,67 @@ def test_conditions(model):
     for bad in (3, "noon", {}):
         with pytest.raises(TypeError):
             model.sky(bad)
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="albedo must be a real number, got 'white'"):
         model.sky(albedo="white")
+    for many in (np.array([0.1, 0.2]), [0.1], (0.1,)):
+        with pytest.raises(welkin_sky.LengthError, match="solar_elevation .* model.radiance"):
+            model.sky(solar_elevation=many)
+    assert model.sky(solar_elevation=np.array(0.1)).conditions.solar_elevation == 0.1
+
+
+def test_degrees_are_suspected(model):
+    for ask in (
+        lambda: model.sky(solar_elevation=10.0),
+        lambda: model.radiance([0, 0, 1], solar_elevation=np.array([0.1, -6.0])),
+        lambda: model.sun_course((10.0, 20.0)),
+        lambda: model.plan(solar_elevation=(0.0, 40.0)),
+        lambda: model.moonlit(welkin_sky.Moon(elevation=45.0)),
+    ):
+        with pytest.raises(welkin_sky.RangeError, match="in degrees"):
+            ask()
+    for elevation in (-0.5, 400.0, np.nan):
+        with pytest.raises(welkin_sky.RangeError) as refused:
+            model.sky(solar_elevation=elevation)
+        assert "degrees" not in str(refused.value)
+
+
+def test_ranges_are_pairs(model):
+    for name, reverse, wide in (
+        ("altitude", (1000.0, 0.0), (0.0, 1e9)),
+        ("visibility", (60e3, 40e3), (1.0, 60e3)),
+        ("solar_elevation", (0.2, 0.1), (-1.0, 0.1)),
+    ):
+        with pytest.raises(welkin_sky.InvalidValueError, match=name):
+            model.plan(**{name: reverse})
+        with pytest.raises(welkin_sky.RangeError) as refused:
+            model.plan(**{name: wide})
+        assert refused.value.parameter == name
+        for wrong in (0.1, (0.1,), [[0.1, 0.2]]):
+            with pytest.raises(welkin_sky.LengthError, match=name):
+                model.plan(**{name: wrong})
+    with pytest.raises(welkin_sky.InvalidValueError, match="elevations"):
+        model.sun_course((0.2, 0.1))
+    with pytest.raises(welkin_sky.RangeError) as refused:
+        model.sun_course((0.1, 2.0))
+    assert refused.value.parameter == "elevations"
+
+
+def test_nodes_are_no_spectra_within_absorption_bands(sky, polarised):
+    up, nodes = [0.0, 0.0, 1.0], sky.wavelengths
+    off = np.abs(sky.radiance(up) / sky.radiance_at(up, nodes) - 1)
+    assert off[nodes == 939] > 0.2 and off[nodes < 570].max() < 5e-3
+    baked = polarised.bake()
+    at = [450.0, 762.0, 939.0, 550.0, 600.0]
+    exact = polarised.stokes_at(up, at)
+    assert np.allclose(baked.stokes_at(up, at), exact, atol=0.02 * exact[0])
+    assert np.array_equal(baked.stokes_at(up, at)[:, :4], baked.hero(up, at[:4]))
+
+
+def test_names_of_colour_spaces_may_have_any_case(sky):
+    up = [0.0, 0.0, 1.0]
+    for name in ("sRGB", "Rec2020", "ACEScg", "XYZ"):
+        assert np.array_equal(sky.rgb(up, name), sky.rgb(up, name.lower()))
+        matrix = welkin_sky.colour_space_matrix(name)
+        assert np.allclose(matrix @ sky.xyz(up), sky.rgb(up, name), rtol=1e-5, atol=1e-3)
+    with pytest.raises(welkin_sky.InvalidValueError, match="Adobe"):
+        sky.rgb(up, "Adobe")

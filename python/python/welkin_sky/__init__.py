@@ -8,7 +8,11 @@ arrays of directions::
 
     model = welkin_sky.default_model()
     sky = model.sky(solar_elevation=np.radians(10.0), visibility=50e3)
-    radiance = sky.radiance([0.0, 0.0, 1.0])     # W m⁻² sr⁻¹ nm⁻¹ at sky.wavelengths
+    spectrum = sky.radiance_at([0.0, 0.0, 1.0], np.arange(400.0, 701.0, 5.0))     # W m⁻² sr⁻¹ nm⁻¹
+
+Spectra are what the methods `…_at` give. Those without (`radiance`, `stokes`, `between`, `in_scattering`) give the
+nodes of the model at its `wavelengths`, of which the others make spectra; within absorption bands they are not the
+spectrum.
 
 Units are SI, angles radians, wavelengths nanometres. +z is the zenith, azimuths count counter-clockwise from +x seen
 from above, directions point away from the observer and need not be normalised. Arrays may have any real dtype and any
@@ -16,6 +20,7 @@ leading shape; contiguous float32 (directions) and float64 (points, conditions) 
 be changed by another thread meanwhile: evaluation runs without the interpreter's lock.
 """
 
+from . import _native
 from ._native import (
     AerialPerspective,
     BakedBandSky,
@@ -67,7 +72,8 @@ from .errors import (
     WelkinError,
 )
 from .exposure import expose
-from .grids import Grid, fish_eye, lat_long
+from .grids import Grid, directions, fish_eye, lat_long
+from .immutable import make_immutable
 from .labelled import to_xarray
 from .plots import plot
 from .samples import Samples
@@ -124,6 +130,7 @@ __all__ = [
     "colour_space_matrix",
     "default_model",
     "degree_of_polarisation",
+    "directions",
     "expose",
     "fish_eye",
     "from_bytes",
@@ -142,3 +149,6 @@ for _kind in (*_COLOURED, SkySum):
     setattr(_kind, "plot", plot)
 for _kind in (*_COLOURED, BandSky, BakedBandSky):
     setattr(_kind, "to_xarray", to_xarray)
+for _kind in vars(_native).values():
+    if isinstance(_kind, type):
+        make_immutable(_kind)

@@ -12,7 +12,8 @@ class Conditions:
 
     solar_elevation: geometric, of the sun's centre above the observer's horizontal plane
     solar_azimuth: counter-clockwise from +x seen from above
-    visibility: horizontal meteorological range at the ground
+    visibility: horizontal meteorological range at the ground: where black things have 2 % contrast at 550 nm, so that
+        the extinction coefficient of the air there is 3.912 / visibility
     albedo: 0 to 1, of the ground, the same at all wavelengths
     altitude: of the observer above the ground; from −500 up to 0 it counts as 0
     """

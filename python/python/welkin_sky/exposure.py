@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import InvalidValueError
+
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _RANGE = 4.0
@@ -21,7 +23,7 @@ def expose(rgb: ArrayLike, white: float | None = None) -> NDArray[np.float64]:
         lit = luminance[np.isfinite(luminance) & (luminance > 0)]
         white = float(np.percentile(lit, 99.5)) if lit.size else 1.0
     if not white > 0:
-        raise ValueError(f"white must be a luminance above 0 cd m⁻², got {white}")
+        raise InvalidValueError(f"white must be a luminance above 0 cd m⁻², got {white}")
     share = _RANGE * np.maximum(luminance, 0.0) / white
     factor = _RANGE / white * (1.0 + share / _RANGE**2) / (1.0 + share)
     return _encode(_within_gamut(rgb * factor[..., None]))

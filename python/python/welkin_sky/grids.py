@@ -1,15 +1,21 @@
 """Grids of directions for images, with the solid angle of each pixel."""
 
 from dataclasses import dataclass
+from operator import index
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import InvalidValueError
+
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Pixels of an image of the sky."""
+    """Pixels of an image of the sky: `grid.image(sky.radiance_at(grid.visible, 550.0))`.
+
+    Outside of the image, in the corners of a fish-eye, directions are NaN, which skies refuse: ask for `visible`.
+    """
 
     directions: NDArray[np.float32]
     """Unit vectors (rows, columns, 3); NaN outside of the image."""
@@ -35,8 +41,9 @@ def fish_eye(size: int) -> Grid:
     """The upper hemisphere as an equidistant fish-eye of (size, size): zenith in the middle, horizon at the rim.
 
     +x is to the right and +y up, as on a map; who lies on the ground and looks up sees it mirrored.
+    Directions in the corners are NaN: ask skies for `grid.visible`, and put the answers in place by `grid.image`.
     """
-    _require(size, 1)
+    size = _require(size, 1)
     step = (2 * np.arange(size) + 1) / size - 1
     x, y = np.meshgrid(step, -step)
     radius = np.hypot(x, y)
@@ -56,7 +63,7 @@ def lat_long(height: int) -> Grid:
     The top row is at the zenith, the middle of the columns looks along +x, and columns run clockwise seen from above:
     the environment map that renderers expect.
     """
-    _require(height, 2)
+    height = _require(height, 2)
     edges = np.pi / 2 - np.pi * np.arange(height + 1) / height
     elevation = (edges[:-1] + edges[1:]) / 2
     azimuth = np.pi - np.pi * (np.arange(2 * height) + 0.5) / height
@@ -75,6 +82,11 @@ def directions(elevation: ArrayLike, azimuth: ArrayLike) -> NDArray[np.float32]:
     return np.stack(parts, axis=-1).astype(np.float32)
 
 
-def _require(size: int, least: int) -> None:
+def _require(size: int, least: int) -> int:
+    try:
+        size = index(size)
+    except TypeError:
+        raise TypeError(f"the rows of an image are a whole number, got {size!r}") from None
     if size < least:
-        raise ValueError(f"an image has at least {least} rows, got {size}")
+        raise InvalidValueError(f"an image has at least {least} rows, got {size}")
+    return size

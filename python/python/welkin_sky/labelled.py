@@ -11,7 +11,12 @@ from .grids import directions
 if TYPE_CHECKING:
     import xarray
 
-_RADIANCE = {"long_name": "spectral radiance", "units": "W m-2 sr-1 nm-1"}
+_RADIANCE = {
+    "long_name": "spectral radiance",
+    "units": "W m-2 sr-1 nm-1",
+    "comment": "of radiance_at or stokes_at: true within absorption bands too, where radiance and stokes, the nodes of "
+    "the model, are not",
+}
 
 
 def to_xarray(
@@ -25,7 +30,8 @@ def to_xarray(
 
     Every degree of elevation from the horizon up and every five degrees of azimuth if not given. What the data set has
     depends on the sky: `radiance` (elevation, azimuth, wavelength or band), `stokes` (elevation, azimuth, component,
-    wavelength), `xyz` (elevation, azimuth, primary). wavelengths: nm, (K,), in place of those of the model.
+    wavelength), `xyz` (elevation, azimuth, primary). wavelengths: nm, (K,), in place of those of the model. Spectra
+    are those of `radiance_at` and `stokes_at`, also at the wavelengths of the model.
     """
     import xarray
 
@@ -59,12 +65,10 @@ def _add_spectra(data: Any, sky: Any, towards: NDArray[np.float32], wavelengths:
     units = {"units": "nm", "long_name": "wavelength"}
     data.coords["wavelength"] = ("wavelength", at, units)
     if hasattr(sky, "stokes"):
-        stokes = sky.stokes(towards) if wavelengths is None else sky.stokes_at(towards, at)
-        data["stokes"] = ((*place, "component", "wavelength"), stokes, _RADIANCE)
+        data["stokes"] = ((*place, "component", "wavelength"), sky.stokes_at(towards, at), _RADIANCE)
         data.coords["component"] = ("component", ["I", "Q", "U"])
         return
-    radiance = sky.radiance(towards) if wavelengths is None else sky.radiance_at(towards, at)
-    data["radiance"] = ((*place, "wavelength"), radiance, _RADIANCE)
+    data["radiance"] = ((*place, "wavelength"), sky.radiance_at(towards, at), _RADIANCE)
 
 
 def _add_colours(data: Any, sky: Any, towards: NDArray[np.float32]) -> None:

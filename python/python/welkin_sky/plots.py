@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._native import colour_space_matrix
+from .errors import InvalidValueError
 from .exposure import expose
 from .grids import fish_eye
 from .stokes import degree_of_polarisation
@@ -59,7 +60,7 @@ def _values(
         degree = degree_of_polarisation(_stokes_at(sky, directions, at))[..., 0]
         return f"degree of polarisation at {at:g} nm", degree
     if quantity != "radiance":
-        raise ValueError(f"unknown quantity {quantity!r}: known are radiance, degree")
+        raise InvalidValueError(f"unknown quantity {quantity!r}: known are radiance, degree")
     if wavelength is not None:
         label = f"radiance at {wavelength:g} nm, W m⁻² sr⁻¹ nm⁻¹"
         return label, _radiance_at(sky, directions, wavelength)
@@ -87,9 +88,6 @@ def _stokes_at(sky: Any, directions: Floats, wavelength: float) -> Floats:
     """Stokes vectors (N, 3, 1)."""
     if hasattr(sky, "stokes_at"):
         return np.asarray(sky.stokes_at(directions, wavelength))
-    if hasattr(sky, "hero"):
-        four = np.full(4, wavelength, np.float32)
-        return np.asarray(sky.hero(directions, four))[..., :1]
     raise TypeError(f"a {type(sky).__name__} is not polarised")
 
 

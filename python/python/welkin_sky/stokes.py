@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import LengthError
+
 
 def degree_of_polarisation(stokes: ArrayLike) -> NDArray[np.floating[Any]]:
     """Degree of linear polarisation, 0 to 1, and 0 without light: (…, 3, W) → (…, W)."""
@@ -26,4 +28,7 @@ def through_polariser(stokes: ArrayLike, angle: float) -> NDArray[np.floating[An
 
 
 def _parts(stokes: ArrayLike) -> NDArray[np.floating[Any]]:
-    return np.moveaxis(np.asarray(stokes), -2, 0)
+    stokes = np.asarray(stokes)
+    if stokes.ndim < 2 or stokes.shape[-2] != 3:
+        raise LengthError(f"stokes must have the shape (…, 3, W), got {stokes.shape}")
+    return np.moveaxis(stokes, -2, 0)

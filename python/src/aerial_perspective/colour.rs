@@ -9,6 +9,7 @@ use crate::conditions;
 use crate::errors::raise;
 use crate::rows::alone;
 use crate::sky::space;
+use crate::threads::Threads;
 use crate::transmittance::Lines;
 
 /// An aerial perspective for colour alone. Made by `Model.colour_aerial_perspective`. Points as of `AerialPerspective`.
@@ -54,7 +55,7 @@ impl PyColourAerialPerspective {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let lines = Lines::read(start, end, "end")?;
         lines.fill_two(py, threads, RGB, |start, end, light, factors| {
@@ -70,7 +71,7 @@ impl PyColourAerialPerspective {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let space = self::space(py, space)?;
         let lines = Lines::read(start, end, "end")?;

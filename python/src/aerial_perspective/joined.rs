@@ -8,6 +8,7 @@ use welkin::{AerialPerspective, Result, Sky};
 use super::{Pair, RGB, colours};
 use crate::errors::raise;
 use crate::sky::space;
+use crate::threads::Threads;
 use crate::transmittance::Lines;
 
 /// The air between an observer and things before the observer's sky. Made by `AerialPerspective.joined_to`.
@@ -50,7 +51,7 @@ impl PyJoinedAerialPerspective {
         &self,
         py: Python<'py>,
         points: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let joined = self.joined().map_err(|error| raise(py, error))?;
         let width = self.aerial.wavelengths().len();
@@ -70,7 +71,7 @@ impl PyJoinedAerialPerspective {
         py: Python<'py>,
         points: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let space = self::space(py, space)?;
         let joined = self.joined().map_err(|error| raise(py, error))?;

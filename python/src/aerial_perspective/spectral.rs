@@ -13,12 +13,16 @@ use crate::errors::raise;
 use crate::frame;
 use crate::rows::alone;
 use crate::sky::{PySky, space};
+use crate::threads::Threads;
 use crate::transmittance::{Lines, PyTransmittance, each};
 
 /// Transmittance and in-scattered light of segments in one scene. Made by `Model.aerial_perspective`.
 ///
 /// Points are arrays (…, 3) in metres: the origin is on the ground, +z up there. Starts and ends are broadcast against
 /// each other. What is seen of a thing is in_scattering + transmittance · thing.
+///
+/// For spectra ask the methods `…_at`: those without give the nodes of the model, which are not the spectrum within
+/// absorption bands (see `wavelengths`).
 #[pyclass(frozen, name = "AerialPerspective", module = "welkin_sky")]
 pub struct PyAerialPerspective {
     pub aerial: Arc<AerialPerspective>,
@@ -40,7 +44,11 @@ impl PyAerialPerspective {
         conditions::shown(py, self.aerial.conditions())
     }
 
-    /// Wavelengths of the results, nm: (W,).
+    /// Wavelengths of the results, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, which may be several times as much:
+    /// `in_scattering_at` and `transmittance.between_at` give that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.aerial.wavelengths())
@@ -75,13 +83,15 @@ impl PyAerialPerspective {
 
     /// Light that the air between points scatters to the start, W m⁻² sr⁻¹ nm⁻¹, and the transmittance between them:
     /// (…, 3), (…, 3) → (…, W), (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `in_scattering_at`.
     #[pyo3(signature = (start, end, *, threads=None))]
     fn in_scattering<'py>(
         &self,
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let width = self.aerial.wavelengths().len();
         let tails: [&[usize]; 2] = [&[width], &[width]];
@@ -99,7 +109,7 @@ impl PyAerialPerspective {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let width = self.aerial.wavelengths().len();
         let tails: [&[usize]; 2] = [&[width], &[width]];
@@ -118,7 +128,7 @@ impl PyAerialPerspective {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let asked = self::wavelengths(wavelengths)?;
         let lines = Lines::read(start, end, "end")?;
@@ -136,7 +146,7 @@ impl PyAerialPerspective {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let frame = frame::read(frame)?;
         let width = self.aerial.wavelengths().len();
@@ -159,7 +169,7 @@ impl PyAerialPerspective {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let lines = Lines::read(start, end, "end")?;
         lines.fill_two(py, threads, RGB, |start, end, light, factors| {
@@ -175,7 +185,7 @@ impl PyAerialPerspective {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let space = self::space(py, space)?;
         let lines = Lines::read(start, end, "end")?;
@@ -193,7 +203,7 @@ impl PyAerialPerspective {
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let frame = frame::read(frame)?;
         let lines = Lines::read(start, end, "end")?;

@@ -10,6 +10,7 @@ use crate::errors::raise;
 use crate::sampler::PySkySampler;
 use crate::sky::space;
 use crate::solar_disc::PySolarDisc;
+use crate::threads::Threads;
 
 /// A sky as tables of its colour, the fastest of all. Made by `ColourSky.bake` or `SunCourse.at`. Directions as of
 /// `Sky`.
@@ -57,7 +58,7 @@ impl PyBakedColourSky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill(py, threads, &directions, &[3], |directions, out| {
@@ -73,7 +74,7 @@ impl PyBakedColourSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         space: &str,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let space = self::space(py, space)?;
         let directions = Directions::directions(directions)?;

@@ -6,13 +6,14 @@ use pyo3::prelude::*;
 use welkin::{BakedPolarisedSky, BakedSky, Directions as Separate, Result, StokesSpectra};
 
 use super::{Error, error, separate, shown};
-use crate::arrays::{Array, Directions, Output, fill, list};
+use crate::arrays::{Array, Directions, Output, fill, list, wavelengths};
 use crate::broadcast::{Operand, common};
 use crate::conditions;
 use crate::errors::raise;
 use crate::frame;
-use crate::polarised::part;
+use crate::polarised::{part, stokes_rows};
 use crate::rows::{block_rows, run};
+use crate::threads::Threads;
 
 /// A polarised sky as tables. Made by `PolarisedSky.bake`. Directions as of `Sky`, frames as of `PolarisedSky.stokes`.
 #[pyclass(frozen, name = "BakedPolarisedSky", module = "welkin_sky")]
@@ -40,7 +41,11 @@ impl PyBakedPolarisedSky {
         conditions::shown(py, self.plain().conditions())
     }
 
-    /// Wavelengths of `stokes`, nm: (W,).
+    /// Wavelengths of `stokes`, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they differ by up to 40 %:
+    /// `stokes_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.plain().wavelengths())
@@ -71,13 +76,15 @@ impl PyBakedPolarisedSky {
         Ok(sky.into())
     }
 
-    /// Spectral radiance without polarisation, W m⁻² sr⁻¹ nm⁻¹: (…, 3) → (…, W).
+    /// Radiance without polarisation at the nodes `wavelengths`, W m⁻² sr⁻¹ nm⁻¹: (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `stokes_at` for I.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.plain().wavelengths().len()];
@@ -88,14 +95,16 @@ impl PyBakedPolarisedSky {
         })
     }
 
-    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, 3, W).
+    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths`: (…, 3) → (…, 3, W).
+    ///
+    /// Within absorption bands the nodes are not spectra: see `wavelengths`, and ask `stokes_at`.
     #[pyo3(signature = (directions, frame=None, *, threads=None))]
     fn stokes<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         let directions = Directions::directions(directions)?;
@@ -106,6 +115,30 @@ impl PyBakedPolarisedSky {
         spectra(py, threads, &directions, width, evaluate)
     }
 
+    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm, a number or (K,), that are the same for all
+    /// directions: (…, 3) → (…, 3, K). Takes them in single precision, four at a time, as `hero`.
+    #[pyo3(signature = (directions, wavelengths, frame=None, *, threads=None))]
+    fn stokes_at<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        wavelengths: &Bound<'py, PyAny>,
+        frame: Option<&Bound<'py, PyAny>>,
+        threads: Option<Threads>,
+    ) -> PyResult<Array<'py>> {
+        let frame = frame::read(frame)?;
+        let asked = self::wavelengths(wavelengths)?;
+        let directions = Directions::directions(directions)?;
+        stokes_rows(py, threads, &directions, asked.len(), |direction, out| {
+            for (asked, out) in asked.chunks(4).zip(out.chunks_mut(4)) {
+                let four = std::array::from_fn(|i| asked[i.min(asked.len() - 1)] as f32);
+                let stokes = self.sky.hero(direction, frame, four)?;
+                out.copy_from_slice(&stokes[..out.len()]);
+            }
+            Ok(())
+        })
+    }
+
     /// Stokes vectors at four wavelengths (nm) for each direction: (…, 3), (…, 4) → (…, 3, 4).
     #[pyo3(signature = (directions, wavelengths, frame=None, *, threads=None))]
     fn hero<'py>(
@@ -114,12 +147,12 @@ impl PyBakedPolarisedSky {
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         let directions: Operand<f32, 3> = Operand::vectors(directions, "directions")?;
         let wavelengths: Operand<f32, 4> = Operand::vectors(wavelengths, "wavelengths")?;
-        let lead = common(py, &[directions.lead(), wavelengths.lead()])?;
+        let lead = common(py, &[directions.named(), wavelengths.named()])?;
         let (directions, wavelengths) = (directions.spread(&lead)?, wavelengths.spread(&lead)?);
         let (directions, wavelengths) = (directions.values()?, wavelengths.values()?);
         let mut output = Output::new(py, &lead, &[3, 4])?;
@@ -152,7 +185,7 @@ impl PyBakedPolarisedSky {
 /// Fills an array (…, 3, width) from planes of I, Q and U.
 pub fn spectra<'py>(
     py: Python<'py>,
-    threads: Option<usize>,
+    threads: Option<Threads>,
     directions: &Directions<'py>,
     width: usize,
     evaluate: impl Fn(&Separate, StokesSpectra) -> Result<()> + Sync,

@@ -11,8 +11,11 @@ use crate::broadcast::{Operand, common};
 use crate::conditions;
 use crate::errors::raise;
 use crate::rows::{block_rows, run};
+use crate::threads::Threads;
 
 /// A sky as tables: many times faster than the `Sky` that it was made from. Made by `Sky.bake`. Directions as of `Sky`.
+///
+/// Spectra are what `radiance_at` gives: `radiance` gives the nodes of the model (see `wavelengths`).
 #[pyclass(frozen, name = "BakedSky", module = "welkin_sky")]
 pub struct PyBakedSky {
     pub sky: Arc<BakedSky>,
@@ -32,7 +35,11 @@ impl PyBakedSky {
         conditions::shown(py, self.sky.conditions())
     }
 
-    /// Wavelengths of `radiance`, nm: (W,).
+    /// Wavelengths of `radiance`, nm: (W,), the nodes of the model.
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral quantity there, from which they differ by up to 40 %:
+    /// `radiance_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.sky.wavelengths())
@@ -57,13 +64,15 @@ impl PyBakedSky {
         Ok(sky.into())
     }
 
-    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths`: (…, 3) → (…, W).
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths`: (…, 3) → (…, W).
+    ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `radiance_at`.
     #[pyo3(signature = (directions, *, threads=None))]
     fn radiance<'py>(
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         let tail = [self.sky.wavelengths().len()];
@@ -82,7 +91,7 @@ impl PyBakedSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let asked = self::wavelengths(wavelengths)?;
         let directions = Directions::directions(directions)?;
@@ -109,11 +118,11 @@ impl PyBakedSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions: Operand<f32, 3> = Operand::vectors(directions, "directions")?;
         let wavelengths: Operand<f32, 4> = Operand::vectors(wavelengths, "wavelengths")?;
-        let lead = common(py, &[directions.lead(), wavelengths.lead()])?;
+        let lead = common(py, &[directions.named(), wavelengths.named()])?;
         let (directions, wavelengths) = (directions.spread(&lead)?, wavelengths.spread(&lead)?);
         let (directions, wavelengths) = (directions.values()?, wavelengths.values()?);
         let mut output = Output::new(py, &lead, &[4])?;
@@ -135,7 +144,7 @@ impl PyBakedSky {
         &self,
         py: Python<'py>,
         normals: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let normals = Vectors::read(normals, "normals")?;
         let tail = [self.sky.wavelengths().len()];

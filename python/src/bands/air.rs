@@ -6,6 +6,7 @@ use welkin::{BandAerialPerspective, BandTransmittance};
 use crate::aerial_perspective::Pair;
 use crate::arrays::Array;
 use crate::conditions;
+use crate::threads::Threads;
 use crate::transmittance::Lines;
 
 /// The air at one visibility in the bands of a sensor. Made by `Model.band_transmittance`. Points as of
@@ -36,7 +37,7 @@ impl PyBandTransmittance {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let lines = Lines::read(start, end, "end")?;
         lines.fill(py, threads, self.air.bands(), |start, end, out| {
@@ -51,7 +52,7 @@ impl PyBandTransmittance {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let lines = Lines::read(start, directions, "directions")?;
         lines.fill(py, threads, self.air.bands(), |start, direction, out| {
@@ -95,7 +96,7 @@ impl PyBandAerialPerspective {
         py: Python<'py>,
         start: &Bound<'py, PyAny>,
         end: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Pair<'py>> {
         let width = self.aerial.bands();
         let tails: [&[usize]; 2] = [&[width], &[width]];

@@ -11,6 +11,7 @@ use welkin::{Bands, Response};
 use crate::arrays::{Array, Output, list, numbers, shown};
 use crate::errors::{raise, refuse};
 use crate::rows::{block_rows, run};
+use crate::threads::Threads;
 
 /// What a band of a sensor makes of light: its response over wavelength. Made by `Response.wavelength` or `.table`.
 #[pyclass(frozen, name = "Response", module = "welkin_sky")]
@@ -114,7 +115,7 @@ impl PyBands {
         &self,
         py: Python<'py>,
         relative_radiance: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let relative = numbers::<f32>(relative_radiance, "relative_radiance")?;
         let Some((&width, lead)) = relative.shape().split_last() else {

@@ -10,6 +10,7 @@ use crate::errors::raise;
 use crate::frame;
 use crate::polarised::stokes_rows;
 use crate::rows::alone;
+use crate::threads::Threads;
 
 /// A sky in the bands of a sensor. Made by `Model.band_sky`. Directions as of `Sky`.
 #[pyclass(frozen, name = "BandSky", module = "welkin_sky")]
@@ -56,7 +57,7 @@ impl PyBandSky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill(
@@ -114,7 +115,7 @@ impl PyBakedBandSky {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill(
@@ -137,7 +138,7 @@ impl PyBakedBandSky {
         &self,
         py: Python<'py>,
         normals: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let normals = Vectors::read(normals, "normals")?;
         fill_each(py, threads, &normals, &[self.sky.bands()], |normal, out| {
@@ -183,7 +184,7 @@ impl PyPolarisedBandSky {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
         let directions = Directions::directions(directions)?;

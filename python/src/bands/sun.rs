@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use welkin::BandSolarDisc;
 
 use crate::arrays::{Array, Directions, Vectors, fill_each};
+use crate::threads::Threads;
 
 /// The disc of the sun in the bands of a sensor. Made by `Model.band_solar_disc`. Directions as of `Sky`.
 #[pyclass(frozen, name = "BandSolarDisc", module = "welkin_sky")]
@@ -43,7 +44,7 @@ impl PyBandSolarDisc {
         &self,
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let directions = Directions::directions(directions)?;
         fill_each(
@@ -62,7 +63,7 @@ impl PyBandSolarDisc {
         &self,
         py: Python<'py>,
         normals: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
     ) -> PyResult<Array<'py>> {
         let normals = Vectors::read(normals, "normals")?;
         fill_each(

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use welkin::{BakedSky, Budget, Channels, Plan};
 
 use super::PyModel;
+use crate::arrays::pair;
 use crate::errors::refuse;
 use crate::rows::alone;
 
@@ -29,16 +30,24 @@ impl PyModel {
     fn plan(
         &self,
         py: Python<'_>,
-        altitude: Option<[f64; 2]>,
-        visibility: Option<[f64; 2]>,
-        solar_elevation: Option<[f64; 2]>,
+        altitude: Option<&Bound<'_, PyAny>>,
+        visibility: Option<&Bound<'_, PyAny>>,
+        solar_elevation: Option<&Bound<'_, PyAny>>,
         tolerance: f64,
         channels: &str,
     ) -> PyResult<PyPlan> {
+        let within = |given: Option<&Bound<'_, PyAny>>, name, whole, unit| {
+            given.map_or(Ok(whole), |given| pair(given, name, whole, unit))
+        };
         let budget = Budget {
-            altitude: altitude.unwrap_or(self.model.altitude_range()),
-            visibility: visibility.unwrap_or(self.model.visibility_range()),
-            solar_elevation: solar_elevation.unwrap_or(self.model.solar_elevation_range()),
+            altitude: within(altitude, "altitude", self.model.altitude_range(), "m")?,
+            visibility: within(visibility, "visibility", self.model.visibility_range(), "m")?,
+            solar_elevation: within(
+                solar_elevation,
+                "solar_elevation",
+                self.model.solar_elevation_range(),
+                "rad",
+            )?,
             tolerance,
             channels: channels_of(py, channels)?,
         };

@@ -6,16 +6,20 @@ use pyo3::types::PyDict;
 use welkin::{BakedSky, Budget, Channels, Conditions, Model, PointQuery, Result, Stokes};
 
 use super::PyModel;
-use crate::arrays::{Array, Output, wavelengths};
+use crate::arrays::{Array, Output};
+use crate::bands::PyBands;
 use crate::broadcast::{Operand, Values, common};
 use crate::conditions::{Columns, Rows};
 use crate::frame;
 use crate::rows::{alone, block_rows, run};
+use crate::spectrum::Spectrum;
+use crate::threads::Threads;
 
 #[pymethods]
 impl PyModel {
-    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at `wavelengths` of the model under any conditions: (…, 3) → (…, W).
+    /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at the nodes `wavelengths` under any conditions: (…, 3) → (…, W).
     ///
+    /// Within absorption bands the nodes are not spectral radiance: see `wavelengths`, and ask `radiance_at`.
     /// Every condition may be an array: all are broadcast against each other and the leading shape of the directions.
     /// Nothing is prepared, so that conditions may differ from row to row; for one set of conditions `sky` is faster.
     #[pyo3(
@@ -28,7 +32,7 @@ impl PyModel {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         conditions: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Array<'py>> {
         let scene = Scene::read(py, directions, conditions, keywords)?;
@@ -57,7 +61,7 @@ impl PyModel {
         py: Python<'py>,
         directions: &Bound<'py, PyAny>,
         conditions: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Array<'py>> {
         let scene = Scene::read(py, directions, conditions, keywords)?;
@@ -70,6 +74,8 @@ impl PyModel {
     }
 
     /// Spectral radiance, W m⁻² sr⁻¹ nm⁻¹, at wavelengths in nm, a number or (K,): (…, 3) → (…, K).
+    ///
+    /// The nodes are evaluated once for all of them. Conditions as of `radiance`.
     #[pyo3(
         signature = (directions, wavelengths, conditions=None, *, threads=None, **keywords),
         text_signature = "($self, directions, wavelengths, conditions=None, *, \
@@ -81,30 +87,53 @@ impl PyModel {
         directions: &Bound<'py, PyAny>,
         wavelengths: &Bound<'py, PyAny>,
         conditions: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Array<'py>> {
-        let asked = self::wavelengths(wavelengths)?;
+        let rule = alone(py, || self.model.spectral_interpolation())?;
+        let spectrum = Spectrum::read(rule, wavelengths, |l| rule.solar_irradiance(l))?;
         let scene = Scene::read(py, directions, conditions, keywords)?;
         let rows = scene.rows()?;
         let query = alone(py, || point_query(&self.model, rows))?;
-        let own = self.moonlight(py, &asked)?;
-        scene.fill(py, threads, &[asked.len()], |conditions, direction, out| {
-            for (k, (value, &wavelength)) in out.iter_mut().zip(&asked).enumerate() {
-                *value = match &own {
-                    None => query.radiance_at(conditions, direction, wavelength)?,
-                    Some(irradiance) => {
-                        let relative =
-                            query.relative_radiance_at(conditions, direction, wavelength)?;
-                        relative * irradiance[k]
-                    }
-                };
-            }
-            Ok(())
+        let (nodes, width) = (self.model.wavelengths().len(), spectrum.len());
+        scene.fill(py, threads, &[width], |conditions, direction, out| {
+            let mut values = vec![0.0; nodes];
+            query.relative_radiance(conditions, direction, &mut values)?;
+            spectrum.write(&values, out)
         })
     }
 
-    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, under any conditions: (…, 3) → (…, 3, W). Broadcasts as `radiance`.
+    /// Values of bands under any conditions, in the units of their `Response`s: (…, 3) → (…, B). Broadcasts as
+    /// `radiance`.
+    #[pyo3(
+        signature = (directions, bands, conditions=None, *, threads=None, **keywords),
+        text_signature = "($self, directions, bands, conditions=None, *, \
+            solar_elevation=None, solar_azimuth=None, visibility=None, albedo=None, altitude=None, threads=None)"
+    )]
+    fn band_radiance<'py>(
+        &self,
+        py: Python<'py>,
+        directions: &Bound<'py, PyAny>,
+        bands: &PyBands,
+        conditions: Option<&Bound<'py, PyAny>>,
+        threads: Option<Threads>,
+        keywords: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Array<'py>> {
+        let scene = Scene::read(py, directions, conditions, keywords)?;
+        let rows = scene.rows()?;
+        let query = alone(py, || point_query(&self.model, rows))?;
+        let nodes = self.model.wavelengths().len();
+        let width = bands.bands.count();
+        scene.fill(py, threads, &[width], |conditions, direction, out| {
+            let mut values = vec![0.0; nodes];
+            query.relative_radiance(conditions, direction, &mut values)?;
+            bands.bands.project(&values, out)
+        })
+    }
+
+    /// Stokes vectors I, Q, U, W m⁻² sr⁻¹ nm⁻¹, at the nodes under any conditions: (…, 3) → (…, 3, W). Broadcasts
+    /// as `radiance`. Within absorption bands the nodes are not spectra: see `wavelengths`, and ask
+    /// `PolarisedSky.stokes_at`.
     ///
     /// frame: as of `PolarisedSky.stokes`.
     #[pyo3(
@@ -119,7 +148,7 @@ impl PyModel {
         directions: &Bound<'py, PyAny>,
         conditions: Option<&Bound<'py, PyAny>>,
         frame: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Array<'py>> {
         let frame = frame::read(frame)?;
@@ -195,7 +224,7 @@ impl<'py> Scene<'py> {
     ) -> PyResult<Self> {
         let directions = Operand::vectors(directions, "directions")?;
         let columns = Columns::read(py, conditions, keywords)?;
-        let shapes: Vec<_> = columns.shapes().chain([directions.lead()]).collect();
+        let shapes: Vec<_> = columns.shapes().chain([directions.named()]).collect();
         let lead = common(py, &shapes)?;
         Ok(Self {
             directions: directions.spread(&lead)?,
@@ -211,7 +240,7 @@ impl<'py> Scene<'py> {
     fn fill<T: Element>(
         &self,
         py: Python<'py>,
-        threads: Option<usize>,
+        threads: Option<Threads>,
         tail: &[usize],
         work: impl Fn(&Conditions, [f32; 3], &mut [T]) -> Result<()> + Sync,
     ) -> PyResult<Array<'py, T>> {

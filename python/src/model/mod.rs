@@ -22,6 +22,8 @@ use opening::Recipe;
 ///
 /// Made by `default_model`, `open`, `from_bytes` or `stream`. Frame of everything: metres, radians, nanometres; +z is
 /// the zenith, azimuths count counter-clockwise from +x seen from above.
+///
+/// Spectra are what the methods `…_at` give: those without give the nodes of the model (see `wavelengths`).
 #[pyclass(frozen, name = "Model", module = "welkin_sky")]
 pub struct PyModel {
     pub model: Arc<Model>,
@@ -40,6 +42,10 @@ impl PyModel {
 #[pymethods]
 impl PyModel {
     /// Wavelengths that the file stores, its nodes, nm: (W,).
+    ///
+    /// At nodes within absorption bands (of the default model 580, 605, 740, 762, 763, 825, 939 and 941 nm) values are
+    /// terms that spectra are made of and not the spectral radiance there, from which they differ by up to 40 %:
+    /// `radiance_at` gives that at any wavelength, these among them.
     #[getter]
     fn wavelengths<'py>(&self, py: Python<'py>) -> PyResult<Array<'py, f64>> {
         list(py, self.model.wavelengths())

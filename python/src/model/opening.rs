@@ -12,6 +12,8 @@ use crate::moon;
 use crate::rows::alone;
 use crate::source::{Source, to_bytes};
 
+const STREAMED: &str = "a streamed model cannot be pickled: open the file, and pickle that model";
+
 /// How a model was opened, to do it again in another process.
 pub enum Recipe {
     Default,
@@ -48,7 +50,7 @@ impl Recipe {
                     .into_any()
             }
             Self::Stream => {
-                return Err(PyTypeError::new_err("a streamed model cannot be pickled"));
+                return Err(PyTypeError::new_err(STREAMED));
             }
             Self::Moonlit(of, moon) => {
                 let model = of.open(py)?.into_pyobject(py)?;
@@ -65,7 +67,7 @@ impl Recipe {
             Self::Default => default_model(py),
             Self::Path(path, in_memory) => open(py, path.clone(), *in_memory),
             Self::Bytes(bytes) => from_bytes(py, bytes.bind(py).as_any()),
-            Self::Stream => Err(PyTypeError::new_err("a streamed model cannot be pickled")),
+            Self::Stream => Err(PyTypeError::new_err(STREAMED)),
             Self::Moonlit(of, moon) => of.open(py)?.moonlit_by(py, moon),
         }
     }
@@ -97,6 +99,8 @@ pub fn open(py: Python<'_>, path: PathBuf, in_memory: bool) -> PyResult<PyModel>
         true => Model::read(&path),
         false => Model::open(&path),
     });
+    // Another process may run elsewhere.
+    let path = std::path::absolute(&path).unwrap_or(path);
     Ok(PyModel::new(opened?, Recipe::Path(path, in_memory)))
 }
 

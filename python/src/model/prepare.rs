@@ -6,8 +6,9 @@ use pyo3::types::PyDict;
 use super::PyModel;
 use crate::aerial_perspective::colour::PyColourAerialPerspective;
 use crate::aerial_perspective::spectral::PyAerialPerspective;
+use crate::arrays::{pair, scalar};
 use crate::conditions;
-use crate::moon::{self, PySkySum};
+use crate::moon::PySkySum;
 use crate::polarised::PyPolarisedSky;
 use crate::rows::alone;
 use crate::sky::{PyColourSky, PySky};
@@ -89,7 +90,9 @@ impl PyModel {
     }
 
     /// Transmittance and in-scattered light of segments in one scene. Conditions as of `sky`; they hold at the origin
-    /// of the points, and their altitude does not count.
+    /// of the points.
+    ///
+    /// THE ALTITUDE DOES NOT COUNT: how high an observer is, the z of the points says.
     #[pyo3(
         signature = (conditions=None, **keywords),
         text_signature = "($self, conditions=None, *, \
@@ -135,7 +138,7 @@ impl PyModel {
         keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PySkySum> {
         let conditions = conditions::read(conditions, keywords)?;
-        let moon = moon::read(moon)?;
+        let moon = self.moon(moon)?;
         let sky = alone(py, || self.model.sky_with_moon(&conditions, &moon))?;
         Ok(PySkySum::new(sky, self.model.wavelengths().len()))
     }
@@ -143,18 +146,24 @@ impl PyModel {
     /// The same model with the moon in place of the sun: conditions say where the moon stands as `solar_elevation` and
     /// `solar_azimuth` (`Moon.conditions`). moon: a `Moon`.
     fn moonlit(&self, py: Python<'_>, moon: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.moonlit_by(py, &moon::read(moon)?)
+        self.moonlit_by(py, &self.moon(moon)?)
     }
 
     /// The air at a visibility (m).
-    fn transmittance(&self, py: Python<'_>, visibility: f64) -> PyResult<PyTransmittance> {
+    fn transmittance(
+        &self,
+        py: Python<'_>,
+        visibility: &Bound<'_, PyAny>,
+    ) -> PyResult<PyTransmittance> {
+        let visibility = scalar(visibility, "visibility", "")?;
         Ok(alone(py, || self.model.transmittance(visibility))?.into())
     }
 
     /// Colour skies of all suns in a range, baked beforehand.
     ///
-    /// elevations: lowest and highest elevation of the sun, rad. tolerance: as of `Sky.bake`. Conditions as of `sky`;
-    /// the sun's elevation does not count.
+    /// elevations: lowest and highest elevation of the sun, rad. tolerance: as of `Sky.bake`. Conditions as of `sky`.
+    ///
+    /// THE SOLAR ELEVATION OF THE CONDITIONS DOES NOT COUNT: `elevations` takes its place.
     #[pyo3(
         signature = (elevations, tolerance=welkin::BakedSky::TOLERANCE, conditions=None, **keywords),
         text_signature = "($self, elevations, tolerance=0.0025, conditions=None, *, \
@@ -163,12 +172,18 @@ impl PyModel {
     fn sun_course(
         &self,
         py: Python<'_>,
-        elevations: [f64; 2],
+        elevations: &Bound<'_, PyAny>,
         tolerance: f64,
         conditions: Option<&Bound<'_, PyAny>>,
         keywords: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PySunCourse> {
         let conditions = conditions::read(conditions, keywords)?;
+        let elevations = pair(
+            elevations,
+            "elevations",
+            self.model.solar_elevation_range(),
+            "rad",
+        )?;
         let made = || self.model.sun_course(&conditions, elevations, tolerance);
         Ok(alone(py, made)?.into())
     }

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::PyModel;
+use crate::arrays::scalar;
 use crate::bands::air::{PyBandAerialPerspective, PyBandTransmittance};
 use crate::bands::sky::{PyBandSky, PyPolarisedBandSky};
 use crate::bands::sun::PyBandSolarDisc;
@@ -99,9 +100,10 @@ impl PyModel {
     fn band_transmittance(
         &self,
         py: Python<'_>,
-        visibility: f64,
+        visibility: &Bound<'_, PyAny>,
         bands: &PyBands,
     ) -> PyResult<PyBandTransmittance> {
+        let visibility = scalar(visibility, "visibility", "")?;
         let made = || self.model.band_transmittance(visibility, &bands.bands);
         Ok(alone(py, made)?.into())
     }
