@@ -109,10 +109,10 @@ impl ColourAerialPerspective {
     ///
     /// # Errors
     /// As [`ColourAerialPerspective::linear_srgb_along`]; [`Error::Direction`] for an axis that is not finite;
-    /// [`Error::Length`] unless both outputs
-    /// have an element for every slice of every ray. One ray in error ends it: cameras high up must not look further
-    /// than [`AerialPerspective::reach`](crate::AerialPerspective::reach) below the ground. The outputs may be written in
-    /// part then.
+    /// [`Error::Length`] unless both outputs have an element for every slice of every ray. One ray of the volume in error
+    /// ends it: cameras high up must not look further than
+    /// [`AerialPerspective::reach`](crate::AerialPerspective::reach) below the ground. The outputs may be written in part
+    /// then.
     pub fn linear_srgb_volume(
         &self,
         volume: &CameraVolume,
@@ -142,7 +142,9 @@ impl ColourAerialPerspective {
                 first: j * STEP,
             };
             match &lattice {
-                Some(lattice) => band.interpolate(lattice, j, light, factors),
+                Some(lattice) => band
+                    .interpolate(lattice, j, light, factors)
+                    .or_else(|_| band.march_all(light, factors)),
                 None => band.march_all(light, factors),
             }
         })
