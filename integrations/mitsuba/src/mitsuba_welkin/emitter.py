@@ -1,5 +1,6 @@
-"""The emitter `welkin`: the light of the clear sky and of the sun's disc."""
+"""The emitter `welkin`: the light of the clear sky and of the discs of sun and moon."""
 
+import dataclasses
 import math
 
 import drjit as dr
@@ -7,74 +8,80 @@ import mitsuba as mi
 import numpy as np
 import welkin_sky
 
-from .sky_table import SkyTable, gather, storage
-from .sources import COUNT, DISC, EFFICACY, FIRST, SOLAR_ANGULAR_RADIUS, STEP, Y_INTEGRAL, Sources
+from .body import Body
+from .sources import Sources
+from .stokes import to_spectrum
+from .variants import blank, number
 
-COLOURS = EFFICACY * Y_INTEGRAL
-
-
-def blank(kind):
-    """All zeros; `dr.zeros` makes no structures of scalar variants."""
-    return dr.zeros(kind) if dr.is_jit_v(mi.Float) else kind()
+# What is asked of welkin, with what holds where nothing is said. Of the moon the phase angle: 180 is new, and then not there.
+CONDITIONS = {
+    "solar_elevation": 20.0, "solar_azimuth": 0.0, "visibility": 59.4e3, "albedo": 0.2, "altitude": 0.0,
+    "moon_phase": 180.0, "moon_elevation": 30.0, "moon_azimuth": 0.0,
+}
+SCALES = ("sky_scale", "sun_scale")
 
 
 class WelkinSky(mi.Emitter):
-    """Scene parameters (all may be changed with `mi.traverse`): see README.md."""
+    """Scene parameters (all but the model may be changed with `mi.traverse`): see README.md."""
 
     def __init__(self, props):
         super().__init__(props)
-        path = props.get("model", "")
-        self.key = path
-        self.model = welkin_sky.open(path) if path else welkin_sky.default_model()
-        self.solar_elevation = mi.Float(props.get("solar_elevation", 20.0))
-        self.solar_azimuth = mi.Float(props.get("solar_azimuth", 0.0))
-        self.visibility = mi.Float(props.get("visibility", 59.4e3))
-        self.albedo = mi.Float(props.get("albedo", 0.2))
-        self.altitude = mi.Float(props.get("altitude", 0.0))
-        self.sky_scale = mi.Float(props.get("sky_scale", 1.0))
-        self.sun_scale = mi.Float(props.get("sun_scale", 1.0))
+        self.path = props.get("model", "")
+        self.model = welkin_sky.open(self.path) if self.path else welkin_sky.default_model()
+        for name, default in CONDITIONS.items():
+            setattr(self, name, mi.Float(props.get(name, default)))
+        for name in SCALES:
+            setattr(self, name, mi.Float(props.get(name, 1.0)))
         to_world = props.get("to_world", mi.ScalarTransform4f())
         self.to_world = mi.Transform4f(mi.Matrix4f(np.array(to_world.matrix)))
         self.m_flags = mi.EmitterFlags.Infinite | mi.EmitterFlags.SpatiallyVarying
         self.centre, self.radius = mi.Point3f(0.0), mi.Float(1.0)
+        self.version = 0
         self.prepare()
 
     def traverse(self, callback):
-        for name in ("solar_elevation", "solar_azimuth", "visibility", "albedo", "altitude"):
-            callback.put(name, getattr(self, name), mi.ParamFlags.NonDifferentiable)
-        for name in ("sky_scale", "sun_scale", "to_world"):
+        for name in (*CONDITIONS, *SCALES, "to_world"):
             callback.put(name, getattr(self, name), mi.ParamFlags.NonDifferentiable)
 
     def parameters_changed(self, keys=()):
         self.prepare()
 
-    def conditions(self):
-        one = lambda value: float(dr.slice(value)) if dr.is_jit_v(value) else float(value)
-        return welkin_sky.Conditions(
-            solar_elevation=math.radians(one(self.solar_elevation)),
-            solar_azimuth=math.radians(one(self.solar_azimuth)),
-            visibility=one(self.visibility),
-            albedo=one(self.albedo),
-            altitude=one(self.altitude),
-        )
-
     def prepare(self):
-        sources = Sources(self.model, self.key, self.conditions())
-        self.table = SkyTable(sources.buffers)
-        self.density = mi.MarginalContinuous2D0(sources.density())
-        self.azimuth = dr.opaque(mi.Float, sources.conditions.solar_azimuth)
-        lattice, side, up = sources.disc_lattice()
-        self.disc = storage(lattice)
-        vector = lambda v: mi.Vector3f(*[dr.opaque(mi.Float, float(c)) for c in v])
-        self.sun, self.side, self.up = vector(sources.disc.direction), vector(side), vector(up)
-        self.cosine = math.cos(SOLAR_ANGULAR_RADIUS)
-        self.tangent = math.tan(SOLAR_ANGULAR_RADIUS)
-        sun = sources.sun_luminous_flux() if sources.disc.is_visible else 0.0
-        sky = sources.sky_luminous_flux()
-        one = lambda value: float(dr.slice(value)) if dr.is_jit_v(value) else float(value)
-        sun, sky = sun * one(self.sun_scale), sky * one(self.sky_scale)
-        share = 0.0 if sun <= 0.0 else min(max(sun / (sun + sky), 0.1), 0.9)
-        self.sun_share = dr.opaque(mi.Float, share)
+        self.version += 1
+        self.bodies = self.bodies_from(number(self.altitude))
+        fluxes = np.array([body.luminous_flux for body in self.bodies])
+        shares = fluxes / fluxes.sum() if fluxes.sum() > 0.0 else np.full(len(fluxes), 1.0 / len(fluxes))
+        self.first_share = dr.opaque(mi.Float, float(shares[0]))
+
+    def lights(self):
+        """(model, conditions) of the sun and of a moon that is not new: of two, those above the model's lowest sun."""
+        conditions = welkin_sky.Conditions(
+            solar_elevation=math.radians(number(self.solar_elevation)),
+            solar_azimuth=math.radians(number(self.solar_azimuth)),
+            visibility=number(self.visibility),
+            albedo=number(self.albedo),
+            altitude=number(self.altitude),
+        )
+        phase = number(self.moon_phase)
+        if phase == 180.0:
+            return [(self.model, conditions)]
+        moon = welkin_sky.Moon(
+            elevation=math.radians(number(self.moon_elevation)), azimuth=math.radians(number(self.moon_azimuth)),
+            phase_angle=math.radians(phase))
+        both = [(self.model, conditions), (self.model.moonlit(moon), moon.conditions(conditions))]
+        lowest = self.model.solar_elevation_range[0]
+        return [pair for pair in both if pair[1].solar_elevation >= lowest] or both[:1]
+
+    def sources_from(self, altitude):
+        """Of each light, as seen from an altitude."""
+        return [
+            Sources(model, (self.path, number(self.moon_phase) if model.is_moonlit else None),
+                    dataclasses.replace(conditions, altitude=altitude))
+            for model, conditions in self.lights()]
+
+    def bodies_from(self, altitude):
+        scales = number(self.sky_scale), number(self.sun_scale)
+        return [Body(sources, *scales) for sources in self.sources_from(altitude)]
 
     # Geometry
 
@@ -93,85 +100,13 @@ class WelkinSky(mi.Emitter):
 
     # Light
 
-    def radiance(self, d, wavelengths, active):
-        """Light from direction `d` of the local frame, which travels along −d in the world."""
-        place = self.table.locate(d)
-        x, y, inside = self.on_disc(d)
-        if not (mi.is_spectral or mi.is_polarized):
-            values = [self.table.value(place, c, active) * self.sky_scale for c in range(3)]
-            sun = [self.disc_value(x, y, c, active & inside) * self.sun_scale for c in range(3)]
-            xyz = [(v + dr.select(inside, s, 0.0)) / COLOURS for v, s in zip(values, sun)]
-            return self.from_xyz(xyz)
-        return self.spectrum(place, (x, y, inside), wavelengths, active)
-
-    def from_xyz(self, xyz):
-        rgb = mi.xyz_to_srgb(mi.Color3f(*xyz))
-        return mi.UnpolarizedSpectrum(xyz[1]) if mi.is_monochromatic else mi.UnpolarizedSpectrum(rgb)
-
-    def on_disc(self, d):
-        along = dr.dot(d, self.sun)
-        shrink = 1.0 / (dr.maximum(along, 1e-6) * self.tangent)
-        x, y = dr.dot(d, self.side) * shrink, dr.dot(d, self.up) * shrink
-        inside = (along > 0.0) & (dr.fma(x, x, y * y) <= 1.0)
-        return x, y, inside
-
-    def disc_value(self, x, y, channel, active):
-        """Radiance of the disc, bilinear in its lattice."""
-        last = DISC - 1
-        column, row = 0.5 * (x + 1.0) * last, 0.5 * (y + 1.0) * last
-        i, j = (dr.clip(dr.floor(v), 0.0, last - 1.0) for v in (column, row))
-        s, t = column - i, row - j
-        base = mi.UInt32(channel) * (DISC * DISC) + mi.UInt32(j) * DISC + mi.UInt32(i)
-        at = lambda k: gather(self.disc, base + k, active)
-        low = dr.fma(s, at(1) - at(0), at(0))
-        high = dr.fma(s, at(DISC + 1) - at(DISC), at(DISC))
-        return dr.fma(t, high - low, low)
-
-    def spectrum(self, place, disc, wavelengths, active):
-        x, y, inside = disc
-        light, q, u = [], [], []
-        for wavelength in wavelengths:
-            node = (wavelength - FIRST) / STEP
-            cell = dr.clip(dr.floor(node), 0.0, COUNT - 2.0)
-            t, first = dr.clip(node - cell, 0.0, 1.0), mi.UInt32(cell)
-            known = active & (node >= -1e-3) & (node <= COUNT - 1 + 1e-3)
-            sky = [self.table.value(place, first + k, known) * self.sky_scale for k in (0, 1)]
-            sun = [self.disc_value(x, y, first + k, known & inside) * self.sun_scale for k in (0, 1)]
-            mix = lambda pair: dr.select(known, dr.fma(t, pair[1] - pair[0], pair[0]), 0.0)
-            light.append(mix(sky) + dr.select(inside, mix(sun), 0.0))
-            if mi.is_polarized:
-                degrees = [self.table.degrees(place, first + k, known) for k in (0, 1)]
-                q.append(mix([sky[k] * degrees[k][0] for k in (0, 1)]))
-                u.append(mix([sky[k] * degrees[k][1] for k in (0, 1)]))
-        if not mi.is_polarized:
-            return mi.UnpolarizedSpectrum(light)
-        return [mi.UnpolarizedSpectrum(part) for part in (light, q, u)]
-
-    def emission(self, d, si_wavelengths, active):
-        """The full spectrum of Mitsuba: with polarisation its first column is the Stokes vector."""
+    def emission(self, d, wavelengths, active, bodies=None):
+        """From direction `d` of the world, in which light travels along −d."""
         local = self.to_local(d)
-        value = self.radiance(local, si_wavelengths, active)
-        if not mi.is_polarized:
-            return value & active if dr.is_jit_v(mi.Float) else (value if active else value * 0.0)
-        light, q, u = value
-        forward = -d
-        # welkin's first axis: up in the vertical plane, carried to the world.
-        flat = dr.sqrt(dr.fma(local.x, local.x, local.y * local.y))
-        shrink = 1.0 / dr.maximum(flat, 1e-20)
-        c, s = self.table.azimuth
-        cos_a = dr.select(flat > 0.0, local.x * shrink, c)
-        sin_a = dr.select(flat > 0.0, local.y * shrink, s)
-        axis = mi.Vector3f(-local.z * cos_a, -local.z * sin_a, flat)
-        axis = dr.normalize(self.to_world @ axis)
-        turn = mi.mueller.rotate_stokes_basis(forward, axis, mi.mueller.stokes_basis(forward))
-        # Mitsuba counts angles about the direction in which light travels, welkin as it is seen: U has the other sign.
-        q, u = turn[1, 1] * q - turn[1, 2] * u, turn[2, 1] * q - turn[2, 2] * u
-        spectrum = mi.Spectrum(0.0)
-        zero = mi.UnpolarizedSpectrum(0.0)
-        spectrum[0, 0] = dr.select(active, light, zero)
-        spectrum[1, 0] = dr.select(active, q, zero)
-        spectrum[2, 0] = dr.select(active, u, zero)
-        return spectrum
+        bodies = bodies or self.bodies
+        parts = [body.stokes(local, wavelengths, active) for body in bodies]
+        total = [sum(same[1:], same[0]) for same in zip(*parts)]
+        return to_spectrum(total, local, self.to_world, bodies[0].table.azimuth, active)
 
     def eval(self, si, active=True):
         return self.emission(-si.wi, si.wavelengths, active)
@@ -183,38 +118,22 @@ class WelkinSky(mi.Emitter):
 
     def draw(self, sample):
         """A direction of the local frame and its density, sr⁻¹."""
-        is_sun = sample.x < self.sun_share
-        low = sample.x / dr.maximum(self.sun_share, 1e-6)
-        high = (sample.x - self.sun_share) / dr.maximum(1.0 - self.sun_share, 1e-6)
-        u = mi.Point2f(dr.clip(dr.select(is_sun, low, high), 0.0, 1.0 - 2.0**-24), sample.y)
-        place, _ = self.density.sample(u)
-        d = dr.select(is_sun, self.disc_direction(u), self.sky_direction(place))
+        if len(self.bodies) == 1:
+            d = self.bodies[0].draw(sample)
+            return d, self.density_of(d)
+        is_first = sample.x < self.first_share
+        low = sample.x / dr.maximum(self.first_share, 1e-9)
+        high = (sample.x - self.first_share) / dr.maximum(1.0 - self.first_share, 1e-9)
+        u = mi.Point2f(dr.clip(dr.select(is_first, low, high), 0.0, 1.0 - 2.0**-24), sample.y)
+        d = dr.select(is_first, self.bodies[0].draw(u), self.bodies[1].draw(u))
         return d, self.density_of(d)
 
-    def disc_direction(self, u):
-        place = mi.warp.square_to_uniform_disk_concentric(u) * self.tangent
-        return dr.normalize(self.sun + place.x * self.side + place.y * self.up)
-
-    def sky_direction(self, place):
-        share = 2.0 * place.y - 1.0
-        z = dr.clip(share * dr.abs(share), -1.0, 1.0)
-        sin_phi, cos_phi = dr.sincos(self.azimuth + (place.x - 0.5) * (2.0 * dr.pi))
-        flat = dr.safe_sqrt(1.0 - z * z)
-        return mi.Vector3f(flat * cos_phi, flat * sin_phi, z)
-
     def density_of(self, d):
-        _, _, inside = self.on_disc(d)
-        along = dr.dot(d, self.sun)
-        # A uniform disc on the tangent plane.
-        area = dr.pi * self.tangent * self.tangent
-        sun = dr.select(inside, 1.0 / (area * along * along * along), 0.0)
-        share = dr.sqrt(dr.abs(d.z))
-        v = 0.5 + 0.5 * dr.copysign(share, d.z)
-        turn = dr.atan2(d.y, d.x) - self.azimuth
-        u = turn * dr.inv_two_pi + 0.5
-        u -= dr.floor(u)
-        sky = self.density.eval(mi.Point2f(u, v)) / dr.maximum(8.0 * dr.pi * share, 1e-9)
-        return dr.fma(self.sun_share, sun - sky, sky)
+        first = self.bodies[0].pdf(d)
+        if len(self.bodies) == 1:
+            return first
+        second = self.bodies[1].pdf(d)
+        return dr.fma(self.first_share, first - second, second)
 
     def sample_direction(self, it, sample, active=True):
         local, pdf = self.draw(sample)
@@ -269,4 +188,4 @@ class WelkinSky(mi.Emitter):
         return wavelengths, self.eval(si, active) * self.wavelength_range()
 
     def to_string(self):
-        return f"WelkinSky[{self.conditions()}]"
+        return f"WelkinSky[{self.lights()[0][1]}]"

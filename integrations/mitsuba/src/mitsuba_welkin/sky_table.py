@@ -2,19 +2,8 @@
 
 import drjit as dr
 import mitsuba as mi
-import numpy as np
 
-
-def gather(storage, index, active=True):
-    """A number of a storage; `dr.gather` knows no scalar variants."""
-    if dr.is_jit_v(mi.Float):
-        return dr.gather(mi.Float, storage, index, active)
-    return storage[int(index)] if active else 0.0
-
-
-def storage(values):
-    """An array that `gather` reads from."""
-    return type(mi.TensorXf([0.0]).array)(np.ascontiguousarray(values, np.float32).ravel())
+from .variants import gather, storage
 
 
 def _taps(x, intervals):

@@ -6,9 +6,9 @@ import mitsuba as mi
 import numpy as np
 import welkin_sky
 
-# Luminous efficacy over the integral of the 2-degree luminous efficiency: Mitsuba's RGB of a spectrum is its XYZ over this.
 # Of the disc, rad: half of 0.533 degrees.
 SOLAR_ANGULAR_RADIUS = 0.004654793
+# Mitsuba's RGB of a spectrum is its XYZ over the luminous efficacy and over the integral of the luminous efficiency, nm.
 EFFICACY = 683.002
 Y_INTEGRAL = 106.7502593994140625
 
@@ -37,7 +37,7 @@ class Sources:
     """Prepares a scene: which arrays are made depends on the variant of Mitsuba."""
 
     def __init__(self, model, key, conditions):
-        self.conditions = conditions
+        self.model, self.key, self.conditions = model, key, conditions
         self.colour = model.colour_sky(conditions).bake()
         spectral, polarised = mi.is_spectral, mi.is_polarized
         self.disc = model.solar_disc(conditions)
@@ -91,10 +91,9 @@ class Sources:
             values = self.disc.xyz(directions)
         return np.moveaxis(np.asarray(values), -1, 0), side, up
 
-    def sun_luminous_flux(self):
-        values = np.asarray(self.disc.irradiance_xyz()) if hasattr(self.disc, "irradiance_xyz") else None
-        if values is not None:
-            return float(values[1])
-        d = np.asarray(self.disc.direction, np.float32)
-        centre = float(self.disc.xyz(d)[1])
+    def disc_luminous_flux(self):
+        """Illuminance by the disc, of a plane that faces it, lx: about, as the limb is darker."""
+        if not self.disc.is_visible:
+            return 0.0
+        centre = float(self.disc.xyz(np.asarray(self.disc.direction, np.float32))[1])
         return 0.8 * centre * float(self.disc.solid_angle)
