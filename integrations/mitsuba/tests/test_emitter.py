@@ -1,31 +1,10 @@
-"""The emitter in each variant that this machine can run: densities, energy, frames, parameters.
+"""The emitter in each variant that this machine can run: densities, energy, frames, parameters."""
 
-MITSUBA_VARIANTS=scalar_rgb,… chooses variants; those of LLVM need its library (see README.md).
-"""
-
-import os
 import unittest
 
 import mitsuba as mi
 import numpy as np
-
-VARIANTS = os.environ.get(
-    "MITSUBA_VARIANTS", "scalar_rgb,llvm_ad_rgb,llvm_ad_spectral,llvm_ad_spectral_polarized").split(",")
-
-
-def emitter(**parameters):
-    import mitsuba_welkin
-
-    mitsuba_welkin.register()
-    return mi.load_dict({"type": "welkin", **parameters})
-
-
-def unit_directions(count, lowest=-1.0, seed=1):
-    random = np.random.default_rng(seed)
-    z = random.uniform(lowest, 1.0, count)
-    azimuth = random.uniform(0.0, 2.0 * np.pi, count)
-    flat = np.sqrt(1.0 - z * z)
-    return np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), z], 1)
+from variants import InVariants, emitter, unit_directions
 
 
 def seen(light, directions, wavelength=550.0):
@@ -42,15 +21,6 @@ def seen(light, directions, wavelength=550.0):
 def colours(light, directions):
     value = np.array(seen(light, directions))
     return value if value.shape[0] == len(directions) else value.T
-
-
-class InVariants(unittest.TestCase):
-    def each(self, kind):
-        for variant in VARIANTS:
-            if kind in variant:
-                mi.set_variant(variant)
-                with self.subTest(variant):
-                    yield variant
 
 
 class Density(InVariants):
@@ -144,7 +114,6 @@ class Energy(InVariants):
             if mi.is_monochromatic:
                 continue
             light = {"type": "welkin", "solar_elevation": 25.0, "sun_scale": 0.0}
-            emitter()
             scene = mi.load_dict({
                 "type": "scene", "integrator": {"type": "direct"}, "sky": light,
                 "sensor": {
@@ -185,7 +154,6 @@ class Polarisation(InVariants):
 class Parameters(InVariants):
     def test_the_sun_moves_without_a_new_scene(self):
         for _ in self.each("llvm_ad_rgb"):
-            emitter()
             scene = mi.load_dict({"type": "scene", "sky": {"type": "welkin", "solar_elevation": 40.0}})
             parameters = mi.traverse(scene)
             directions = unit_directions(100, 0.05)
@@ -208,7 +176,6 @@ class Scenes(InVariants):
     def test_random_scenes_are_finite(self):
         random = np.random.default_rng(3)
         for variant in self.each("_"):
-            emitter()
             size = 8 if "scalar" in variant else 32
             for _ in range(4 if "scalar" in variant else 12):
                 light = {

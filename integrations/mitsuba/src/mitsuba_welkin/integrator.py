@@ -5,7 +5,7 @@ import mitsuba as mi
 
 from .aerial_perspective import AerialPerspective, Place
 from .emitter import WelkinSky
-from .variants import blank, number
+from .variants import number
 
 EVERYWHERE = 2**31 - 1
 
@@ -15,13 +15,14 @@ class WelkinPath(mi.SamplingIntegrator):
 
     def __init__(self, props):
         super().__init__(props)
+        if not dr.is_jit_v(mi.Float):
+            raise ValueError("welkin_path needs a variant with arrays (llvm_…, cuda_…): others would call it ray by ray")
         depth = int(props.get("max_depth", -1))
         self.max_depth = EVERYWHERE if depth < 0 else depth
         self.rr_depth = int(props.get("rr_depth", 5))
         self.hide_sky = bool(props.get("hide_emitters", False))
         self.altitude = mi.Float(props.get("altitude", 0.0))
         self.metres = mi.Float(props.get("metres_per_unit", 1.0))
-        self.in_scattering = bool(props.get("in_scattering", True))
         self.made_for = None
 
     def traverse(self, callback):
@@ -53,7 +54,7 @@ class WelkinPath(mi.SamplingIntegrator):
         ray = mi.Ray3f(ray)
         radiance, throughput = mi.Spectrum(0.0), mi.Spectrum(1.0)
         eta, active = mi.Float(1.0), mi.Bool(active)
-        before, pdf_before, delta_before = blank(mi.Interaction3f), mi.Float(1.0), mi.Bool(True)
+        before, pdf_before, delta_before = dr.zeros(mi.Interaction3f), mi.Float(1.0), mi.Bool(True)
 
         # The first path, from the camera.
         si = scene.ray_intersect(ray, active)
