@@ -270,6 +270,9 @@ class Scenes(InVariants):
             made = mi.load_dict({"type": "scene", "integrator": {"type": "welkin_path"}, "sensor": {"type": "perspective"}})
             with self.assertRaisesRegex(ValueError, "emitter of type welkin"):
                 made.integrator().prepare(made)
+            with self.assertRaisesRegex(ValueError, "metres_per_unit"):
+                bad = scene(integrator={"metres_per_unit": 0.0})
+                bad.integrator().prepare(bad)
         for _ in self.each("scalar"):
             with self.assertRaisesRegex(Exception, "variant"):
                 mi.load_dict({"type": "welkin_path"})

@@ -29,8 +29,11 @@ class Density(InVariants):
             import drjit as dr
             from mitsuba.chi2 import ChiSquareTest, SphericalDomain
 
-            for elevation, altitude in ((60.0, 0.0), (15.0, 2000.0), (1.0, 0.0), (-5.0, 9000.0)):
-                light = emitter(solar_elevation=elevation, solar_azimuth=40.0, altitude=altitude, sun_scale=0.0)
+            full = {"moon_phase": 5.0, "moon_elevation": 40.0, "moon_azimuth": -100.0}
+            for elevation, altitude, moon in (
+                    (60.0, 0.0, {}), (15.0, 2000.0, {}), (1.0, 0.0, {}), (-5.0, 9000.0, {}), (-11.0, 0.0, full),
+                    (-40.0, 0.0, full)):
+                light = emitter(solar_elevation=elevation, solar_azimuth=40.0, altitude=altitude, sun_scale=0.0, **moon)
 
                 def sample(u):
                     ds, _ = light.sample_direction(dr.zeros(mi.Interaction3f), mi.Point2f(u))
@@ -107,6 +110,24 @@ class Energy(InVariants):
                 error = np.abs(got - rgb).max(1) / xyz[:, 1]
                 self.assertLess(np.quantile(error, 0.95), 2.5e-3, variant)
                 self.assertLess(np.quantile(error, 0.999), 2e-2, variant)
+
+    def test_moonlight_is_added(self):
+        import welkin_sky
+
+        moon = welkin_sky.Moon(elevation=np.radians(40.0), azimuth=np.radians(-100.0), phase_angle=np.radians(20.0))
+        for _ in self.each("llvm_ad_rgb"):
+            for elevation in (-9.0, -30.0):
+                light = emitter(
+                    solar_elevation=elevation, sun_scale=0.0, moon_phase=20.0, moon_elevation=40.0, moon_azimuth=-100.0)
+                directions = unit_directions(4000, 0.01)
+                got = colours(light, directions)
+                sky = welkin_sky.default_model().sky_with_moon(moon, solar_elevation=np.radians(elevation))
+                xyz = sky.xyz(directions.astype(np.float32)) / (683.002 * 106.7502593994140625)
+                rgb = xyz @ np.array(welkin_sky.colour_space_matrix("srgb")).T
+                error = np.abs(got - rgb).max(1) / xyz[:, 1]
+                self.assertLess(np.quantile(error, 0.95), 4e-3)
+            with self.assertRaisesRegex(Exception, "phase"):
+                emitter(moon_phase=200.0)
 
     def test_spectra_have_the_colour_of_rgb(self):
         means = {}

@@ -1,5 +1,7 @@
 """The integrator `welkin_path`: a path tracer with the air of the emitter `welkin` between things."""
 
+import math
+
 import drjit as dr
 import mitsuba as mi
 
@@ -32,6 +34,8 @@ class WelkinPath(mi.SamplingIntegrator):
     def prepare(self, scene):
         """Makes the tables anew where the sky, the camera or the place has changed."""
         emitter = sky_of(scene)
+        if not 0.0 < number(self.metres) < math.inf:
+            raise ValueError(f"metres_per_unit must be positive, got {number(self.metres)}")
         camera = scene.sensors()[0].world_transform() @ mi.Point3f(0.0)
         state = (id(emitter), emitter.version, number(self.altitude), number(self.metres),
                  *(number(c) for c in camera))
