@@ -1,31 +1,10 @@
-"""The emitter in each variant that this machine can run: densities, energy, frames, parameters.
+"""The emitter in each variant that this machine can run: densities, energy, frames, parameters."""
 
-MITSUBA_VARIANTS=scalar_rgb,… chooses variants; those of LLVM need its library (see README.md).
-"""
-
-import os
 import unittest
 
 import mitsuba as mi
 import numpy as np
-
-VARIANTS = os.environ.get(
-    "MITSUBA_VARIANTS", "scalar_rgb,llvm_ad_rgb,llvm_ad_spectral,llvm_ad_spectral_polarized").split(",")
-
-
-def emitter(**parameters):
-    import mitsuba_welkin
-
-    mitsuba_welkin.register()
-    return mi.load_dict({"type": "welkin", **parameters})
-
-
-def unit_directions(count, lowest=-1.0, seed=1):
-    random = np.random.default_rng(seed)
-    z = random.uniform(lowest, 1.0, count)
-    azimuth = random.uniform(0.0, 2.0 * np.pi, count)
-    flat = np.sqrt(1.0 - z * z)
-    return np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), z], 1)
+from variants import InVariants, emitter, unit_directions
 
 
 def seen(light, directions, wavelength=550.0):
@@ -44,23 +23,17 @@ def colours(light, directions):
     return value if value.shape[0] == len(directions) else value.T
 
 
-class InVariants(unittest.TestCase):
-    def each(self, kind):
-        for variant in VARIANTS:
-            if kind in variant:
-                mi.set_variant(variant)
-                with self.subTest(variant):
-                    yield variant
-
-
 class Density(InVariants):
     def test_chi_square(self):
         for _ in self.each("llvm"):
             import drjit as dr
             from mitsuba.chi2 import ChiSquareTest, SphericalDomain
 
-            for elevation, altitude in ((60.0, 0.0), (15.0, 2000.0), (1.0, 0.0), (-5.0, 9000.0)):
-                light = emitter(solar_elevation=elevation, solar_azimuth=40.0, altitude=altitude, sun_scale=0.0)
+            full = {"moon_phase": 5.0, "moon_elevation": 40.0, "moon_azimuth": -100.0}
+            for elevation, altitude, moon in (
+                    (60.0, 0.0, {}), (15.0, 2000.0, {}), (1.0, 0.0, {}), (-5.0, 9000.0, {}), (-11.0, 0.0, full),
+                    (-40.0, 0.0, full)):
+                light = emitter(solar_elevation=elevation, solar_azimuth=40.0, altitude=altitude, sun_scale=0.0, **moon)
 
                 def sample(u):
                     ds, _ = light.sample_direction(dr.zeros(mi.Interaction3f), mi.Point2f(u))
@@ -138,13 +111,30 @@ class Energy(InVariants):
                 self.assertLess(np.quantile(error, 0.95), 2.5e-3, variant)
                 self.assertLess(np.quantile(error, 0.999), 2e-2, variant)
 
+    def test_moonlight_is_added(self):
+        import welkin_sky
+
+        moon = welkin_sky.Moon(elevation=np.radians(40.0), azimuth=np.radians(-100.0), phase_angle=np.radians(20.0))
+        for _ in self.each("llvm_ad_rgb"):
+            for elevation in (-9.0, -30.0):
+                light = emitter(
+                    solar_elevation=elevation, sun_scale=0.0, moon_phase=20.0, moon_elevation=40.0, moon_azimuth=-100.0)
+                directions = unit_directions(4000, 0.01)
+                got = colours(light, directions)
+                sky = welkin_sky.default_model().sky_with_moon(moon, solar_elevation=np.radians(elevation))
+                xyz = sky.xyz(directions.astype(np.float32)) / (683.002 * 106.7502593994140625)
+                rgb = xyz @ np.array(welkin_sky.colour_space_matrix("srgb")).T
+                error = np.abs(got - rgb).max(1) / xyz[:, 1]
+                self.assertLess(np.quantile(error, 0.95), 4e-3)
+            with self.assertRaisesRegex(Exception, "phase"):
+                emitter(moon_phase=200.0)
+
     def test_spectra_have_the_colour_of_rgb(self):
         means = {}
         for variant in self.each("llvm_ad"):
             if mi.is_monochromatic:
                 continue
             light = {"type": "welkin", "solar_elevation": 25.0, "sun_scale": 0.0}
-            emitter()
             scene = mi.load_dict({
                 "type": "scene", "integrator": {"type": "direct"}, "sky": light,
                 "sensor": {
@@ -185,7 +175,6 @@ class Polarisation(InVariants):
 class Parameters(InVariants):
     def test_the_sun_moves_without_a_new_scene(self):
         for _ in self.each("llvm_ad_rgb"):
-            emitter()
             scene = mi.load_dict({"type": "scene", "sky": {"type": "welkin", "solar_elevation": 40.0}})
             parameters = mi.traverse(scene)
             directions = unit_directions(100, 0.05)
@@ -208,7 +197,6 @@ class Scenes(InVariants):
     def test_random_scenes_are_finite(self):
         random = np.random.default_rng(3)
         for variant in self.each("_"):
-            emitter()
             size = 8 if "scalar" in variant else 32
             for _ in range(4 if "scalar" in variant else 12):
                 light = {

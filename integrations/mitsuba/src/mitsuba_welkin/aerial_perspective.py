@@ -12,6 +12,8 @@ from .stokes import to_spectrum
 from .variants import number
 
 LOWEST = -400.0
+# Of paths: farther than the air is seen through from space.
+FARTHEST = 2e6
 
 
 class Place:
@@ -40,15 +42,16 @@ class AerialPerspective:
         """`box`: corners of all things in the world; `camera`: its place in the world."""
         self.place, self.to_world = place, emitter.to_world
         low, high, far = span(place, box, camera)
+        far = min(far, FARTHEST)
         seen_from = number(place.altitude(place.point(camera)))
         planet = place.planet
         floor = max(min(low, seen_from), LOWEST)
-        steps = min(max(math.ceil((high - floor) / 700.0), 1), 8) + 1
-        spectral = mi.is_spectral or mi.is_polarized
+        # Layers of haze end within some hundred metres.
+        steps = min(max(math.ceil((high - floor) / 250.0), 1), 15) + 1
         camera = Extent(planet, floor, seen_from, seen_from, far, 1, 25, 33, 16)
         # Extinction of the camera's paths has no azimuths: it is told apart more finely.
         lengths = Extent(planet, floor, seen_from, seen_from, far, 1, 65, 1, 33)
-        others = Extent(planet, floor, floor, max(high, floor + 1.0), far, steps, 15 if spectral else 21, 17, 10)
+        others = Extent(planet, floor, floor, max(high, floor + 1.0), far, steps, 17, 11, 12)
         self.tables = []
         for sources, body in zip(emitter.sources_from(number(emitter.altitude)), emitter.bodies):
             arrays = lambda extent: SegmentArrays(sources.model, sources.key, sources.conditions, extent)

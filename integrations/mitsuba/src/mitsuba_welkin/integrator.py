@@ -1,11 +1,13 @@
 """The integrator `welkin_path`: a path tracer with the air of the emitter `welkin` between things."""
 
+import math
+
 import drjit as dr
 import mitsuba as mi
 
 from .aerial_perspective import AerialPerspective, Place
 from .emitter import WelkinSky
-from .variants import blank, number
+from .variants import number
 
 EVERYWHERE = 2**31 - 1
 
@@ -15,13 +17,14 @@ class WelkinPath(mi.SamplingIntegrator):
 
     def __init__(self, props):
         super().__init__(props)
+        if not dr.is_jit_v(mi.Float):
+            raise ValueError("welkin_path needs a variant with arrays (llvm_…, cuda_…): others would call it ray by ray")
         depth = int(props.get("max_depth", -1))
         self.max_depth = EVERYWHERE if depth < 0 else depth
         self.rr_depth = int(props.get("rr_depth", 5))
         self.hide_sky = bool(props.get("hide_emitters", False))
         self.altitude = mi.Float(props.get("altitude", 0.0))
         self.metres = mi.Float(props.get("metres_per_unit", 1.0))
-        self.in_scattering = bool(props.get("in_scattering", True))
         self.made_for = None
 
     def traverse(self, callback):
@@ -31,6 +34,8 @@ class WelkinPath(mi.SamplingIntegrator):
     def prepare(self, scene):
         """Makes the tables anew where the sky, the camera or the place has changed."""
         emitter = sky_of(scene)
+        if not 0.0 < number(self.metres) < math.inf:
+            raise ValueError(f"metres_per_unit must be positive, got {number(self.metres)}")
         camera = scene.sensors()[0].world_transform() @ mi.Point3f(0.0)
         state = (id(emitter), emitter.version, number(self.altitude), number(self.metres),
                  *(number(c) for c in camera))
@@ -53,7 +58,7 @@ class WelkinPath(mi.SamplingIntegrator):
         ray = mi.Ray3f(ray)
         radiance, throughput = mi.Spectrum(0.0), mi.Spectrum(1.0)
         eta, active = mi.Float(1.0), mi.Bool(active)
-        before, pdf_before, delta_before = blank(mi.Interaction3f), mi.Float(1.0), mi.Bool(True)
+        before, pdf_before, delta_before = dr.zeros(mi.Interaction3f), mi.Float(1.0), mi.Bool(True)
 
         # The first path, from the camera.
         si = scene.ray_intersect(ray, active)

@@ -25,8 +25,9 @@ class Extent:
 
     def paths(self):
         """Altitude, cosine from the zenith, azimuth from the sun and length at each node."""
-        side = np.repeat([-1.0, 1.0], self.rows)
-        v = np.concatenate([np.linspace(-1.0, -1e-4, self.rows), np.linspace(1e-4, 1.0, self.rows)])
+        # Not to the zenith itself, which has no azimuths.
+        up = np.linspace(1e-4, 1.0 - 1e-5, self.rows)
+        v = np.concatenate([-up[::-1], up])
         share = np.linspace(0.0, 1.0, self.lengths)
         axes = (np.linspace(self.low, self.high, self.heights), v, np.linspace(0.0, math.pi, self.azimuths), share)
         altitude, v, azimuth, share = np.meshgrid(*axes, indexing="ij")

@@ -27,9 +27,7 @@ def gather(source, index, active=True):
 
 
 def gather_packet(source, size, index, active=True):
-    """2, 4 or 8 numbers that stand together."""
-    if not dr.is_jit_v(mi.Float):
-        return [source[size * int(index) + k] if active else 0.0 for k in range(size)]
+    """2, 4 or 8 numbers that stand together; not in scalar variants."""
     if size == 8:
         return [*gather_packet(source, 4, 2 * index, active), *gather_packet(source, 4, 2 * index + 1, active)]
     return list(dr.gather(mi.Vector2f if size == 2 else mi.Vector4f, source, index, active))
