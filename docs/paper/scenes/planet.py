@@ -2,7 +2,7 @@
 
 import numpy as np
 
-RADIUS = 6_371_000.0
+RADIUS = 6_378_000.0
 
 
 def on_planet(x, y, height):
