@@ -16,7 +16,7 @@ BUILDINGS = [
     ((212, -34), (50, 50), 152, CLEAR),
 ]
 PANE, GAP, TILT = (1.6, 3.5), 0.14, np.radians(0.12)
-POOL = ((-32.0, 36.0), (-17.0, 15.0))
+POOL = ((-84.0, 34.0), (-17.0, 15.0))
 
 
 def reflector(index):

@@ -18,10 +18,11 @@ def mountains(size, samples, draft):
     from rendering import rendered_over_places
 
     description = scene.description(4800.0, -5.0, 26.0, size, draft)
+    places = scene.DRAFT_PLACES if draft else scene.PLACES
     for name, elevation, azimuth, visibility in MOUNTAINS:
         sky, sun = scene.light(elevation, azimuth, visibility)
         lit = {**description, "sun": sun}
-        yield name, rendered_over_places(lit, sky, scene.ALTITUDES, scene.AHEAD, samples, name)
+        yield name, rendered_over_places(lit, sky, *places, samples, name)
 
 
 def city(size, samples, draft):
@@ -43,8 +44,8 @@ def main():
     arguments = options.parse(__doc__, "llvm_ad_spectral")
     draft = arguments.draft
     size = DRAFT if draft else SIZE
-    pictures = dict(mountains(size, 2 if draft else 64, draft))
-    pictures |= dict(city(size, 4 if draft else 256, draft))
+    pictures = dict(mountains(size, 2 if draft else 24, draft))
+    pictures |= dict(city(size, 4 if draft else 64, draft))
     for name, picture in pictures.items():
         white = white_of(picture, 0.985)
         save(arguments.out, f"figure_01_{name}.png", display(picture, white))

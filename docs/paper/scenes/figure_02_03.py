@@ -23,7 +23,7 @@ def pictures(size, samples, draft):
     description = mountains.description(ALTITUDE, -7.0, 28.0, size, draft)
     sky, sun = mountains.light(ELEVATION, AZIMUTH, VISIBILITY)
     lit = {**description, "sun": sun}
-    places = (mountains.ALTITUDES, mountains.AHEAD, samples)
+    places = (*(mountains.DRAFT_PLACES if draft else mountains.PLACES), samples)
     air = lambda attenuation: {"type": "partial_air", "max_depth": 3, "attenuation": attenuation}
     yield "full", rendered_over_places(lit, sky, *places, "full")
     for name, attenuation in (("no_in_scattering", True), ("no_air", False)):
@@ -36,7 +36,7 @@ def pictures(size, samples, draft):
 
 def main():
     arguments = options.parse(__doc__, "llvm_ad_spectral")
-    made = dict(pictures(DRAFT if arguments.draft else SIZE, 2 if arguments.draft else 48, arguments.draft))
+    made = dict(pictures(DRAFT if arguments.draft else SIZE, 2 if arguments.draft else 24, arguments.draft))
     white = white_of(made["full"], 0.985)
     for name, picture in made.items():
         save(arguments.out, f"figure_03_{name}.png", labelled(display(picture, white), NAMES[name]))

@@ -9,13 +9,13 @@ from terrain import Terrain, landscape
 PLACE, HEADING = (-5e3, 45e3), 225.0
 ALBEDO = 0.15
 # Of the light: altitudes and distances between which it is linear, m.
-ALTITUDES, AHEAD = (300.0, 4500.0), (0.0, 150e3)
+PLACES, DRAFT_PLACES = ((300.0, 4500.0), (0.0, 150e3)), ((1500.0,), (0.0,))
 
 
 def description(altitude, pitch, field_of_view, size, draft):
     """Everything but the light: a camera above the landscape, in air."""
-    terrain = Terrain(128 if draft else 512)
-    rows, columns = (300, 260) if draft else (2000, 1500)
+    terrain = Terrain(96 if draft else 512)
+    rows, columns = (240, 200) if draft else (2000, 1500)
     below = float(terrain.height(np.array([PLACE[0]]), np.array([PLACE[1]]))[0])
     if below > altitude - 200.0:
         raise ValueError(f"the ground is at {below:.0f} m where the camera is at {altitude:.0f} m")

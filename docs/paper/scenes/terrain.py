@@ -17,7 +17,7 @@ FOREST, MEADOW, ROCK, SNOW = (0.025, 0.05, 0.018), (0.09, 0.11, 0.04), (0.16, 0.
 class Terrain:
     """Heights over a square of `SIDE`; `cells` on a side are eroded, what is finer is noise."""
 
-    def __init__(self, cells, highest=4100.0, steps=45, seed=5):
+    def __init__(self, cells, highest=4500.0, steps=45, seed=5):
         self.cell = SIDE / cells
         self.heights = self._eroded(cells, steps, seed)
         self.heights *= highest / np.quantile(self.heights, 0.9995)
