@@ -90,8 +90,8 @@ def figure_14(a):
             apart = luminance(model)[where].mean() / mean - 1.0
             # Of the mean of blocks that are independent; 4 % are the model's and the interpolated light's.
             noise = np.sqrt((error[where] ** 2).sum()) / where.sum() / mean
-            yield holds(f"sun at {elevation}°, {what}: model and path tracer agree", f"{apart:+.2%}, noise {noise:.2%}",
-                        abs(apart) < 0.04 + 3.0 * noise)
+            yield holds(f"sun at {elevation}°, {what}: model and path tracer agree",
+                        f"{apart:+.2%}, noise {noise:.2%}", abs(apart) < 0.04 + 3.0 * noise)
 
 
 def figure_15(a):
@@ -109,8 +109,8 @@ def figure_15(a):
     yield holds("what is mirrored is brighter or darker by 3 %", f"{share:.0%} of pixels", share > 0.1)
     degree = np.quantile(linear("plain"), 0.99)
     yield holds("glass polarises light that was not", f"{degree:.2f}", degree > 0.3)
-    water = a["plain"][105:, 60:100]
-    ratio = luminance(water[..., 0, :] + water[..., 1, :]).mean() / luminance(water[..., 0, :] - water[..., 1, :]).mean()
+    intensity, q = (luminance(a["plain"][105:, 60:100, k]).mean() for k in (0, 1))
+    ratio = (intensity + q) / (intensity - q)
     yield holds("water mirrors horizontal vibrations", f"{ratio:.2f} times the vertical ones", ratio > 1.2)
 
 

@@ -1,6 +1,7 @@
 """Glass fronts around a pool, after the idea of the test scene of Wilkie et al. 2004.
 
-Glass and water reflect as dielectrics do, with full Mueller matrices; what enters them is lost: rooms and pool are dark.
+Glass and water reflect as dielectrics do, with full Mueller matrices; what enters them is lost: rooms and pool are
+dark.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The emitter `placed_welkin`: what is seen and the air are of the camera's place, but things are lit as at another one.
+"""The emitter `placed_welkin`: what is seen and the air are of the camera's place; things are lit as at another one.
 
 An emitter of Mitsuba does not know which point it lights. A large scene is rendered several times, each time lit as at
 one place, and `rendering.rendered_over_places` mixes the pictures by what is seen in each pixel.

@@ -1,4 +1,4 @@
-"""The emitter `placed_sun`: sunlight on a round planet, at each point through the air above it, until the sun sets there.
+"""The emitter `placed_sun`: sunlight on a round planet, at each point through the air above it, until the sun sets.
 
 Directions are drawn over the disc, so that shadows have soft edges, but no other ray meets it: a mirror does not show
 it. Spectral variants only. The frame is that of `planet`.

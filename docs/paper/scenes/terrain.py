@@ -49,7 +49,8 @@ def albedo(height, up, x, y):
     steep = np.clip((0.80 + 0.05 * patch - up) / 0.08, 0.0, 1.0)
     blend = lambda a, b, t: a + (b - a) * t[..., None]
     over = lambda level, width: np.clip((height + 350.0 * patch - level) / width, 0.0, 1.0)
-    ground = blend(np.array(FOREST), np.array(MEADOW), np.clip(0.5 + 1.4 * patch, 0.0, 1.0) * (1.0 - over(500.0, 500.0)))
+    clearings = np.clip(0.5 + 1.4 * patch, 0.0, 1.0) * (1.0 - over(500.0, 500.0))
+    ground = blend(np.array(FOREST), np.array(MEADOW), clearings)
     ground = blend(ground, np.array(MEADOW), over(1500.0, 300.0))
     ground = blend(ground, np.array(ROCK), np.maximum(over(1900.0, 400.0), steep))
     # Snow stays where it is not too steep.

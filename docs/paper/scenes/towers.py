@@ -8,7 +8,9 @@ import numpy as np
 from planet import RADIUS, on_planet, up_at
 
 # Ahead and to the left of the camera, width; km. Horizon: 319 km from a camera at 8 km.
-TOWERS = [(22, 7, 2), (34, -11.5, 2.5), (52, 9, 3), (80, -18, 4), (120, 27, 5), (175, -28, 6), (250, 46, 8), (330, 2, 10)]
+TOWERS = [
+    (22, 7, 2), (34, -11.5, 2.5), (52, 9, 3), (80, -18, 4), (120, 27, 5), (175, -28, 6), (250, 46, 8), (330, 2, 10),
+]
 HEIGHT = 15
 # Linear sRGB.
 ALBEDO = {"ground": (0.3, 0.3, 0.3), "line": (0.45, 0.03, 0.03), "light": (0.7, 0.7, 0.7), "dark": (0.15, 0.15, 0.15)}
