@@ -18,7 +18,7 @@ VIEW = {"altitude": 8000.0, "pitch": -3.0, "field_of_view": 36.0, "solar_azimuth
 # Of the mean ground, to which the model's light belongs.
 ALBEDO = 0.28
 # Width and height, how many pixels on a side are averaged before they are compared, walks in a pass.
-FULL, DRAFT = ((1500, 1000), 4, 8), ((150, 100), 2, 8)
+FULL, DRAFT = ((1500, 1000), 5, 8), ((150, 100), 2, 8)
 ALTITUDES, AHEAD = (0.0, 4e3, 15e3), (0.0, 330e3)
 # Mitsuba's light in cd m⁻²: 683 lm/W times the integral of its luminous efficiency.
 LUMENS = 683.002 * 106.7502593994140625

@@ -39,11 +39,9 @@ def rendered(scene, samples, seed=0, label=""):
 
 
 def seen_points(description):
-    """What is seen in the middle of each pixel: points (height, width, 3), and whether there is anything."""
+    """What is seen at a place in each pixel: points (height, width, 3), and whether there is anything."""
     scene = mi.load_dict({**description, "integrator": {"type": "aov", "aovs": "p:position,t:depth"}})
-    film = scene.sensors()[0].film()
-    picture = np.array(mi.render(scene, spp=1, sensor=0, seed=0), np.float64)
-    del film
+    picture = np.array(mi.render(scene, spp=1, seed=0), np.float64)
     return picture[..., -4:-1], picture[..., -1] > 0.0
 
 
