@@ -88,7 +88,7 @@ def figure_14(a):
         for what, where in (("sky", solid == 0.0), ("things", solid == 1.0)):
             mean = luminance(truth)[where].mean()
             apart = luminance(model)[where].mean() / mean - 1.0
-            # Of the mean of blocks that are independent; 4 % are the model's and the interpolated light's.
+            # Of the mean of blocks that are independent; 4 % are the model's, which lights air in the shadow of towers.
             noise = np.sqrt((error[where] ** 2).sum()) / where.sum() / mean
             yield holds(f"sun at {elevation}°, {what}: model and path tracer agree",
                         f"{apart:+.2%}, noise {noise:.2%}", abs(apart) < 0.04 + 3.0 * noise)
