@@ -35,8 +35,6 @@ pub struct Sun {
     pub illuminance: f32,
     /// Linear, of luminance 1 unless out of the gamut.
     pub colour: [f32; 3],
-    /// Wavelength, nm, and irradiance, W m⁻² nm⁻¹.
-    pub spectrum: Vec<(f64, f32)>,
 }
 
 impl Lights {
@@ -79,13 +77,11 @@ impl Sun {
             return Ok(None);
         }
         let rgb = irradiance.linear_srgb(model).map(|v| v / illuminance);
-        let wavelengths = model.wavelengths().iter().copied();
         Ok(Some(Self {
             conditions: light.conditions,
             illuminance,
             // Renderers take no negative light, which a setting sun has some of outside the gamut.
             colour: space.from_linear_srgb(rgb).map(|v| v.max(0.0)),
-            spectrum: wavelengths.zip(irradiance.0.iter().copied()).collect(),
         }))
     }
 

@@ -5,6 +5,7 @@ mod axes;
 mod lights;
 mod names;
 mod pbrt;
+mod spectrum;
 mod usd;
 
 use std::f64::consts::FRAC_PI_2;
@@ -113,13 +114,17 @@ impl Renderer {
         }
     }
 
-    fn scene(self, lights: &Lights) -> String {
-        match self {
-            Self::Pbrt => pbrt::scene(lights),
+    fn scene(self, lights: &Lights, model: &Model) -> Result<String> {
+        Ok(match self {
+            Self::Pbrt => {
+                let sun = lights.sun.as_ref();
+                let spectrum = sun.map(|sun| spectrum::samples(model, &sun.conditions));
+                pbrt::scene(lights, &spectrum.transpose()?.unwrap_or_default())
+            }
             Self::Arnold => arnold::scene(lights),
             Self::Karma => usd::scene(lights, Intensity::Luminance),
             Self::Usd => usd::scene(lights, Intensity::Illuminance),
-        }
+        })
     }
 }
 
@@ -130,8 +135,9 @@ pub fn run(options: &Options) -> Result<()> {
     let model = options.source.open()?;
     let conditions = options.scene.conditions(&model)?;
     let lights = options.lights(&model, &conditions, files.name.clone())?;
+    let scene = renderer.scene(&lights, &model)?;
     let picture = options.map(&model, &conditions)?;
-    files.write(&picture, renderer.scene(&lights).as_bytes())?;
+    files.write(&picture, scene.as_bytes())?;
     report(&lights, &files)
 }
 

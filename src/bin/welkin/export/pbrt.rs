@@ -23,8 +23,8 @@ pub fn check(space: ColourSpace) -> Result<()> {
     }
 }
 
-/// The text of a file to include after `WorldBegin`.
-pub fn scene(lights: &Lights) -> String {
+/// The text of a file to include after `WorldBegin`, with the irradiance by the sun at wavelengths (nm).
+pub fn scene(lights: &Lights, spectrum: &[(f64, f32)]) -> String {
     let mut text = lights.comments();
     text += "# right-handed, as is pbrt with \"Scale -1 1 1\" before LookAt: without, pictures are mirrored\n";
     text += "AttributeBegin\n";
@@ -35,7 +35,7 @@ pub fn scene(lights: &Lights) -> String {
     let _ = writeln!(text, "    \"string filename\" \"{}\"", lights.picture);
     scale(&mut text, lights);
     if let Some(sun) = &lights.sun {
-        distant(&mut text, sun, lights);
+        distant(&mut text, sun, lights, spectrum);
     }
     text + "AttributeEnd\n"
 }
@@ -46,7 +46,7 @@ fn scale(text: &mut String, lights: &Lights) {
     }
 }
 
-fn distant(text: &mut String, sun: &Sun, lights: &Lights) {
+fn distant(text: &mut String, sun: &Sun, lights: &Lights, spectrum: &[(f64, f32)]) {
     // In the frame of the map, which is turned with it.
     let [x, y, z] = sun.direction(Up::Z);
     let [r, g, b] = sun.colour.map(|v| v * sun.illuminance);
@@ -62,7 +62,7 @@ fn distant(text: &mut String, sun: &Sun, lights: &Lights) {
     let _ = writeln!(text, "    \"float illuminance\" {}", sun.illuminance);
     scale(text, lights);
     let _ = writeln!(text, "    \"spectrum L\" [");
-    for (nm, value) in &sun.spectrum {
+    for (nm, value) in spectrum {
         let _ = writeln!(text, "      {nm} {value:e}");
     }
     let _ = writeln!(text, "    ]");
