@@ -42,7 +42,12 @@ pub struct Options {
     #[command(flatten)]
     scene: Scene,
     /// Height of the map, pixels: lat-long maps are twice as wide, that for pbrt is a square.
-    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u16).range(4..=16384), value_name = "PIXELS")]
+    #[arg(
+        long,
+        default_value_t = 1024,
+        value_parser = clap::value_parser!(u16).range(4..=16384),
+        value_name = "PIXELS"
+    )]
     size: u16,
     /// Axis of the scene that points to the zenith: z for pbrt and usd, y for arnold and karma if absent.
     #[arg(long, value_enum, value_name = "AXIS")]
