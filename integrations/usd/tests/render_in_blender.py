@@ -44,7 +44,8 @@ def plane(size: float, height: float) -> None:
     """A level square of the known albedo."""
     bpy.ops.mesh.primitive_plane_add(size=size, location=(0, 0, height))
     material = bpy.data.materials.new("plane")
-    material.use_nodes = True
+    if material.node_tree is None:
+        material.use_nodes = True
     nodes = material.node_tree.nodes
     nodes.clear()
     diffuse, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
