@@ -18,7 +18,9 @@ pub struct Lights {
     /// Height of the map, pixels.
     pub size: usize,
     pub up: Up,
-    /// Name of the space of the colours at the Color Interop Forum.
+    /// Of the colours.
+    pub space: ColourSpace,
+    /// Its name at the Color Interop Forum.
     pub space_id: &'static str,
     /// None where it is in the map or has set.
     pub sun: Option<Sun>,
@@ -73,16 +75,14 @@ impl Sun {
         let light = Light::new(model, conditions)?;
         let irradiance = &light.direct_normal;
         let illuminance = irradiance.luminous(model);
-        if illuminance <= 0.0 {
-            return Ok(None);
-        }
         let rgb = irradiance.linear_srgb(model).map(|v| v / illuminance);
-        Ok(Some(Self {
+        let sun = Self {
             conditions: light.conditions,
             illuminance,
             // Renderers take no negative light, which a setting sun has some of outside the gamut.
             colour: space.from_linear_srgb(rgb).map(|v| v.max(0.0)),
-        }))
+        };
+        Ok((illuminance > 0.0).then_some(sun))
     }
 
     /// Unit vector to it.
@@ -99,9 +99,11 @@ impl Sun {
 
     /// Luminance (cd m⁻²) of a uniform disc that gives the illuminance: of a plane that faces it, each part counts with
     /// its cosine.
-    pub fn luminance(&self) -> f64 {
+    pub fn luminance(&self) -> f32 {
         let sine = SOLAR_ANGULAR_RADIUS.sin();
-        f64::from(self.illuminance) / (PI * sine * sine)
+        let luminance = f64::from(self.illuminance) / (PI * sine * sine);
+        // Absurd files overflow.
+        luminance.min(f32::MAX.into()) as f32
     }
 }
 

@@ -157,6 +157,7 @@ impl Options {
             picture,
             size: self.size.into(),
             up: self.up.unwrap_or(self.renderer.up()),
+            space,
             space_id: self.encoding.interop_id(),
             sun,
             exposure: self.exposure,

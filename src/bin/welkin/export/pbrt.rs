@@ -31,6 +31,7 @@ pub fn scene(lights: &Lights, spectrum: &[(f64, f32)]) -> String {
     if lights.up == Up::Y {
         text += "  Rotate -90 1 0 0\n";
     }
+    let _ = writeln!(text, "  ColorSpace \"{}\"", lights.space.name());
     let _ = writeln!(text, "  LightSource \"infinite\"");
     let _ = writeln!(text, "    \"string filename\" \"{}\"", lights.picture);
     scale(&mut text, lights);

@@ -59,7 +59,7 @@ fn distant(text: &mut String, sun: &Sun, lights: &Lights, intensity: Intensity) 
     let [r, g, b] = sun.colour;
     let (value, normalize) = match intensity {
         Intensity::Illuminance => (sun.illuminance, 1),
-        Intensity::Luminance => (sun.luminance() as f32, 0),
+        Intensity::Luminance => (sun.luminance(), 0),
     };
     let _ = writeln!(text, "\n    def DistantLight \"sun\"\n    {{");
     let _ = writeln!(text, "        float inputs:angle = {}", Sun::angle() as f32);
