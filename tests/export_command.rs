@@ -122,8 +122,14 @@ fn look_up(renderer: &str, up: &str, scene: &str, direction: Vector) -> [f64; 2]
 fn export(folder: &Path, line: &str, [renderer, up, extension]: [&str; 3]) -> (Map, String) {
     let line = format!("export --for {renderer} --up {up} {line} --out s");
     let output = call(folder, &line);
-    assert!(output.status.success(), "{line}: {output:?}");
-    assert!(output.stderr.is_empty(), "{line}: {output:?}");
+    assert!(output.status.success(), "{line}");
+    // Red suns have no blue in sRGB.
+    let said = String::from_utf8(output.stderr).unwrap();
+    let is_known = said.starts_with("warning: pbrt takes negative components");
+    assert!(
+        said.is_empty() || renderer == "pbrt" && is_known,
+        "{line}: {said}"
+    );
     let scene = std::fs::read_to_string(folder.join(format!("s.{extension}"))).unwrap();
     (Map::read(&folder.join("s.exr")), scene)
 }
