@@ -88,9 +88,11 @@ class WelkinPath(mi.SamplingIntegrator):
         if dr.hint(not self.hide_sky, mode="scalar"):
             radiance = self.seen_sky(ray, active & ~valid)
         hit = active & valid
-        fine, coarse = self.through_air(ray, si.t, True, hit & at_eye), self.through_air(ray, si.t, False, hit & ~at_eye)
-        radiance = dr.select(hit, radiance + dr.select(at_eye, fine[0], coarse[0]), radiance)
-        throughput = times(throughput, mi.Spectrum(dr.select(at_eye, fine[1], coarse[1])))
+        scattered, factor = self.through_air(ray, si.t, True, hit & at_eye)
+        if hit & ~at_eye:
+            scattered, factor = self.through_air(ray, si.t, False, hit & ~at_eye)
+        radiance = dr.select(hit, radiance + scattered, radiance)
+        throughput = times(throughput, mi.Spectrum(factor))
         active = hit
         valid |= not self.hide_sky
         depth = mi.UInt32(0)
@@ -104,7 +106,9 @@ class WelkinPath(mi.SamplingIntegrator):
             light = si.emitter(scene, active)
             # Straight on or mirrored, no light was drawn there: the sky may be that of the camera.
             sky = active & delta_before & ~si.is_valid()
-            emitted = dr.select(sky, self.seen_sky(ray, sky), light.eval(si, active & ~sky))
+            emitted = light.eval(si, active & ~sky)
+            if sky:
+                emitted = self.seen_sky(ray, sky)
             radiance = dr.select(active, radiance + times(throughput, emitted, mi.Spectrum(weight)), radiance)
 
             going = active & si.is_valid() & (depth + 1 < self.max_depth)
@@ -147,12 +151,17 @@ class WelkinPath(mi.SamplingIntegrator):
 
         return radiance, valid
 
+    @dr.syntax
     def seen_sky(self, ray, active):
         """The sky as from the altitude of the camera or from that of what is lit, which is nearer to where a ray starts."""
         altitude = self.air.place.altitude(self.air.place.point(ray.o))
         by_camera = active & ((altitude > self.middle) == self.camera_is_higher)
-        camera = self.sky.emission(ray.d, ray.wavelengths, by_camera, self.seen)
-        return dr.select(by_camera, camera, self.sky.emission(ray.d, ray.wavelengths, active & ~by_camera))
+        light = mi.Spectrum(0.0)
+        if by_camera:
+            light = self.sky.emission(ray.d, ray.wavelengths, by_camera, self.seen)
+        if active & ~by_camera:
+            light = self.sky.emission(ray.d, ray.wavelengths, active & ~by_camera)
+        return light
 
     def through_air(self, ray, length, from_camera, active):
         """In-scattered light and transmittance along a ray."""
