@@ -22,8 +22,9 @@ def refresh(scene, evaluated, depsgraph, settings, lights) -> list[str]:
     problem = _problem(scene)
     if problem:
         return [f"No aerial perspective: {problem}"]
-    frustum = frustum_of(evaluated, scene.camera.evaluated_get(depsgraph) if depsgraph else scene.camera)
-    set_reach(scene, frustum.far / scene.unit_settings.scale_length)
+    camera = scene.camera.evaluated_get(depsgraph) if depsgraph else scene.camera
+    frustum = frustum_of(evaluated, camera, _far(scene, scene.camera))
+    update_reach(scene)
     key = (settings.light(), settings.exposure, frustum)
     if _drawn.get(properties.air_light.session_uid) == key:
         return []
@@ -33,6 +34,19 @@ def refresh(scene, evaluated, depsgraph, settings, lights) -> list[str]:
         write(image, pixels)
     _drawn[properties.air_light.session_uid] = key
     return []
+
+
+def update_reach(scene) -> None:
+    """Tells the nodes how far the volume reaches. A render has its own copy of them when its frame changes already:
+    so this is called before, too."""
+    if scene.welkin.air and scene.camera is not None:
+        set_reach(scene, _far(scene, scene.camera) / scene.unit_settings.scale_length)
+
+
+def _far(scene, camera) -> float:
+    """m"""
+    far = scene.welkin.air_far or camera.data.clip_end * scene.unit_settings.scale_length
+    return min(max(far, 1.0), air.FARTHEST)
 
 
 def _problem(scene) -> str | None:
@@ -48,7 +62,7 @@ def _problem(scene) -> str | None:
     return None
 
 
-def frustum_of(scene, camera) -> air.Frustum:
+def frustum_of(scene, camera, far: float) -> air.Frustum:
     """Of a perspective camera, with its shift and the aspect of the render. Evaluated ones for frames."""
     corners = [np.asarray(corner) for corner in camera.data.view_frame(scene=scene)]
     top_right, bottom_right, _, top_left = corners
@@ -57,6 +71,4 @@ def frustum_of(scene, camera) -> air.Frustum:
     across, upward = (top_right - top_left) / 2.0, (top_right - bottom_right) / 2.0
     middle = top_right - across - upward
     axis, right, up = (tuple(turn @ (part / depth)) for part in (middle, across, upward))
-    properties, metres = scene.welkin, scene.unit_settings.scale_length
-    far = properties.air_far or camera.data.clip_end * metres
-    return air.Frustum(axis, right, up, min(max(far, 1.0), air.FARTHEST))
+    return air.Frustum(axis, right, up, far)

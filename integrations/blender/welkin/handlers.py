@@ -7,7 +7,7 @@ well as when the frame changes on the screen. None of these pushes a step to und
 import bpy
 from bpy.app.handlers import persistent
 
-from . import update
+from . import air_update, update
 
 
 @persistent
@@ -22,6 +22,11 @@ def _depsgraph_updated(scene, depsgraph) -> None:
         return
     if any(one.is_updated_transform and one.id.original == scene.camera for one in depsgraph.updates):
         update.refresh(scene, depsgraph)
+
+
+@persistent
+def _rendering(scene, *_) -> None:
+    air_update.update_reach(scene.original)
 
 
 @persistent
@@ -44,6 +49,7 @@ def _saving(*_) -> None:
 _HANDLERS = {
     "frame_change_post": _frame_changed,
     "depsgraph_update_post": _depsgraph_updated,
+    "render_pre": _rendering,
     "load_post": _replaced,
     "undo_post": _replaced,
     "redo_post": _replaced,

@@ -11,11 +11,13 @@ from welkin_sky import Conditions
 
 from .luminary import Luminary, default_model
 
-COLUMNS, ROWS, SLICES = 64, 36, 48
+COLUMNS, ROWS, SLICES = 48, 72, 48
 FARTHEST = 500e3
 """m; the air is prepared for a part of the planet."""
 LOWEST_CAMERA = 2.0
 """m; on the ground itself every ray that goes down has ended."""
+LAST_PIECE = 0.95
+"""Where the last piece of a ray to the ground begins, by which the air is continued."""
 
 
 @dataclass(frozen=True)
@@ -81,18 +83,26 @@ def _ground_depths(altitude: float, rays: np.ndarray) -> np.ndarray:
 
 
 def _continue(air, camera, rays, ground, depths, hit, light, factors) -> None:
-    """Fills slices beyond the ground as if the air before it went on: between them and those before it, things on the
+    """Fills slices beyond the ground as if the air above it went on: between them and those before it, things on the
     ground are interpolated, and terrain of the scene may be lower than the ground of the model."""
-    added, taken = air.rgb(camera, camera + rays * (0.9999 * ground)[:, None])
-    added, taken = np.asarray(added, np.float64)[:, None], np.asarray(taken, np.float64)[:, None]
-    times = (depths / ground[:, None])[..., None]
-    taken = np.clip(taken, 1e-30, 1.0)
-    share = -np.expm1(times * np.log(taken))
-    whole = 1.0 - taken
-    grown = np.divide(share, whole, out=np.broadcast_to(times, share.shape).copy(), where=whole > 0.0)
-    beyond = times[..., 0] > 0.9999
-    light[hit] = np.where(beyond[..., None], added * grown, light[hit])
-    factors[hit] = np.where(beyond[..., None], 1.0 - share, factors[hit])
+    near, last = LAST_PIECE * ground, 0.9999 * ground
+    added_near, taken_near = _segments(air, camera, rays, near)
+    added, taken = _segments(air, camera, rays, last)
+    # Lengths of the last piece from the ground to each slice.
+    pieces = ((depths - last[:, None]) / (last - near)[:, None])[..., None]
+    beyond = pieces > 0.0
+    kept = np.clip(taken / taken_near, 1e-6, 1.0)
+    lost = -np.expm1(np.where(beyond, pieces, 0.0) * np.log(kept))
+    # Each piece sends as much as the one before, through what that one leaves.
+    share = np.divide(lost, 1.0 - kept, out=np.broadcast_to(pieces, lost.shape).copy(), where=kept < 1.0)
+    light[hit] = np.where(beyond, added + (added - added_near) * kept * share, light[hit])
+    factors[hit] = np.where(beyond, taken * (1.0 - lost), factors[hit])
+
+
+def _segments(air, camera, rays, depths) -> tuple[np.ndarray, np.ndarray]:
+    """Light and factors up to these depths: (N, 1, 3) each."""
+    light, factors = air.rgb(camera, camera + rays * depths[:, None])
+    return np.asarray(light, np.float64)[:, None], np.maximum(np.asarray(factors, np.float64)[:, None], 1e-30)
 
 
 def _stacked(values: np.ndarray) -> np.ndarray:

@@ -14,10 +14,11 @@ def add_disc(image: np.ndarray, grid: MapGrid, light: Luminary) -> None:
     if not light.disc.is_visible:
         return
     rows, columns = _near(grid, light)
-    shares = _means(grid, light, rows, columns)
+    # Of a low sun blue is beyond the gamut, and a map has no negative light.
+    shares = np.maximum(_means(grid, light, rows, columns), 0.0)
     facing = grid.directions[rows, columns].astype(np.float64) @ light.direction
     given = (shares * (grid.solid_angles[rows] * facing)[:, None]).sum(axis=0)
-    wanted = light.irradiance()
+    wanted = np.maximum(light.irradiance(), 0.0)
     # Of a sliver no part of a pixel may have met anything.
     scale = np.divide(wanted, given, out=np.zeros(3), where=given > 0)
     image[rows, columns, :3] += (shares * scale).astype(np.float32)

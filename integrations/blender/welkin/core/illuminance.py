@@ -12,7 +12,7 @@ ROWS = 128
 
 def direct(luminary: Luminary) -> np.ndarray:
     """By the disc, linear sRGB, lx."""
-    return luminary.irradiance() * max(luminary.direction[2], 0.0)
+    return luminary.level_irradiance()
 
 
 def diffuse(luminary: Luminary) -> np.ndarray:

@@ -36,7 +36,11 @@ class Luminary:
 
     def irradiance(self) -> np.ndarray:
         """Linear sRGB, lx, of a plane that faces it, by what of the disc is above the horizon."""
-        return _irradiance(self).copy()
+        return _irradiances(self)[0].copy()
+
+    def level_irradiance(self) -> np.ndarray:
+        """The same of a level plane that looks up."""
+        return _irradiances(self)[1].copy()
 
 
 def luminaries(conditions: Conditions, moon: Moon | None) -> list[Luminary]:
@@ -72,12 +76,14 @@ def _check(model: welkin_sky.Model, conditions: Conditions, lowest: float) -> No
 
 
 @lru_cache(maxsize=8)
-def _irradiance(luminary: Luminary) -> np.ndarray:
+def _irradiances(luminary: Luminary) -> tuple[np.ndarray, np.ndarray]:
+    """Of a plane that faces it, and of a level one."""
     if not luminary.disc.is_visible:
-        return np.zeros(3)
+        return np.zeros(3), np.zeros(3)
     finer = 4 if luminary.direction[2] < 0.02 else 1
-    rays = disc_rays(luminary.direction, luminary.angular_radius, finer * RINGS, finer * SPOKES)
-    return rays[1] @ disc_rgb(luminary.disc, rays[0])
+    rays, solid_angles = disc_rays(luminary.direction, luminary.angular_radius, finer * RINGS, finer * SPOKES)
+    light = solid_angles[:, None] * disc_rgb(luminary.disc, rays)
+    return (rays @ luminary.direction) @ light, np.maximum(rays[:, 2], 0.0) @ light
 
 
 @lru_cache(maxsize=8)
@@ -92,17 +98,21 @@ def disc_rgb(disc: welkin_sky.SolarDisc, directions: np.ndarray) -> np.ndarray:
 
 
 def disc_rays(direction: np.ndarray, radius: float, rings: int, spokes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Directions over a disc and their solid angles (sr): rings of equal area."""
+    """Directions over a disc and their solid angles (sr).
+
+    Rings are where Gauss has them over μ = √(1 − r²), in which limb darkening is smooth.
+    """
     across = perpendicular(direction)
     up = np.cross(direction, across)
-    distance = tan(radius) * np.sqrt((np.arange(rings) + 0.5) / rings)
+    nodes, weights = np.polynomial.legendre.leggauss(rings)
+    mu, weights = (nodes + 1.0) / 2.0, weights / 2.0
     angle = 2.0 * pi * (np.arange(spokes) + 0.5) / spokes
-    distance, angle = (part.ravel() for part in np.meshgrid(distance, angle, indexing="ij"))
-    offsets = (distance * np.cos(angle))[:, None] * across + (distance * np.sin(angle))[:, None] * up
-    rays = direction + offsets
+    distance, angle = np.meshgrid(tan(radius) * np.sqrt(1.0 - mu**2), angle, indexing="ij")
+    offsets = (distance * np.cos(angle))[..., None] * across + (distance * np.sin(angle))[..., None] * up
+    rays = direction + offsets.reshape(-1, 3)
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     whole = 2.0 * pi * (1.0 - np.cos(radius))
-    return rays, np.full(len(rays), whole / len(rays))
+    return rays, np.repeat(whole * 2.0 * mu * weights / spokes, spokes)
 
 
 def perpendicular(direction: np.ndarray) -> np.ndarray:

@@ -6,4 +6,4 @@ sky.visibility = 59.4
 sky.altitude = 0.0
 sky.moon = False
 sky.sun_elevation = -0.087266
-sky.exposure = 0.0
+sky.exposure = 7.92

@@ -6,4 +6,4 @@ sky.visibility = 59.4
 sky.altitude = 0.0
 sky.moon = False
 sky.sun_elevation = 1.047198
-sky.exposure = -5.27
+sky.exposure = -5.59

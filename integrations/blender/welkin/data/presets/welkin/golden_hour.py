@@ -6,4 +6,4 @@ sky.visibility = 59.4
 sky.altitude = 0.0
 sky.moon = False
 sky.sun_elevation = 0.10472
-sky.exposure = -2.0
+sky.exposure = -1.59
