@@ -101,7 +101,10 @@ class Files(BlenderCase):
         self.animate()
         self.plane()
         self.prepare(16, 16, 64)
-        self.check_frames(lambda: bpy.ops.render.render(animation=True), "one by one")
+        for persistent in (False, True):
+            with self.subTest(persistent=persistent):
+                self.scene.render.use_persistent_data = persistent
+                self.check_frames(lambda: bpy.ops.render.render(animation=True), f"kept {persistent}")
 
     def test_animation_in_the_background(self):
         """The same by another process, as `blender -b file -a` does."""
@@ -119,6 +122,7 @@ class Files(BlenderCase):
             bpy.ops.wm.save_as_mainfile(filepath=str(path))
         render()
         self.scene = bpy.context.scene
+        self.scene.render.use_persistent_data = False
         for frame in (1, 2, 3):
             self.scene.frame_set(frame)
             self.scene.render.filepath = str(WORK / "alone")

@@ -93,6 +93,25 @@ class Panel(BlenderCase):
         self.assertEqual(self.status().notes(self.scene), [])
         self.assertGreater(self.sky.sun_lamp.data.energy, 0.0)
 
+    def test_a_copied_scene(self):
+        """It shares image and lamps with the first, which keeps them when they are taken from the copy."""
+        self.add(resolution="256", sun_elevation=0.5)
+        first, image = self.scene, self.sky.image
+        bpy.ops.scene.new(type="LINK_COPY")
+        copy = bpy.context.scene
+        self.assertNotEqual(copy, first)
+        self.assertEqual(copy.welkin.image, image)
+        bpy.ops.welkin.remove()
+        self.assertEqual(first.welkin.image, image)
+        self.assertIsNotNone(first.welkin.sun_lamp)
+        self.assertEqual(first.world, first.welkin.world)
+        bpy.ops.welkin.add()
+        self.assertNotEqual(copy.welkin.image, image)
+        self.assertNotEqual(copy.welkin.sun_lamp, first.welkin.sun_lamp)
+        before = pixels_of(image)
+        copy.welkin.sun_elevation = 0.9
+        np.testing.assert_array_equal(pixels_of(image), before)
+
     def test_grey_card(self):
         """A level plane of 0.18 is rendered as 0.18."""
         self.add(sun_elevation=0.6)

@@ -23,7 +23,7 @@ class WELKIN_OT_add(bpy.types.Operator):
 
     def execute(self, context):
         scene = context.scene
-        is_new = not scene.welkin.enabled
+        is_new = scene.welkin.image is None
         datablocks.ensure_image(scene)
         datablocks.ensure_world(scene)
         datablocks.ensure_lamp(scene, "sun")

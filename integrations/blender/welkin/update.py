@@ -30,7 +30,7 @@ def refresh(scene, depsgraph=None) -> None:
     What is wrong with them is kept for the panel, and the sky stays as it was.
     """
     scene = scene.original
-    if not scene.welkin.enabled:
+    if not scene.welkin.enabled or scene.library is not None:
         return
     evaluated = scene.evaluated_get(depsgraph) if depsgraph else scene
     try:
