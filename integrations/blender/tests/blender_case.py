@@ -30,8 +30,8 @@ def welkin_json(*options: str) -> dict:
 def welkin_map(columns: int, *options: str) -> np.ndarray:
     """`welkin render --projection lat-long`: (rows, columns, 3), lowest row first."""
     target = WORK / "map"
-    call = [command(), "render", "--projection", "lat-long", "--size", str(columns // 2), "--out", str(target), *options]
-    subprocess.run(call, check=True, capture_output=True)
+    call = [command(), "render", "--projection", "lat-long", "--size", str(columns // 2), "--out", str(target)]
+    subprocess.run([*call, *options], check=True, capture_output=True)
     return load(target.with_suffix(".exr"))
 
 

@@ -52,7 +52,8 @@ class Almanac(unittest.TestCase):
                 f"--date={date}", f"--time={int(hour):02}:{round(hour % 1 * 60):02}{sign}{int(abs(offset)):02}:00",
                 f"--latitude={latitude}", f"--longitude={longitude}",
             )["conditions"]
-            apart = angle(elevation, azimuth, radians(wanted["solar_elevation_deg"]), radians(wanted["solar_azimuth_deg"]))
+            place = radians(wanted["solar_elevation_deg"]), radians(wanted["solar_azimuth_deg"])
+            apart = angle(elevation, azimuth, *place)
             worst = max(worst, degrees(apart))
         print(f"position of the sun: at most {worst:.4f} degrees from the command's")
         self.assertLess(worst, 0.02)
@@ -194,6 +195,21 @@ class Air(unittest.TestCase):
         light_, factors = air.volume(sun.conditions, [sun], frustum)
         self.assertEqual(light_[: air.ROWS, :, :3].max(), 0.0)
         self.assertEqual(factors[: air.ROWS, :, :3].min(), 1.0)
+
+    def test_moonlit_air(self):
+        """Sun and moon add."""
+        conditions, moon = Conditions(solar_elevation=radians(-5.0), altitude=800.0), Moon(0.5, 2.0, 0.2)
+        frustum = air.Frustum((1.0, 0.0, 0.05), (0.0, -0.5, 0.0), (0.0, 0.0, 0.1), 50e3)
+        both, moonless, sunless = (
+            air.volume(conditions, luminaries(of_sun, of_moon), frustum)[0][..., :3]
+            for of_sun, of_moon in (
+                (conditions, moon),
+                (conditions, None),
+                (Conditions(solar_elevation=-1.0, altitude=800.0), moon),
+            )
+        )
+        self.assertGreater(sunless.max(), 0.0)
+        np.testing.assert_allclose(both, moonless + sunless, rtol=1e-5)
 
     def test_night_has_air(self):
         dark = Conditions(solar_elevation=-1.0)
