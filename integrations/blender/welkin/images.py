@@ -18,3 +18,13 @@ def write(image: bpy.types.Image, pixels) -> None:
         image.scale(columns, rows)
     image.pixels.foreach_set(pixels.ravel())
     image.update()
+
+
+_ALPHA_MODES = ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE")
+
+
+def make_cycles_look(image: bpy.types.Image) -> None:
+    """Cycles keeps its copy of an image, in viewports and with Persistent Data, until a parameter of it changes: one
+    that makes no difference where alpha is 1. Comes before `write`, as it may read a packed image anew."""
+    following = (_ALPHA_MODES.index(image.alpha_mode) + 1) % len(_ALPHA_MODES)
+    image.alpha_mode = _ALPHA_MODES[following]

@@ -9,7 +9,7 @@ from .core.luminary import luminaries
 from .core.sky_map import sky_map
 from .core.units import blender_factor
 from .datablocks import background_of, environment_of
-from .images import write
+from .images import make_cycles_look, write
 from .read import read_settings, sun_in_degrees
 
 
@@ -59,7 +59,11 @@ def _draw(scene, settings, lights) -> None:
         raise InputError("The image of the sky is gone: press Restore")
     if _drawn.get(image.session_uid) == settings.map():
         return
-    write(image, sky_map(settings, lights))
+    pixels = sky_map(settings, lights)
+    make_cycles_look(image)
+    write(image, pixels)
+    if scene.welkin.world is not None and scene.welkin.world.node_tree is not None:
+        scene.welkin.world.node_tree.update_tag()
     _drawn[image.session_uid] = settings.map()
 
 
