@@ -7,6 +7,7 @@ import numpy as np
 
 from blender_case import BlenderCase, conditions, pixels_of, welkin_json, welkin_map
 
+EARTH = 6378e3
 SUNS = (-4.0, 2.0, 15.0, 60.0)
 
 
@@ -48,14 +49,18 @@ class Renders(BlenderCase):
         error = relative_error(pixels_of(self.sky.image)[..., :3], wanted)
         self.assertLess(np.percentile(error, 99), p99)
         self.assertLess(error.max(), most)
-        self.assertLess(abs(mean(pixels_of(self.sky.image)[..., :3]) / mean(wanted) - 1.0).max(), 0.002)
+        self.assertLess(abs(mean(pixels_of(self.sky.image)[..., :3]) / mean(wanted) - 1.0).max(), 0.005)
         self.compare_cycles()
 
     def compare_cycles(self):
         image = pixels_of(self.sky.image)[..., :3]
         error = relative_error(self.environment(256), image)
-        # Rays are not quite at the centres of pixels, which shows where the horizon is an edge.
-        self.assertLess(np.delete(error, (63, 64), axis=0).max(), 0.003)
+        # Rays are not quite at the centres of pixels, which shows where the horizon is an edge, and at the poles,
+        # where Cycles repeats maps: half of the uppermost row goes over into the lowest.
+        rows = len(image)
+        dip = np.arccos(EARTH / (EARTH + self.sky.altitude))
+        horizon = round((0.5 - dip / np.pi) * rows)
+        self.assertLess(np.delete(error, (0, horizon - 1, horizon, rows - 1), axis=0).max(), 0.003)
 
     def test_brightest_towards_the_sun(self):
         """Orientation without another program: the brightest direction is that of the disc."""
