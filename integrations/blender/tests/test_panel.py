@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from blender_case import PACKAGE, BlenderCase, bpy, pixels_of
+from blender_case import PACKAGE, WORK, BlenderCase, bpy, pixels_of
 
 
 class Panel(BlenderCase):
@@ -111,6 +111,24 @@ class Panel(BlenderCase):
         before = pixels_of(image)
         copy.welkin.sun_elevation = 0.9
         np.testing.assert_array_equal(pixels_of(image), before)
+
+    @unittest.skipIf(bpy.app.version < (5, 0), "Blender has one working space")
+    def test_working_spaces(self):
+        """The lamp is as Blender itself converts it when the working space of the file changes."""
+        for space in ("Linear Rec.2020", "ACEScg"):
+            with self.subTest(space=space):
+                self.setUp()
+                self.add(sun_elevation=radians(5.0), resolution="256")
+                light = self.sky.sun_lamp.data
+                plain = light.energy * np.array(light.color)
+                # Which it refuses as long as pixels are not saved.
+                bpy.ops.wm.save_as_mainfile(filepath=str(WORK / "space.blend"))
+                bpy.ops.wm.set_working_color_space(working_space=space, convert_colors=True)
+                converted = light.energy * np.array(light.color)
+                self.assertGreater(np.abs(converted - plain).max(), 1.0)
+                self.sky.sun_elevation = radians(6.0)
+                self.sky.sun_elevation = radians(5.0)
+                np.testing.assert_allclose(light.energy * np.array(light.color), converted, rtol=1e-3)
 
     def test_grey_card(self):
         """A level plane of 0.18 is rendered as 0.18."""
