@@ -118,6 +118,33 @@ fn real_command(directory: &Path, more: &[&str]) -> Command {
     command
 }
 
+/// Four times the walks halve the error, and another number than whole batches is refused.
+#[test]
+fn walks_may_be_counted() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |walks: &str| {
+        let more = [&SCENE[..], &["--walks", walks, "--out", "-"]].concat();
+        real(directory.path(), &more)
+    };
+    let error = |walks: &str| -> f64 {
+        let output = run(walks);
+        assert!(output.status.success(), "{output:?}");
+        let csv = String::from_utf8(output.stdout).unwrap();
+        column(&csv, "I_se").into_iter().sum()
+    };
+    let (few, many) = (error("32"), error("8192"));
+    assert!(many > 0.0 && many < 0.25 * few, "{few} {many}");
+    assert_eq!(error("32"), few);
+    for walks in ["0", "100", "-32", "many"] {
+        let bad = run(walks);
+        assert_eq!(bad.status.code(), Some(2), "{walks}");
+        let message = String::from_utf8(bad.stderr).unwrap();
+        assert!(message.contains("--walks"), "{message}");
+    }
+    let both = real(directory.path(), &["--walks", "32", "--target-error", "5%"]);
+    assert_eq!(both.status.code(), Some(2));
+}
+
 const SCENE: [&str; 4] = ["--solar-elevation", "30", "--albedo", "0.2"];
 
 #[test]
