@@ -1,4 +1,4 @@
-"""Makes figures: `python -m skies BINARIES KEPT NAME… [--draft] [--check] [--out FOLDER]`."""
+"""Makes figures: `python -m skies BINARIES KEPT NAME… [--draft] [--fine] [--check] [--out FOLDER]`."""
 
 import argparse
 import json
@@ -31,6 +31,7 @@ def main():
     parser.add_argument("kept", type=Path)
     parser.add_argument("figures", nargs="+", choices=[*FIGURES, "all"], metavar="FIGURE")
     parser.add_argument("--draft", action="store_true", help="small, with few walks")
+    parser.add_argument("--fine", action="store_true", help="twice as large, with three times the walks")
     parser.add_argument("--check", action="store_true", help="fail where the physics does not hold")
     parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parents[1], help="folder of the PNG")
     args = parser.parse_args()
@@ -44,7 +45,8 @@ def main():
 
 def make(name, commands, args):
     start = time.monotonic()
-    figure, facts = FIGURES[name].make(commands, args.draft)
+    quality = 0 if args.draft else 2 if args.fine else 1
+    figure, facts = FIGURES[name].make(commands, lambda *qualities: qualities[quality])
     path = args.out / (f"figure-{int(name):02}.png" if name.isdigit() else f"{name}.png")
     panels.save(figure, path)
     print(f"{path.name}: {time.monotonic() - start:.0f} s")

@@ -4,9 +4,10 @@ What was traced is kept, under all that decides about it, and a trace that was i
 """
 
 import hashlib
-import json
 import os
 import subprocess
+import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,8 +15,11 @@ import numpy as np
 
 from .views import angles
 
-WAVELENGTHS = list(range(400, 731, 30))
+# Where the lines of water vapour and oxygen, which the tracer's air lacks, take less than 0.1 %.
+WAVELENGTHS = [400, 430, 460, 490, 520, 550, 570, 610, 630, 650, 660, 780]
 GREEN = [550]
+# Lines of sight that are traced and kept together.
+PART = 6000
 
 
 @dataclass(frozen=True)
@@ -77,9 +81,14 @@ class Commands:
         values = [float(line.split(",")[-2]) for line in answer.stdout.splitlines()[1:]]
         return np.array(values).reshape(len(lines), len(wavelengths))
 
-    def trace(self, air, scene, lines, wavelengths, walks, distance=None):
-        """The light of the air alone: ground that is seen is black, but lights the air."""
-        return self._kept(self._air(air, wavelengths), self._queries(scene, lines, distance), walks, len(wavelengths))
+    def trace(self, air, scenes, lines, wavelengths, walks, distance=None):
+        """The light of the air alone, for each scene: ground that is seen is black, but lights the air.
+
+        No walks: of light that is scattered once, and transmittances.
+        """
+        queries = self._queries(scenes, lines, distance)
+        table = self._kept(self._air(air, wavelengths), queries, walks)
+        return [Traced(*part) for part in table.reshape(-1, len(scenes), len(lines), len(wavelengths)).swapaxes(0, 1)]
 
     def _air(self, air, wavelengths):
         options = ["--aerosol-profile", air.aerosol_profile]
@@ -87,42 +96,53 @@ class Commands:
             options += ["--ozone", repr(air.ozone)]
         nm = ",".join(map(str, wavelengths))
         run = [str(self.fit), "atmosphere", "--visibility", repr(air.visibility / 1e3), "--wavelengths", nm, *options]
-        return subprocess.run(run, capture_output=True, check=True).stdout
+        return subprocess.run(run, capture_output=True, check=True, text=True).stdout
 
     @staticmethod
-    def _queries(scene, lines, distance):
+    def _queries(scenes, lines, distance):
         rows = ["altitude_m,solar_elevation_deg,albedo,view_zenith_deg,view_azimuth_deg,distance_m"]
-        sun = float(np.degrees(scene.sun_elevation))
-        start = f"{scene.altitude!r},{sun!r},{scene.albedo!r}"
-        for (zenith, azimuth), metres in zip(_degrees(lines), _lengths(distance, len(lines))):
-            rows.append(f"{start},{zenith!r},{azimuth!r},{metres}")
-        return ("\n".join(rows) + "\n").encode()
+        views = list(zip(_degrees(lines), _lengths(distance, len(lines))))
+        for scene in scenes:
+            sun = float(np.degrees(scene.sun_elevation))
+            start = f"{scene.altitude!r},{sun!r},{scene.albedo!r}"
+            rows += [f"{start},{zenith!r},{azimuth!r},{metres}" for (zenith, azimuth), metres in views]
+        return rows
 
-    def _kept(self, air, queries, walks, wavelengths):
+    def _kept(self, air, queries, walks):
+        """The columns of `Traced`, row by row; from parts, each of which is traced once."""
+        header, *rows = queries
+        parts = [rows[i : i + PART] for i in range(0, len(rows), PART)]
+        tables = []
+        for i, part in enumerate(parts):
+            if sys.stderr.isatty():
+                print(f"part {i + 1} of {len(parts)}", file=sys.stderr)
+            tables.append(self._part(air, "\n".join([header, *part]) + "\n", walks))
+        return np.concatenate(tables, 1)
+
+    def _part(self, air, queries, walks):
         order = ["--visible-ground", "black", "--orders", "all" if walks else "single"]
         if walks:
             order += ["--walks", str(walks)]
-        key = hashlib.sha256(b"\0".join([self._version.encode(), air, queries, json.dumps(order).encode()]))
+        key = hashlib.sha256("\0".join([self._version, air, queries, *order]).encode())
         out = self.kept / f"{key.hexdigest()[:24]}.csv"
         if not out.exists():
-            files = {out.with_suffix(".air.json"): air, out.with_suffix(".queries.csv"): queries}
-            for path, content in files.items():
-                path.write_bytes(content)
-            air_file, query_file = map(str, files)
-            run = [str(self.fit), "trace", "--atmosphere", air_file, "--queries", query_file, *order, "--out", str(out)]
-            subprocess.run(run, check=True, stdout=subprocess.DEVNULL)
-            for path in files:
-                path.unlink()
-        return _read(out, wavelengths)
+            with tempfile.TemporaryDirectory(dir=self.kept) as folder:
+                files = [Path(folder) / name for name in ("air.json", "queries.csv")]
+                for path, content in zip(files, (air, queries)):
+                    path.write_text(content, encoding="utf-8")
+                run = [str(self.fit), "trace", "--atmosphere", str(files[0]), "--queries", str(files[1]), *order]
+                # To standard output: a file of its own for each line of sight takes longer than to trace it.
+                answer = subprocess.run(run, stdout=subprocess.PIPE, check=True).stdout
+            replace(out, lambda to: to.write_bytes(answer))
+        return _read(out)
 
 
-def _read(path, wavelengths):
+def _read(path):
+    """The columns of `Traced`."""
     with open(path, encoding="utf-8") as file:
         header = file.readline().strip().split(",")
-    names = ["I", "Q", "U", "I_se", "transmittance"]
-    columns = [header.index(name) for name in names]
-    table = np.loadtxt(path, delimiter=",", skiprows=1, usecols=columns, ndmin=2)
-    return Traced(*(column.reshape(-1, wavelengths) for column in table.T))
+    columns = [header.index(name) for name in ("I", "Q", "U", "I_se", "transmittance")]
+    return np.loadtxt(path, delimiter=",", skiprows=1, usecols=columns, ndmin=2).T
 
 
 def _degrees(lines):

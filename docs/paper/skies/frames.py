@@ -12,12 +12,12 @@ LIMIT = 0.8
 FRAMES = {"standard": "#178a2c", "sun-aligned": "#1f50c8"}
 
 
-def make(commands, draft):
-    view = views.up(40 if draft else 180)
-    light = commands.trace(Air(), Scene(SUN), view.lines, GREEN, 64 if draft else 512)
+def make(commands, pick):
+    view = views.up(pick(36, 90, 180))
+    light = commands.trace(Air(), [Scene(SUN)], view.lines, GREEN, pick(64, 256, 768))[0]
     q, u = (np.ravel(part / light.radiance) for part in (light.q, light.u))
     components = {"standard": (q, u), "sun-aligned": stokes.aligned(q, u, view.lines, SUN)}
-    figure, axes = panels.sheet(2, 4, (2.3, 2.3))
+    figure, axes = panels.sheet(2, 4, (2.0, 2.0))
     panels.titles(axes, ["frames", "Q/I", "U/I", "orientation and degree"])
     panels.row_labels(axes, [*FRAMES])
     facts = {}
@@ -48,7 +48,7 @@ def orientation(q, u):
 
 
 def _draw_frames(axis, name):
-    """The axes of Q: the first of each frame with an arrow, the second without."""
+    """Where Q is largest, with a thick line, and where it is least, with a thin one."""
     axis.set_aspect("equal")
     axis.set_xlim(-1, 1)
     axis.set_ylim(-1, 1)
@@ -61,11 +61,12 @@ def _draw_frames(axis, name):
     zenith = radius * np.pi / 2
     lines = np.stack([np.sin(zenith) * np.cos(azimuth), np.sin(zenith) * np.sin(azimuth), np.cos(zenith)], -1)
     first = stokes.standard_axes(lines)[0] if name == "standard" else stokes.aligned_axis(lines, SUN)
-    for vector, width in [(first, 0.011), (np.cross(lines, first), 0.005)]:
+    for vector, width in [(first, 1.8), (np.cross(lines, first), 0.6)]:
         start, end = _flat(lines), _flat(lines + 1e-4 * vector)
         step = end - start
-        step *= 0.13 / np.linalg.norm(step, axis=-1, keepdims=True)
-        axis.quiver(*start.T, *step.T, color=FRAMES[name], width=width, angles="xy", scale_units="xy", scale=1)
+        step *= 0.075 / np.linalg.norm(step, axis=-1, keepdims=True)
+        ends = np.stack([start - step, start + step])
+        axis.plot(*ends.transpose(2, 0, 1), color=FRAMES[name], linewidth=width)
 
 
 def _flat(vectors):

@@ -12,11 +12,11 @@ SCRIPT = Path(__file__).resolve().parents[1] / "haze"
 NAMES = {"passes": "the filter passes the haze", "lifts": "turned by 90°"}
 
 
-def make(commands, draft):
+def make(commands, pick):
     folder = commands.kept / "haze"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
-    subprocess.run(["bash", str(SCRIPT), str(commands.welkin), str(folder), "72" if draft else "360"], check=True)
+    subprocess.run(["bash", str(SCRIPT), str(commands.welkin), str(folder), str(pick(48, 160, 360))], check=True)
     pictures = [panels.plt.imread(folder / f"polariser-{name}.png")[..., :3] for name in NAMES]
     height, width = pictures[0].shape[:2]
     figure, axes = panels.sheet(1, 2, (4.6, 4.6 * height / width), left=0.05)

@@ -7,20 +7,18 @@ from .ask import WAVELENGTHS, Air, Scene
 
 SUNS = [30.0, -3.0]
 OZONE = {"none": 0.0, "hole, 100 DU": 100.0, "healthy, 345 DU": 345.0}
-# Many walks in twilight, where most of what arrives was scattered more than once.
-WALKS = {30.0: 96, -3.0: 320}
 VISIBILITY = 131_800.0
 
 
-def make(commands, draft):
-    view = views.up(40 if draft else 150)
-    figure, axes = panels.sheet(len(SUNS), len(OZONE), (2.6, 2.6))
+def make(commands, pick):
+    view = views.up(pick(32, 84, 160))
+    figure, axes = panels.sheet(len(SUNS), len(OZONE), (2.3, 2.3))
     panels.titles(axes, OZONE)
     panels.row_labels(axes, [f"sun at {sun:g}°" for sun in SUNS])
+    traced = {name: _traced(commands, view, dobson, pick(32, 96, 320)) for name, dobson in OZONE.items()}
     facts = {}
-    for row, sun in zip(axes, SUNS):
-        walks = 32 if draft else WALKS[sun]
-        pictures = {name: _traced(commands, view, sun, dobson, walks) for name, dobson in OZONE.items()}
+    for i, (row, sun) in enumerate(zip(axes, SUNS)):
+        pictures = {name: traced[name][i] for name in OZONE}
         white = 2.5 * colour.geometric_mean(pictures["healthy, 345 DU"])
         facts[f"white of sun {sun:g}, cd/m²"] = white
         for axis, (name, picture) in zip(row, pictures.items()):
@@ -30,11 +28,11 @@ def make(commands, draft):
     return figure, facts
 
 
-def _traced(commands, view, sun, dobson, walks):
+def _traced(commands, view, dobson, walks):
     air = Air(VISIBILITY, ozone=dobson)
-    scene = Scene(np.radians(sun), visibility=VISIBILITY)
-    light = commands.trace(air, scene, view.lines, WAVELENGTHS, walks)
-    return view.picture(colour.linear_srgb(light.radiance, WAVELENGTHS))
+    scenes = [Scene(np.radians(sun), visibility=VISIBILITY) for sun in SUNS]
+    lights = commands.trace(air, scenes, view.lines, WAVELENGTHS, walks)
+    return [view.picture(colour.linear_srgb(light.radiance, WAVELENGTHS)) for light in lights]
 
 
 def zenith(view, picture):

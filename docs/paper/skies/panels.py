@@ -2,6 +2,7 @@
 
 import matplotlib
 import numpy as np
+from PIL import Image
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
@@ -66,6 +67,8 @@ def scale_bar(figure, axis, mappable, label):
 
 
 def save(figure, path):
-    # The same pixels are the same file.
-    replace(path, lambda to: figure.savefig(to, dpi=DPI, metadata={"Software": None}))
+    """Writes a small file: no transparency, no name of a program."""
+    figure.canvas.draw()
+    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy())
+    replace(path, lambda to: image.save(to, optimize=True))
     plt.close(figure)

@@ -10,9 +10,9 @@ SUNS = range(0, -7, -1)
 OPPOSITE = (np.radians([230.0, 130.0]), np.radians([30.0, 0.0]))
 
 
-def make(commands, draft):
-    view = views.up(32 if draft else 160)
-    opposite = views.strip((16, 20) if draft else (80, 60), *OPPOSITE)
+def make(commands, pick):
+    view = views.up(pick(32, 160, 160))
+    opposite = views.strip(pick((16, 20), (80, 60), (80, 60)), *OPPOSITE)
     figure, axes = panels.sheet(3, len(SUNS), (1.6, 1.6))
     panels.titles(axes, [f"{sun}°" for sun in SUNS])
     panels.row_labels(axes, ["each for itself", "exposed as at 0°", "opposite the sun"])
