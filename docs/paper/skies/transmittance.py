@@ -21,7 +21,7 @@ def make(commands, pick):
         panels.show(axis, colour.encode(view.picture(rgb)))
     apart = model - exact
     green = view.picture(apart[:, WAVELENGTHS.index(GREEN[0])])
-    panels.scale_bar(figure, axes[0, 2], panels.show_signed(axes[0, 2], green, 0.01), "")
+    panels.scale_bar(figure, axes[0, 2], panels.show_signed(axes[0, 2], green, 2e-4), "")
     facts = {f"transmittance, absolute error, {name}": value for name, value in quantiles(np.abs(apart)).items()}
     far = np.isfinite(distance)
     facts["farthest thing seen, km"] = float(distance[far].max() / 1e3)
