@@ -116,13 +116,14 @@ class Commands:
         for i, part in enumerate(parts):
             if sys.stderr.isatty():
                 print(f"part {i + 1} of {len(parts)}", file=sys.stderr)
-            tables.append(self._part(air, "\n".join([header, *part]) + "\n", walks))
+            tables.append(self._part(air, "\n".join([header, *part]) + "\n", walks, seed=1 + i * PART))
         return np.concatenate(tables, 1)
 
-    def _part(self, air, queries, walks):
+    def _part(self, air, queries, walks, seed):
         order = ["--visible-ground", "black", "--orders", "all" if walks else "single"]
         if walks:
-            order += ["--walks", str(walks)]
+            # Each line of sight has a seed of its own, counted from this one.
+            order += ["--walks", str(walks), "--seed", str(seed)]
         key = hashlib.sha256("\0".join([self._version, air, queries, *order]).encode())
         out = self.kept / f"{key.hexdigest()[:24]}.csv"
         if not out.exists():
