@@ -26,12 +26,14 @@ FIGURES = {
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="figure")
+    usage = "figure FIGURE… [--draft | --fine] [--check] [--out FOLDER]"
+    parser = argparse.ArgumentParser(prog="figure", usage=usage)
     parser.add_argument("binaries", type=Path)
     parser.add_argument("kept", type=Path)
     parser.add_argument("figures", nargs="+", choices=[*FIGURES, "all"], metavar="FIGURE")
-    parser.add_argument("--draft", action="store_true", help="small, with few walks")
-    parser.add_argument("--fine", action="store_true", help="twice as large, with three times the walks")
+    quality = parser.add_mutually_exclusive_group()
+    quality.add_argument("--draft", action="store_true", help="small, with few walks")
+    quality.add_argument("--fine", action="store_true", help="twice as large, with three times the walks")
     parser.add_argument("--check", action="store_true", help="fail where the physics does not hold")
     parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parents[1], help="folder of the PNG")
     args = parser.parse_args()
