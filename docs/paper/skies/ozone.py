@@ -11,11 +11,11 @@ VISIBILITY = 131_800.0
 
 
 def make(commands, pick):
-    view = views.up(pick(32, 84, 160))
+    view = views.up(pick(32, 104, 200))
     figure, axes = panels.sheet(len(SUNS), len(OZONE), (2.3, 2.3))
     panels.titles(axes, OZONE)
     panels.row_labels(axes, [f"sun at {sun:g}°" for sun in SUNS])
-    traced = {name: _traced(commands, view, dobson, pick(32, 96, 320)) for name, dobson in OZONE.items()}
+    traced = {name: _traced(commands, view, dobson, pick(32, 160, 480)) for name, dobson in OZONE.items()}
     facts = {}
     for i, (row, sun) in enumerate(zip(axes, SUNS)):
         pictures = {name: traced[name][i] for name in OZONE}
