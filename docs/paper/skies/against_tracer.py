@@ -10,9 +10,9 @@ SCENE = Scene(np.radians(18.64), altitude=2495.0)
 
 
 def make(commands, pick):
-    view = views.sideways(pick(32, 72, 160))
+    view = views.sideways(pick(32, 96, 160))
     lines, at = view.lines, WAVELENGTHS.index(GREEN[0])
-    walks = pick(64, 256, 1024)
+    walks = pick(64, 512, 1536)
     light = commands.trace(Air(), [SCENE], lines, WAVELENGTHS, walks)[0]
     model = commands.model("relative_radiance", SCENE, lines, WAVELENGTHS)
     model_q = commands.model("polarisation", SCENE, lines, GREEN)[:, 0]
