@@ -164,6 +164,26 @@ fn tracing_the_file_gives_the_radiance_of_the_built_in_air() {
     }
 }
 
+/// The file of a varied air says so, and has its ozone and its particles.
+#[test]
+fn varied_air_is_written() {
+    let read = |more: &[&str]| {
+        let start = ["atmosphere", "--visibility", "59.4", "--wavelengths", "600"];
+        let output = run(&[&start[..], more].concat());
+        assert!(output.status.success(), "{output:?}");
+        Case::parse(&String::from_utf8(output.stdout).unwrap()).unwrap()
+    };
+    let at = |case: &Case, altitude: f64| case.atmosphere.extinction(altitude, 0);
+    let usual = read(&[]);
+    let none = read(&["--ozone", "0"]);
+    assert!(at(&none, 22_000.0) < 0.9 * at(&usual, 22_000.0));
+    assert_ne!(none.id, usual.id);
+    let one = read(&["--aerosol-profile", "exponential"]);
+    assert!(at(&one, 3000.0) > 1.2 * at(&usual, 3000.0));
+    let sharp = read(&["--aerosol-profile", "sharp"]);
+    assert!(at(&sharp, 1999.0) > 1.5 * at(&sharp, 2001.0));
+}
+
 #[test]
 fn bad_input_is_one_line_and_exit_code_2_and_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
@@ -182,6 +202,8 @@ fn bad_input_is_one_line_and_exit_code_2_and_leaves_no_file() {
         ("--albedo", "NaN", "ground_albedo"),
         ("--solar-elevation", "91", "sun_elevation_deg"),
         ("--solar-elevation", "inf", "sun_elevation_deg"),
+        ("--ozone", "-1", "ozone"),
+        ("--ozone", "NaN", "ozone"),
         ("--out", "/nowhere/air.json", "/nowhere/air.json"),
     ] {
         let mut arguments = vec!["atmosphere", option, value];

@@ -73,6 +73,7 @@ fn bad_input_is_one_line_and_exit_code_2() {
         (&["--aerosol", "mie", "--wavelengths", "900"], "900"),
         (&["--wavelengths", "500,400"], "increase"),
         (&["--white", "0"], "--white"),
+        (&["--ozone", "-1"], "ozone"),
     ] {
         let output = picture(folder.path(), &[more, &["--png", "x.png"]].concat());
         let message = String::from_utf8(output.stderr).unwrap();
@@ -83,6 +84,32 @@ fn bad_input_is_one_line_and_exit_code_2() {
         );
         assert!(!message.contains("unexpected argument"), "{message}");
         assert!(!folder.path().join("x.png").exists());
+    }
+}
+
+/// Ozone takes red light from twilight, and an exponential puts haze where the layers have none.
+#[test]
+fn the_air_may_be_varied() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |more: &[&str]| {
+        let scene = [
+            "--solar-elevation",
+            "-2",
+            "--altitude",
+            "4",
+            "--png",
+            "a.png",
+            "--white",
+            "100",
+        ];
+        let output = picture(folder.path(), &[&scene[..], more].concat());
+        assert!(output.status.success(), "{output:?}");
+        std::fs::read(folder.path().join("a.png")).unwrap()
+    };
+    let usual = run(&[]);
+    assert_eq!(usual, run(&["--aerosol-profile", "smooth"]));
+    for varied in [["--ozone", "0"], ["--aerosol-profile", "exponential"]] {
+        assert_ne!(usual, run(&varied), "{varied:?}");
     }
 }
 

@@ -103,6 +103,13 @@ fn real(directory: &Path, more: &[&str]) -> Output {
 }
 
 fn real_command(directory: &Path, more: &[&str]) -> Command {
+    let mut command = counted_command(directory, more);
+    command.args(["--target-error", "5%"]);
+    command
+}
+
+/// Without an error to aim at.
+fn counted_command(directory: &Path, more: &[&str]) -> Command {
     let file = directory.join("queries.csv");
     std::fs::write(
         &file,
@@ -111,11 +118,38 @@ fn real_command(directory: &Path, more: &[&str]) -> Command {
     .unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_welkin-fit"));
     command
-        .args(["trace", "--visibility", "40", "--target-error", "5%"])
+        .args(["trace", "--visibility", "40"])
         .args(["--wavelengths", "440,550", "--queries"])
         .arg(file)
         .args(more);
     command
+}
+
+/// Four times the walks halve the error, and another number than whole batches is refused.
+#[test]
+fn walks_may_be_counted() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |walks: &str| {
+        let more = [&SCENE[..], &["--walks", walks, "--out", "-"]].concat();
+        counted_command(directory.path(), &more).output().unwrap()
+    };
+    let error = |walks: &str| -> f64 {
+        let output = run(walks);
+        assert!(output.status.success(), "{output:?}");
+        let csv = String::from_utf8(output.stdout).unwrap();
+        column(&csv, "I_se").into_iter().sum()
+    };
+    let (few, many) = (error("32"), error("8192"));
+    assert!(many > 0.0 && many < 0.25 * few, "{few} {many}");
+    assert_eq!(error("32"), few);
+    for walks in ["0", "100", "-32", "many"] {
+        let bad = run(walks);
+        assert_eq!(bad.status.code(), Some(2), "{walks}");
+        let message = String::from_utf8(bad.stderr).unwrap();
+        assert!(message.contains("--walks"), "{message}");
+    }
+    let both = real(directory.path(), &["--walks", "32"]);
+    assert_eq!(both.status.code(), Some(2));
 }
 
 const SCENE: [&str; 4] = ["--solar-elevation", "30", "--albedo", "0.2"];

@@ -92,12 +92,14 @@ impl Atmosphere {
     /// Vertical optical depth of constituent `k` at wavelength index `w`.
     pub fn vertical_optical_depth(&self, k: usize, w: usize) -> f64 {
         let c = &self.constituents[k];
-        let column: f64 = self
-            .altitudes
-            .windows(2)
-            .zip(c.profile.windows(2))
-            .map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0]))
-            .sum();
-        column * c.extinction[w]
+        column(&self.altitudes, &c.profile) * c.extinction[w]
     }
+}
+
+/// Integral of a profile over the altitude, m.
+pub fn column(altitudes: &[f64], profile: &[f64]) -> f64 {
+    let pairs = altitudes.windows(2).zip(profile.windows(2));
+    pairs
+        .map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0]))
+        .sum()
 }

@@ -1,6 +1,7 @@
 //! What the air is made of.
 
 pub mod absorption_bands;
+mod aerosol;
 mod composition;
 pub mod json;
 pub mod matrix;
@@ -8,7 +9,10 @@ pub mod mie;
 mod monochromatic;
 mod real;
 pub mod table;
+mod variation;
 
+pub use aerosol::Particles;
 pub use composition::{Atmosphere, Constituent, Phase, Scatterer};
 pub use monochromatic::Monochromatic;
-pub use real::{Particles, VISIBILITIES, real, real_at, real_with};
+pub use real::{VISIBILITIES, real, real_at, real_varied, real_with};
+pub use variation::{AerosolProfile, Variation};

@@ -6,12 +6,12 @@
 //! and soot particles with Henyey-Greenstein phase functions, in two profiles that the inversion layer at 2 km
 //! separates smoothly.
 
-use super::composition::{Atmosphere, Constituent, Phase, Scatterer};
-use super::mie;
+use super::aerosol::{Particles, aerosols};
+use super::composition::{Atmosphere, Constituent, Phase, Scatterer, column};
 use super::monochromatic::Monochromatic;
 use super::table::{Curve, Table};
+use super::variation::{AerosolProfile, Variation};
 use anyhow::{Result, ensure};
-use std::sync::Arc;
 
 /// Radius of the planet, m (the value of the published model).
 pub const PLANET_RADIUS: f64 = 6_378_000.0;
@@ -21,22 +21,10 @@ pub const TOP: f64 = 100_000.0;
 /// The visibilities of the paper's Table 2, m.
 pub const VISIBILITIES: [f64; 6] = [20_000.0, 27_600.0, 40_000.0, 59_400.0, 90_000.0, 131_800.0];
 
-const SPECIES: [&str; 3] = ["waso", "inso", "soot"];
-
 macro_rules! table {
     ($name:literal) => {
         Table::parse($name, include_str!(concat!("../../data/", $name)))
     };
-}
-
-/// How the aerosol scatters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Particles {
-    /// By Henyey-Greenstein functions, as the paper has it.
-    #[default]
-    HenyeyGreenstein,
-    /// By the Mie matrices of its spheres (320..760 nm).
-    Mie,
 }
 
 /// The real atmosphere with Henyey-Greenstein aerosols beside absorption lines; see [`real_with`].
@@ -47,6 +35,16 @@ pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
 /// The real atmosphere beside absorption lines with the given visibility (m, 20..131.8 km) at the given wavelengths
 /// (nm, 300..2500).
 pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> Result<Atmosphere> {
+    real_varied(visibility, wavelengths, particles, Variation::default())
+}
+
+/// The atmosphere of [`real_with`] with something changed.
+pub fn real_varied(
+    visibility: f64,
+    wavelengths: &[f64],
+    particles: Particles,
+    variation: Variation,
+) -> Result<Atmosphere> {
     ensure!(
         wavelengths.windows(2).all(|w| w[0] < w[1]),
         "wavelengths must increase"
@@ -55,7 +53,7 @@ pub fn real_with(visibility: f64, wavelengths: &[f64], particles: Particles) -> 
         .iter()
         .map(|&w| Monochromatic::beside_lines(w))
         .collect();
-    real_at(visibility, &lights, particles)
+    build(visibility, &lights, particles, variation)
 }
 
 /// The real atmosphere with the given visibility (m, 20..131.8 km) for lights of 300..2500 nm, in any order.
@@ -64,6 +62,16 @@ pub fn real_at(
     lights: &[Monochromatic],
     particles: Particles,
 ) -> Result<Atmosphere> {
+    build(visibility, lights, particles, Variation::default())
+}
+
+fn build(
+    visibility: f64,
+    lights: &[Monochromatic],
+    particles: Particles,
+    variation: Variation,
+) -> Result<Atmosphere> {
+    variation.check()?;
     let wavelengths: &[f64] = &lights.iter().map(|l| l.wavelength).collect::<Vec<_>>();
     ensure!(
         (VISIBILITIES[0]..=VISIBILITIES[5]).contains(&visibility),
@@ -74,9 +82,16 @@ pub fn real_at(
         wavelengths.iter().all(|w| (300.0..=2500.0).contains(w)) && !wavelengths.is_empty(),
         "wavelengths must lie in 300..2500 nm"
     );
-    let altitudes = altitude_nodes();
-    let mut constituents = gases(&altitudes, lights)?;
-    constituents.extend(aerosols(visibility, &altitudes, wavelengths, particles)?);
+    let altitudes = altitude_nodes(variation.aerosol);
+    let mut constituents = gases(&altitudes, lights, variation)?;
+    let profile = variation.aerosol;
+    constituents.extend(aerosols(
+        visibility,
+        &altitudes,
+        wavelengths,
+        particles,
+        profile,
+    )?);
     Ok(Atmosphere {
         planet_radius: PLANET_RADIUS,
         altitudes,
@@ -86,7 +101,8 @@ pub fn real_at(
 }
 
 /// Nodes dense where the profiles bend: the inversion layer (2 km) and the tropopause end of the aerosol (12 km).
-fn altitude_nodes() -> Vec<f64> {
+/// Where the profile jumps there, two nodes stand 1 m apart.
+fn altitude_nodes(profile: AerosolProfile) -> Vec<f64> {
     let parts: [(f64, f64, f64); 8] = [
         (0.0, 1400.0, 100.0),
         (1400.0, 2800.0, 50.0),
@@ -101,13 +117,22 @@ fn altitude_nodes() -> Vec<f64> {
         let n = ((to - from) / step).round() as usize;
         (0..n).map(move |i| from + step * i as f64)
     });
-    inner.chain([TOP]).collect()
+    let jumps = |z: f64| profile == AerosolProfile::Sharp && AerosolProfile::EDGES.contains(&z);
+    let nodes = inner.flat_map(|z| match jumps(z) {
+        true => [Some(z - 0.5), Some(z + 0.5)],
+        false => [Some(z), None],
+    });
+    nodes.flatten().chain([TOP]).collect()
 }
 
-fn gases(altitudes: &[f64], lights: &[Monochromatic]) -> Result<Vec<Constituent>> {
+fn gases(
+    altitudes: &[f64],
+    lights: &[Monochromatic],
+    variation: Variation,
+) -> Result<Vec<Constituent>> {
     let profile = table!("atm_afgl_us_standard.csv")?;
     let mut out = vec![air(&profile, altitudes, lights)?];
-    out.extend(ozone(&profile, altitudes, lights)?);
+    out.extend(ozone(&profile, altitudes, lights, variation.ozone)?);
     out.push(water(&profile, altitudes, lights)?);
     Ok(out)
 }
@@ -149,11 +174,24 @@ fn air(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<C
 /// Temperatures between which the absorption of ozone is linear, K: those of the table.
 const OZONE: [f64; 3] = [223.0, 243.0, 293.0];
 
-/// Ozone as a mixture of three, each with the cross section at one temperature.
-fn ozone(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<[Constituent; 3]> {
+/// Molecules per cm² in a Dobson unit.
+const DOBSON: f64 = 2.6867e16;
+
+/// Ozone as a mixture of three, each with the cross section at one temperature; `dobson` is its column, if not that of
+/// the profile.
+fn ozone(
+    profile: &Table,
+    altitudes: &[f64],
+    lights: &[Monochromatic],
+    dobson: Option<f64>,
+) -> Result<[Constituent; 3]> {
     let cross_sections = table!("o3_xsec_1nm.csv")?;
     let temperature = profile.curve("z_km", "T_K")?;
-    let (ozone, scale) = density(&profile.curve("z_km", "n_o3")?, altitudes);
+    let (ozone, standard) = density(&profile.curve("z_km", "n_o3")?, altitudes);
+    let scale = match dobson {
+        Some(dobson) => dobson * DOBSON / column(altitudes, &ozone),
+        None => standard,
+    };
     let part = |i: usize| -> Result<Constituent> {
         let kelvin = OZONE[i];
         let absorption = cross_sections.curve("wavelength_nm", &format!("sigma_{kelvin}K"))?;
@@ -193,14 +231,6 @@ fn water(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result
     })
 }
 
-/// Integral of a profile over the altitude, m.
-fn column(altitudes: &[f64], profile: &[f64]) -> f64 {
-    let pairs = altitudes.windows(2).zip(profile.windows(2));
-    pairs
-        .map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0]))
-        .sum()
-}
-
 /// Profile normalised to its largest value, and the factor from cm² to m⁻¹ there.
 fn density(per_cm3: &Curve, altitudes: &[f64]) -> (Vec<f64>, f64) {
     let n: Vec<f64> = altitudes
@@ -209,112 +239,6 @@ fn density(per_cm3: &Curve, altitudes: &[f64]) -> (Vec<f64>, f64) {
         .collect();
     let max = n.iter().cloned().fold(0.0, f64::max);
     (n.iter().map(|v| v / max).collect(), max * 100.0)
-}
-
-fn aerosols(
-    visibility: f64,
-    altitudes: &[f64],
-    wavelengths: &[f64],
-    particles: Particles,
-) -> Result<Vec<Constituent>> {
-    let (boundary, free) = concentrations(visibility)?;
-    let shape = |below: bool| {
-        altitudes
-            .iter()
-            .map(|z| profile_shape(z / 1000.0, below))
-            .collect::<Vec<f64>>()
-    };
-    let phases = SPECIES
-        .iter()
-        .map(|species| phase(species, wavelengths, particles))
-        .collect::<Result<Vec<_>>>()?;
-    let part =
-        |name: &str, below, per_cm3| aerosol(name, shape(below), per_cm3, wavelengths, &phases);
-    Ok(vec![
-        part("boundary layer aerosol", true, boundary)?,
-        part("free troposphere aerosol", false, free)?,
-    ])
-}
-
-/// `exp(-z/8)` cut off at 12 km, below or above the inversion at 2 km (z in km).
-fn profile_shape(z: f64, below: bool) -> f64 {
-    let above = 1.0 / (1.0 + (-(z - 2.0) / 0.15).exp());
-    let gone = 1.0 / (1.0 + (-(z - 12.0) / 0.5).exp());
-    (-z / 8.0).exp() * (1.0 - gone) * if below { 1.0 - above } else { above }
-}
-
-/// Number densities (cm⁻³) of the species in the boundary layer and above, extrapolated to z = 0.
-///
-/// Between the tabulated visibilities the mixtures are mixed linearly in concentration, so that the extinction matches.
-fn concentrations(visibility: f64) -> Result<([f64; 3], [f64; 3])> {
-    let table = table!("aerosol_profiles.csv")?;
-    let rows = table.column("visibility_km")?;
-    let v = visibility / 1000.0;
-    let i = rows
-        .partition_point(|&row| row <= v)
-        .clamp(1, rows.len() - 1);
-    let t = ((1.0 / v - 1.0 / rows[i - 1]) / (1.0 / rows[i] - 1.0 / rows[i - 1])).clamp(0.0, 1.0);
-    let mix = |prefix: &str| -> Result<[f64; 3]> {
-        let mut out = [0.0; 3];
-        for (value, species) in out.iter_mut().zip(SPECIES) {
-            let column = table.column(&format!("{prefix}_{species}"))?;
-            *value = column[i - 1] + t * (column[i] - column[i - 1]);
-        }
-        Ok(out)
-    };
-    Ok((mix("A")?, mix("F")?))
-}
-
-fn phase(species: &str, wavelengths: &[f64], particles: Particles) -> Result<Phase> {
-    Ok(match particles {
-        Particles::HenyeyGreenstein => {
-            let optics = table!("opac_channels.csv")?;
-            let g = optics.curve("wavelength_nm", &format!("{species}_g_use"))?;
-            Phase::HenyeyGreenstein {
-                g: wavelengths.iter().map(|&w| g.at(w)).collect(),
-            }
-        }
-        Particles::Mie => Phase::Tabulated(Arc::new(mie::matrix(species, wavelengths)?)),
-    })
-}
-
-fn aerosol(
-    name: &str,
-    profile: Vec<f64>,
-    per_cm3: [f64; 3],
-    wavelengths: &[f64],
-    phases: &[Phase],
-) -> Result<Constituent> {
-    let optics = table!("opac_channels.csv")?;
-    let mut extinction = vec![0.0; wavelengths.len()];
-    let mut scatterers = vec![];
-    for ((species, n), phase) in SPECIES.into_iter().zip(per_cm3).zip(phases) {
-        let curve = |column: &str| optics.curve("wavelength_nm", &format!("{species}_{column}"));
-        let (cross_section, albedo) = (curve("ext_m2")?, curve("ssa")?);
-        let ext: Vec<f64> = wavelengths
-            .iter()
-            .map(|&w| n * 1e6 * cross_section.log_at(w))
-            .collect();
-        for (sum, e) in extinction.iter_mut().zip(&ext) {
-            *sum += e;
-        }
-        scatterers.push(Scatterer {
-            name: species.into(),
-            phase: phase.clone(),
-            scattering: ext
-                .iter()
-                .zip(wavelengths)
-                .map(|(e, &w)| e * albedo.at(w))
-                .collect(),
-            extinction: ext,
-        });
-    }
-    Ok(Constituent {
-        name: name.into(),
-        profile,
-        extinction,
-        scatterers,
-    })
 }
 
 #[cfg(test)]
@@ -365,8 +289,28 @@ mod tests {
         let molecules = |k: usize, kelvin: &str| air.vertical_optical_depth(k, 0) / sigma(kelvin);
         let all =
             molecules(1, "sigma_223K") + molecules(2, "sigma_243K") + molecules(3, "sigma_293K");
-        let dobson = all / 2.6867e16;
+        let dobson = all / DOBSON;
         assert!((dobson - 345.0).abs() < 10.0, "{dobson} DU");
+    }
+
+    #[test]
+    fn ozone_has_the_column_that_is_asked_for() {
+        let depth = |ozone| {
+            let variation = Variation {
+                ozone,
+                ..Variation::default()
+            };
+            let particles = Particles::HenyeyGreenstein;
+            let air = real_varied(59_400.0, &[600.0], particles, variation).unwrap();
+            (1..4)
+                .map(|k| air.vertical_optical_depth(k, 0))
+                .sum::<f64>()
+        };
+        assert_eq!(depth(Some(0.0)), 0.0);
+        let (hole, twice) = (depth(Some(100.0)), depth(Some(200.0)));
+        assert!((twice / hole - 2.0).abs() < 1e-9);
+        let standard = 100.0 * depth(None) / hole;
+        assert!((standard - 345.0).abs() < 10.0, "{standard} DU");
     }
 
     #[test]
@@ -415,5 +359,13 @@ mod tests {
         assert!(real(f64::NAN, &[550.0]).is_err());
         assert!(real(40_000.0, &[200.0]).is_err());
         assert!(real_with(40_000.0, &[800.0], Particles::Mie).is_err());
+        for dobson in [-1.0, 1e4, f64::NAN] {
+            let variation = Variation {
+                ozone: Some(dobson),
+                ..Variation::default()
+            };
+            let air = real_varied(40_000.0, &[550.0], Particles::Mie, variation);
+            assert!(air.unwrap_err().to_string().contains("ozone"));
+        }
     }
 }

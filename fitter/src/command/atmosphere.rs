@@ -1,11 +1,12 @@
 //! `welkin-fit atmosphere`: the real air as a file, for other codes and for `trace`.
 
+use super::variation::VariationArgs;
 use anyhow::Result;
 use clap::Args as ClapArgs;
 use std::path::PathBuf;
 use welkin::output::{Target, write};
 use welkin_fitter::atmosphere::json::Case;
-use welkin_fitter::atmosphere::real;
+use welkin_fitter::atmosphere::{Particles, real_varied};
 
 /// Arguments of `atmosphere`.
 #[derive(ClapArgs)]
@@ -16,6 +17,8 @@ pub struct Args {
     /// Wavelengths, nm (300..2500), separated by commas.
     #[arg(long, value_delimiter = ',', default_value = "550")]
     wavelengths: Vec<f64>,
+    #[command(flatten)]
+    variation: VariationArgs,
     /// Albedo of the ground that goes into the file.
     #[arg(long, default_value_t = 0.2)]
     albedo: f64,
@@ -29,9 +32,16 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
+    let variation = args.variation.variation();
+    let id = format!("real air, visibility {} km{variation}", args.visibility);
     let case = Case {
-        id: format!("real air, visibility {} km", args.visibility),
-        atmosphere: real(1000.0 * args.visibility, &args.wavelengths)?,
+        id,
+        atmosphere: real_varied(
+            1000.0 * args.visibility,
+            &args.wavelengths,
+            Particles::HenyeyGreenstein,
+            variation,
+        )?,
         sun_elevation_deg: args.solar_elevation,
         albedo: args.albedo,
         columns: vec![],

@@ -13,3 +13,4 @@ pub mod spectrum;
 pub mod trace;
 pub mod units;
 pub mod validate;
+mod variation;

@@ -1,12 +1,13 @@
 //! `welkin-fit picture`: path-traced pictures of sky, ground and simple things on it.
 
 use super::trace::AerosolArg;
+use super::variation::VariationArgs;
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use welkin::output::{Target, write};
-use welkin_fitter::atmosphere::{Particles, real_with};
+use welkin_fitter::atmosphere::{Particles, real_varied};
 use welkin_fitter::picture::camera::{Camera, Projection};
 use welkin_fitter::picture::ground::{Ground, Pattern};
 use welkin_fitter::picture::scene::{Builder, Place, Scene, Tower};
@@ -30,6 +31,8 @@ pub struct Args {
     /// Aerosols: Henyey-Greenstein ones that depolarise or preserve polarisation, or full Mie matrices.
     #[arg(long, value_enum, default_value = "depolarising")]
     aerosol: AerosolArg,
+    #[command(flatten)]
+    variation: VariationArgs,
     /// Sun elevation, degrees.
     #[arg(long, default_value_t = 30.0)]
     solar_elevation: f64,
@@ -166,7 +169,13 @@ pub fn run(args: &Args) -> Result<()> {
         AerosolArg::Mie => Particles::Mie,
         _ => Particles::HenyeyGreenstein,
     };
-    let air = real_with(1000.0 * args.visibility, &args.wavelengths, particles)?;
+    let variation = args.variation.variation();
+    let air = real_varied(
+        1000.0 * args.visibility,
+        &args.wavelengths,
+        particles,
+        variation,
+    )?;
     let tracer = Tracer::new(&air, args.options())?;
     let scene = args.scene(air.planet_radius)?;
     let style = ProgressStyle::with_template("render {bar:40} {pos}/{len} {eta}");

@@ -253,6 +253,62 @@ class Scenes(InVariants):
                 self.assertTrue(np.isfinite(image).all())
                 self.assertGreater(image.max(), 0.0)
 
+    def test_roofs_and_towers_cast_shadows(self):
+        """Things that are farther away than the scene's units would tell."""
+        for _ in self.each("llvm"):
+            up = mi.ScalarTransform4f()
+            for kind in ("path", "welkin_path"):
+                ground = {"ground": {"type": "disk", "to_world": up.scale([5, 5, 1])}}
+                roof = {"roof": black(type="disk", to_world=up.translate([0, 0, 200]).scale([90e3, 90e3, 1]))}
+                lit, shadowed = (
+                    np.array(mi.render(scene(
+                        integrator={"type": kind}, sky={"solar_elevation": 60.0, "sun_scale": 1.0},
+                        camera=[0.0, 0.0, 9.0], target=[0.01, 0.0, -1.0], fov=20.0, size=(8, 8), things=things), spp=256)).mean()
+                    for things in (ground, ground | roof))
+                self.assertLess(shadowed, 0.02 * lit)
+
+    def test_every_camera_sees_its_own_air(self):
+        for _ in self.each("llvm_ad_rgb"):
+            up = mi.ScalarTransform4f()
+            sensor = lambda height: {
+                "type": "perspective", "fov": 40, "far_clip": 1e7,
+                "to_world": up.look_at([0, 0, height], [0, 1, height - 0.1], [0, 0, 1]),
+                "film": {"type": "hdrfilm", "width": 16, "height": 16, "pixel_format": "rgba"}}
+            ground = black(type="disk", to_world=up.scale([1e5, 1e5, 1]))
+            pane = {
+                "type": "rectangle", "to_world": up.look_at([0, 3, 9e3], [0, 0, 9e3], [0, 0, 1]).scale([9, 9, 1]),
+                "bsdf": {"type": "mask", "opacity": 0.0, "nested": {"type": "diffuse"}}}
+            made = lambda **things: mi.load_dict({
+                "type": "scene", "integrator": {"type": "welkin_path"}, "sky": {"type": "welkin"}, "ground": ground, **things})
+            alone = np.array(mi.render(made(only=sensor(9e3)), spp=64))
+            both = made(first=sensor(2.0), second=sensor(9e3))
+            mi.render(both, sensor=0, spp=1)
+            second = np.array(mi.render(both, sensor=1, spp=64))
+            np.testing.assert_allclose(second, alone, rtol=2e-3, atol=1e-6)
+            behind_pane = np.array(mi.render(made(only=sensor(9e3), pane=pane), spp=256))
+            np.testing.assert_allclose(behind_pane.mean((0, 1)), alone.mean((0, 1)), rtol=2e-2)
+            self.assertTrue((alone[:, :, 3] > 0.99).all())
+
+    def test_things_that_move_change_the_tables(self):
+        for _ in self.each("llvm_ad_rgb"):
+            up = mi.ScalarTransform4f()
+            wall = lambda y: {"wall": black(type="rectangle", to_world=up.translate([0, y, 1500]).scale([30e3, 30e3, 1]).rotate([1, 0, 0], 90))}
+            made = scene(things=wall(100.0))
+            mi.render(made, spp=1)
+            parameters = mi.traverse(made)
+            parameters["wall.to_world"] = mi.Transform4f().translate([0, 29e3, 0]) @ parameters["wall.to_world"]
+            parameters.update()
+            moved = np.array(mi.render(made, spp=16)).mean((0, 1))
+            fresh = np.array(mi.render(scene(things=wall(29.1e3)), spp=16)).mean((0, 1))
+            np.testing.assert_allclose(moved, fresh, rtol=1e-2)
+
+    def test_a_sky_alone_is_seen(self):
+        for _ in self.each("llvm_ad_rgb"):
+            seen, plain = (
+                np.array(mi.render(scene(integrator={"type": kind}, sky={"altitude": 1500.0}), spp=16))
+                for kind in ("welkin_path", "path"))
+            np.testing.assert_allclose(seen, plain, rtol=1e-3)
+
     def test_tables_follow_the_sun(self):
         for _ in self.each("llvm_ad_rgb"):
             ball = {"ball": {"type": "sphere", "center": [0, 5e3, 1500], "radius": 2e3}}

@@ -185,12 +185,52 @@ class Parameters(InVariants):
             fresh = emitter(solar_elevation=3.0, solar_azimuth=70.0)
             np.testing.assert_array_equal(colours(light, directions), colours(fresh, directions))
 
+    def test_what_held_before_goes_on_after_a_bad_update(self):
+        for _ in self.each("llvm_ad_rgb"):
+            scene = mi.load_dict({"type": "scene", "sky": {"type": "welkin", "solar_elevation": 40.0}})
+            parameters, light, directions = mi.traverse(scene), scene.emitters()[0], unit_directions(100, 0.05)
+            before = colours(light, directions)
+            parameters["sky.visibility"] = 3.0
+            with self.assertRaisesRegex(Exception, "visibility"):
+                parameters.update()
+            np.testing.assert_array_equal(colours(light, directions), before)
+            parameters["sky.visibility"] = 30e3
+            parameters.update()
+            np.testing.assert_array_equal(
+                colours(light, directions), colours(emitter(solar_elevation=40.0, visibility=30e3), directions))
+
+    def test_light_is_traced_from_the_sky(self):
+        """The particle tracer agrees with the path tracer once the emitter knows where the scene is."""
+        for _ in self.each("llvm_ad_rgb"):
+            images = []
+            for kind in ("path", "ptracer"):
+                scene = mi.load_dict({
+                    "type": "scene", "integrator": {"type": kind, "max_depth": 2},
+                    "sky": {"type": "welkin", "solar_elevation": 50.0},
+                    "ground": {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale([4, 4, 1])},
+                    "sensor": {
+                        "type": "perspective", "fov": 30,
+                        "to_world": mi.ScalarTransform4f().look_at([0, 0, 5], [0, 0.01, 0], [0, 1, 0]),
+                        "film": {"type": "hdrfilm", "width": 8, "height": 8, "rfilter": {"type": "box"}},
+                    },
+                })
+                if kind == "ptracer":
+                    with self.assertRaisesRegex(Exception, "set_scene|custom"):
+                        mi.render(scene, spp=1)
+                    scene.emitters()[0].set_scene(scene)
+                images.append(np.array(mi.render(scene, spp=4096)).mean((0, 1)))
+            np.testing.assert_allclose(images[1], images[0], rtol=2e-2)
+
     def test_bad_conditions_are_refused(self):
         for _ in self.each("rgb"):
             with self.assertRaisesRegex(Exception, "visibility"):
                 emitter(visibility=3.0)
             with self.assertRaisesRegex(Exception, "solar_elevation"):
                 emitter(solar_elevation=-40.0)
+            for name, bad in (("sky_scale", float("nan")), ("sun_scale", -1.0), ("albedo", "dark"),
+                              ("to_world", mi.ScalarTransform4f().scale([1, 1, 2]))):
+                with self.assertRaisesRegex(Exception, name):
+                    emitter(**{name: bad})
 
 
 class Scenes(InVariants):

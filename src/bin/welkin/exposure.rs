@@ -37,11 +37,17 @@ pub struct Exposure {
     white_balance: WhiteBalance,
 }
 
-fn value(text: &str) -> std::result::Result<f64, String> {
+/// An exposure value that makes sense.
+pub fn value(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (-60.0..=60.0).contains(&value) => Ok(value),
         _ => Err("expected a number in -60..=60".to_owned()),
     }
+}
+
+/// Luminance of scene white at an exposure value (ISO 100), cd m⁻².
+pub fn white(value: f64) -> f64 {
+    WHITE_AT_EV_0 * value.exp2()
 }
 
 impl Exposure {
@@ -72,7 +78,7 @@ impl Exposure {
     }
 
     fn white(&self) -> Option<f64> {
-        self.exposure.map(|value| WHITE_AT_EV_0 * value.exp2())
+        self.exposure.map(white)
     }
 
     fn film(&self, white: f64) -> Film {

@@ -11,6 +11,7 @@ mod difference;
 mod disc;
 mod edges;
 mod encoding;
+mod export;
 mod exposure;
 mod failure;
 mod folder;
@@ -25,6 +26,7 @@ mod light;
 mod manual;
 mod moonlight;
 mod naming;
+mod octahedral;
 mod outputs;
 mod parallel;
 mod picture;
@@ -77,6 +79,8 @@ enum Command {
     Animate(animate::Options),
     /// Render skies from all over the model into one PNG.
     ContactSheet(sheet::Options),
+    /// Write the sky and the sun as lights for a renderer: an environment map and a scene that refers to it.
+    Export(export::Options),
     /// Write aerial perspective as a camera-aligned volume for real-time engines.
     Froxels(froxels::Options),
     /// Say what sun and sky give a level plane, and how bright the sun's disc is: lights to go with an environment map.
@@ -153,6 +157,7 @@ fn main() -> ExitCode {
         Command::Render(options) => render::run(options).map(done),
         Command::Animate(options) => animate::run(options).map(done),
         Command::ContactSheet(options) => sheet::run(options).map(done),
+        Command::Export(options) => export::run(options).map(done),
         Command::Froxels(options) => froxels::run(options).map(done),
         Command::Light(options) => light::run(options).map(done),
         Command::Query(options) => query::run(options).map(done),

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::octahedral;
+
 /// How the sphere of directions is laid onto the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Projection {
@@ -14,6 +16,9 @@ pub enum Projection {
     /// Faces of a cube one below the other: +X, −X, +Y, −Y, +Z, −Z, of a left-handed frame with +Z in the view azimuth
     /// and +Y at the zenith.
     Cube,
+    /// Whole sphere on a square by equal areas, for pbrt: zenith in the middle, the view azimuth at the right edge,
+    /// azimuth 90° from it at the bottom edge.
+    Octahedral,
 }
 
 impl Projection {
@@ -24,6 +29,7 @@ impl Projection {
             Projection::Side => "side",
             Projection::LatLong => "lat-long",
             Projection::Cube => "cube",
+            Projection::Octahedral => "octahedral",
         }
     }
 
@@ -51,6 +57,7 @@ impl Projection {
                 Some([horizontal * x, horizontal * y, z])
             }
             Projection::Cube => Some(cube([column, row], width)),
+            Projection::Octahedral => Some(octahedral::direction([right, -above])),
         }
     }
 

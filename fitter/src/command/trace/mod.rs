@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use welkin::output::{Target, write};
 use welkin_fitter::atmosphere::Atmosphere;
 use welkin_fitter::dataset::Store;
-use welkin_fitter::tracer::{self, Aerosol, Options, Tracer};
+use welkin_fitter::tracer::{self, Aerosol, BATCHES, Options, Tracer};
 
 /// Arguments of `trace`.
 #[derive(ClapArgs)]
@@ -31,6 +31,10 @@ pub struct Args {
     /// Spend no more than about this many seconds; errors may then be larger.
     #[arg(long)]
     max_seconds: Option<f64>,
+    /// Walks per line of sight, a multiple of 32, whatever error comes of them: for pictures, which have many lines of
+    /// sight and can bear some noise.
+    #[arg(long, conflicts_with_all = ["target_error", "max_seconds"], value_parser = batches)]
+    walks: Option<usize>,
     /// Orders of scattering.
     #[arg(long, value_enum, default_value = "all")]
     orders: Orders,
@@ -78,6 +82,16 @@ fn fraction(text: &str) -> Result<f64> {
     Ok(value)
 }
 
+/// Walks per batch of a number of walks.
+fn batches(text: &str) -> Result<usize> {
+    let walks: usize = text.parse()?;
+    ensure!(
+        walks > 0 && walks.is_multiple_of(BATCHES),
+        "must be a multiple of {BATCHES}"
+    );
+    Ok(walks / BATCHES)
+}
+
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let target = Target::new(args.out.as_deref().unwrap_or("-".as_ref()));
@@ -96,6 +110,7 @@ pub fn run(args: &Args) -> Result<()> {
         rows: &rows,
         target_error: args.target_error,
         max_seconds: args.max_seconds,
+        samples: args.walks,
         seed: args.seed,
         store: args.store(&target, air, &rows)?,
     };
@@ -116,11 +131,12 @@ impl Args {
         let mut folder = out.clone().into_os_string();
         folder.push(".unfinished");
         let key = format!(
-            "{} {:?} {} {:?} {} {rows:?} {air:?}",
+            "{} {:?} {} {:?} {:?} {} {rows:?} {air:?}",
             env!("CARGO_PKG_VERSION"),
             self.options(),
             self.target_error,
             self.max_seconds,
+            self.walks,
             self.seed,
         );
         Store::open(PathBuf::from(folder), key).map(Some)

@@ -21,6 +21,8 @@ pub struct Work<'a> {
     pub target_error: f64,
     /// Limit of time.
     pub max_seconds: Option<f64>,
+    /// Samples per batch of every row, instead of what the error needs.
+    pub samples: Option<usize>,
     /// Seed of the first row.
     pub seed: u64,
     /// Where finished work is kept.
@@ -54,6 +56,9 @@ impl Work<'_> {
 
     /// Samples per batch of each row, cut down in proportion if they would take too long.
     fn plan(&self) -> Result<Vec<usize>> {
+        if let Some(samples) = self.samples {
+            return Ok(vec![samples; self.rows.len()]);
+        }
         let pilots = self
             .rows
             .par_iter()

@@ -40,7 +40,7 @@ class Place:
 class AerialPerspective:
     def __init__(self, emitter, place, box, camera):
         """`box`: corners of all things in the world; `camera`: its place in the world."""
-        self.place, self.to_world = place, emitter.to_world
+        self.place, self.to_world = place, emitter.turn
         low, high, far = span(place, box, camera)
         far = min(far, FARTHEST)
         seen_from = number(place.altitude(place.point(camera)))
@@ -53,12 +53,17 @@ class AerialPerspective:
         lengths = Extent(planet, floor, seen_from, seen_from, far, 1, 65, 1, 33)
         others = Extent(planet, floor, floor, max(high, floor + 1.0), far, steps, 17, 11, 12)
         self.tables = []
-        for sources, body in zip(emitter.sources_from(number(emitter.altitude)), emitter.bodies):
+        for sources, body in zip(emitter.sources_from(emitter.values["altitude"]), emitter.bodies):
             arrays = lambda extent: SegmentArrays(sources.model, sources.key, sources.conditions, extent)
             coarse = arrays(others)
             self.tables.append((
                 body, SegmentTable(arrays(camera), arrays(lengths), body.sky_scale),
                 SegmentTable(coarse, coarse, body.sky_scale)))
+
+    def is_near(self, start, eye):
+        """Whether paths from here may count as paths from the camera: its lens and near plane are some metres at most."""
+        offset = dr.norm(start - eye) * self.place.metres
+        return offset <= 2.0 + 1e-4 * dr.abs(self.place.altitude(self.place.point(eye)))
 
     def along(self, start, d, length, wavelengths, from_camera, active):
         """Spectra of the light that the air scatters towards `start` along `d`, and of the transmittance. `from_camera`:

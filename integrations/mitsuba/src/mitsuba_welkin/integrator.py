@@ -7,7 +7,7 @@ import mitsuba as mi
 
 from .aerial_perspective import AerialPerspective, Place
 from .emitter import WelkinSky
-from .variants import number
+from .variants import given_number, number
 
 EVERYWHERE = 2**31 - 1
 
@@ -19,13 +19,16 @@ class WelkinPath(mi.SamplingIntegrator):
         super().__init__(props)
         if not dr.is_jit_v(mi.Float):
             raise ValueError("welkin_path needs a variant with arrays (llvm_…, cuda_…): others would call it ray by ray")
-        depth = int(props.get("max_depth", -1))
-        self.max_depth = EVERYWHERE if depth < 0 else depth
-        self.rr_depth = int(props.get("rr_depth", 5))
+        self.max_depth = depth_of(props, "max_depth", -1, 0)
+        self.rr_depth = depth_of(props, "rr_depth", 5, 1)
         self.hide_sky = bool(props.get("hide_emitters", False))
-        self.altitude = mi.Float(props.get("altitude", 0.0))
-        self.metres = mi.Float(props.get("metres_per_unit", 1.0))
-        self.made_for = None
+        self.altitude = mi.Float(given_number(props, "altitude", 0.0))
+        self.metres = mi.Float(given_number(props, "metres_per_unit", 1.0))
+        self.sensor, self.made_for = None, None
+
+    def render(self, scene, sensor=0, *others, **named):
+        self.sensor = scene.sensors()[sensor] if isinstance(sensor, int) else sensor
+        return super().render(scene, sensor, *others, **named)
 
     def traverse(self, callback):
         callback.put("altitude", self.altitude, mi.ParamFlags.NonDifferentiable)
@@ -36,16 +39,34 @@ class WelkinPath(mi.SamplingIntegrator):
         emitter = sky_of(scene)
         if not 0.0 < number(self.metres) < math.inf:
             raise ValueError(f"metres_per_unit must be positive, got {number(self.metres)}")
-        camera = scene.sensors()[0].world_transform() @ mi.Point3f(0.0)
-        state = (id(emitter), emitter.version, number(self.altitude), number(self.metres),
+        camera = self.camera(scene)
+        box = scene.bbox()
+        if not box.valid():
+            box = mi.ScalarBoundingBox3f(mi.ScalarPoint3f([number(c) for c in camera]))
+        corners = [float(c) for corner in (box.min, box.max) for c in corner]
+        state = (id(scene), id(emitter), emitter.version, number(self.altitude), number(self.metres), *corners,
                  *(number(c) for c in camera))
         if state == self.made_for:
             return
+        if not all(map(math.isfinite, (*corners, number(self.altitude)))):
+            raise ValueError(f"welkin_path needs a scene of finite size and place, got {corners}")
         self.sky = emitter
-        place = Place(emitter.to_world, number(self.metres), number(self.altitude), emitter.model.planet_radius)
-        self.air = AerialPerspective(emitter, place, scene.bbox(), camera)
-        self.seen = emitter.bodies_from(max(number(place.altitude(place.point(camera))), 0.0))
+        place = Place(emitter.turn, number(self.metres), number(self.altitude), emitter.model.planet_radius)
+        self.air = AerialPerspective(emitter, place, box, camera)
+        self.eye = mi.Point3f(*[dr.opaque(mi.Float, number(c)) for c in camera])
+        seen_from = max(number(place.altitude(place.point(camera))), 0.0)
+        self.seen = emitter.bodies_from(seen_from)
+        # Between the altitude of the camera and that of what is lit: which sky is nearer.
+        self.middle = dr.opaque(mi.Float, 0.5 * (seen_from + emitter.values["altitude"]))
+        self.camera_is_higher = dr.opaque(mi.Bool, seen_from > emitter.values["altitude"])
         self.made_for = state
+
+    def camera(self, scene):
+        """The place of the camera that is rendered, of the first where another integrator asks."""
+        sensor = self.sensor or (scene.sensors()[0] if scene.sensors() else None)
+        if sensor is None:
+            raise ValueError("welkin_path needs a sensor in the scene")
+        return sensor.world_transform() @ mi.Point3f(0.0)
 
     def sample(self, scene, sampler, ray, medium=None, active=True):
         self.prepare(scene)
@@ -57,19 +78,23 @@ class WelkinPath(mi.SamplingIntegrator):
         context = mi.BSDFContext()
         ray = mi.Ray3f(ray)
         radiance, throughput = mi.Spectrum(0.0), mi.Spectrum(1.0)
-        eta, active = mi.Float(1.0), mi.Bool(active)
+        eta, active = mi.Float(1.0), mi.Bool(active) & (self.max_depth > 0)
         before, pdf_before, delta_before = dr.zeros(mi.Interaction3f), mi.Float(1.0), mi.Bool(True)
 
-        # The first path, from the camera.
+        # The first path, from the camera: finer tables know those that start where it is.
         si = scene.ray_intersect(ray, active)
         valid = mi.Bool(si.is_valid())
+        at_eye = self.air.is_near(ray.o, self.eye)
         if dr.hint(not self.hide_sky, mode="scalar"):
-            sky = self.sky.emission(ray.d, ray.wavelengths, active & ~valid, self.seen)
-            radiance = dr.select(active & ~valid, sky, radiance)
-        scattered, factor = self.through_air(ray, si.t, True, active & valid)
-        radiance = dr.select(active & valid, radiance + scattered, radiance)
+            radiance = self.seen_sky(ray, active & ~valid)
+        hit = active & valid
+        scattered, factor = self.through_air(ray, si.t, True, hit & at_eye)
+        if hit & ~at_eye:
+            scattered, factor = self.through_air(ray, si.t, False, hit & ~at_eye)
+        radiance = dr.select(hit, radiance + scattered, radiance)
         throughput = times(throughput, mi.Spectrum(factor))
-        active &= valid
+        active = hit
+        valid |= not self.hide_sky
         depth = mi.UInt32(0)
 
         while dr.hint(active, label="welkin_path"):
@@ -78,7 +103,12 @@ class WelkinPath(mi.SamplingIntegrator):
             weight = mi.Float(1.0)
             pdf = scene.pdf_emitter_direction(before, ds, active & ~delta_before)
             weight = balance(pdf_before, dr.select(delta_before, 0.0, pdf))
-            emitted = si.emitter(scene, active).eval(si, active)
+            light = si.emitter(scene, active)
+            # Straight on or mirrored, no light was drawn there: the sky may be that of the camera.
+            sky = active & delta_before & ~si.is_valid()
+            emitted = light.eval(si, active & ~sky)
+            if sky:
+                emitted = self.seen_sky(ray, sky)
             radiance = dr.select(active, radiance + times(throughput, emitted, mi.Spectrum(weight)), radiance)
 
             going = active & si.is_valid() & (depth + 1 < self.max_depth)
@@ -108,7 +138,7 @@ class WelkinPath(mi.SamplingIntegrator):
             delta_before = mi.has_flag(sample.sampled_type, mi.BSDFFlags.Delta)
 
             largest = dr.max(mi.unpolarized_spectrum(throughput)) * eta * eta
-            survival = dr.select(depth >= self.rr_depth, dr.minimum(largest, 0.95), 1.0)
+            survival = dr.select(depth + 1 >= self.rr_depth, dr.minimum(largest, 0.95), 1.0)
             going &= (largest > 0.0) & (sampler.next_1d(going) < survival)
             throughput = times(throughput, mi.Spectrum(1.0 / dr.maximum(survival, 1e-6)))
 
@@ -121,13 +151,32 @@ class WelkinPath(mi.SamplingIntegrator):
 
         return radiance, valid
 
+    @dr.syntax
+    def seen_sky(self, ray, active):
+        """The sky as from the altitude of the camera or from that of what is lit, which is nearer to where a ray starts."""
+        altitude = self.air.place.altitude(self.air.place.point(ray.o))
+        by_camera = active & ((altitude > self.middle) == self.camera_is_higher)
+        light = mi.Spectrum(0.0)
+        if by_camera:
+            light = self.sky.emission(ray.d, ray.wavelengths, by_camera, self.seen)
+        if active & ~by_camera:
+            light = self.sky.emission(ray.d, ray.wavelengths, active & ~by_camera)
+        return light
+
     def through_air(self, ray, length, from_camera, active):
         """In-scattered light and transmittance along a ray."""
         length = dr.select(active, length, 0.0)
         return self.air.along(ray.o, ray.d, length, ray.wavelengths, from_camera, active)
 
     def to_string(self):
-        return "WelkinPath[]"
+        return f"WelkinPath[max_depth={self.max_depth}, altitude={number(self.altitude)}, metres_per_unit={number(self.metres)}]"
+
+
+def depth_of(props, name, default, least):
+    value = props.get(name, default)
+    if not isinstance(value, int) or isinstance(value, bool) or (value < least and value != -1):
+        raise ValueError(f"{name} must be a whole number from {least} or -1, got {value!r}")
+    return EVERYWHERE if value == -1 else value
 
 
 def times(first, *others):

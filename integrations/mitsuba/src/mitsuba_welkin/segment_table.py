@@ -57,6 +57,10 @@ class SegmentTable:
 
     def __init__(self, light, transmittance, scale):
         self.extent, self.fine = light.extent, transmittance.extent
+        # Opaque: scenes and cameras elsewhere need no new kernels.
+        opaque = lambda v: dr.opaque(mi.Float, float(v))
+        self.floor, self.far, self.low = opaque(light.extent.floor), opaque(light.extent.far), opaque(light.extent.low)
+        self.shrink = opaque(1.0 / max(light.extent.high - light.extent.low, 1.0))
         self.spectral = mi.is_spectral or mi.is_polarized
         self.source, self.source_size = packets(light.source, self.spectral)
         # Extinction does not depend on the azimuth.
@@ -67,11 +71,11 @@ class SegmentTable:
     def locate(self, altitude, mu, length, turn):
         """`turn`: the azimuth from the light, absolute, rad."""
         e = self.extent
-        edge = path_geometry.horizon(dr, altitude, e.floor, e.planet)
-        whole = path_geometry.reach(dr, altitude, mu, e.floor, e.planet, e.far)
+        edge = path_geometry.horizon(dr, altitude, self.floor, e.planet)
+        whole = path_geometry.reach(dr, altitude, mu, self.floor, e.planet, self.far)
         v = path_geometry.row(dr, mu, edge)
         share = dr.sqrt(dr.minimum(length / whole, 1.0))
-        height = (altitude - e.low) / max(e.high - e.low, 1.0)
+        height = (altitude - self.low) * self.shrink
 
         def taps(extent, with_azimuth):
             sizes = [extent.heights, 2 * extent.rows, extent.azimuths if with_azimuth else 1, extent.lengths]

@@ -36,25 +36,28 @@ class SkyTable:
     def __init__(self, buffers):
         h = buffers
         self.channels = int(h["channels"])
-        self.intervals = [int(n) for n in h["intervals"]]
-        self.sun_intervals = int(h["sun_intervals"])
-        self.crowding = [float(v) for v in h["crowding"]]
-        self.pole = float(h["pole"])
+        up, down, azimuth = (int(n) for n in h["intervals"])
+        # Opaque: skies of other sizes need no new kernels.
+        index = lambda v: dr.opaque(mi.UInt32, int(v))
         self.polarised = h["polarisation"] is not None
         opaque = lambda v: dr.opaque(mi.Float, float(v))
+        self.up, self.down, self.across = opaque(up), opaque(down), opaque(azimuth)
+        self.sun_intervals, self.envelope_stride = opaque(h["sun_intervals"]), index(int(h["sun_intervals"]) + 3)
+        self.crowding = [opaque(v) for v in h["crowding"]]
+        self.pole = opaque(h["pole"])
         self.sun = mi.Vector3f(*[opaque(v) for v in h["sun"]])
         self.horizon = opaque(h["horizon"])
         self.azimuth = [opaque(v) for v in h["azimuth"]]
         self.shrink = [opaque(v) for v in h["shrink"]]
         self.opaque = opaque(h["opaque"])
-        self.size = (self.intervals[0] + self.intervals[1] + 6) * (self.intervals[2] + 3)
+        self.stride, self.rows_above = index(azimuth + 3), index(up + 3)
+        self.size = index((up + down + 6) * (azimuth + 3))
         self.envelope = storage(h["envelope"])
         self.cells = storage(h["cells"])
         self.scale = storage(h["scale"])
         self.polarisation = storage(h["polarisation"]) if self.polarised else None
 
     def locate(self, d):
-        up, down, azimuth = self.intervals
         side = d.z - self.horizon
         above = side >= 0.0
         pick = lambda pair: dr.select(above, pair[0], pair[1])
@@ -67,12 +70,11 @@ class SkyTable:
         chord = dr.norm(d - self.sun)
         root = dr.sqrt(dr.maximum((d.z + self.horizon) * (d.z - self.horizon), 0.0)) + dr.abs(d.z)
         opacity = dr.select(above, 1.0, self.opaque / dr.maximum(self.opaque + root, 1e-20))
-        first_row, rows = _taps(row, dr.select(above, mi.Float(up), mi.Float(down)))
-        first_row += dr.select(above, mi.UInt32(0), mi.UInt32(up + 3))
-        first_column, columns = _taps(dr.sqrt(dr.clip(0.5 - 0.5 * cos_phi, 0.0, 1.0)), float(azimuth))
-        envelope = _taps(dr.minimum(0.5 * chord, 1.0), float(self.sun_intervals))
-        stride = azimuth + 3
-        return Place(first_row * stride + first_column, rows, columns, envelope, stride, opacity, sin_phi)
+        first_row, rows = _taps(row, dr.select(above, self.up, self.down))
+        first_row += dr.select(above, mi.UInt32(0), self.rows_above)
+        first_column, columns = _taps(dr.sqrt(dr.clip(0.5 - 0.5 * cos_phi, 0.0, 1.0)), self.across)
+        envelope = _taps(dr.minimum(0.5 * chord, 1.0), self.sun_intervals)
+        return Place(first_row * self.stride + first_column, rows, columns, envelope, self.stride, opacity, sin_phi)
 
     def _azimuth(self, d):
         square = dr.fma(d.x, d.x, d.y * d.y)
@@ -99,7 +101,7 @@ class SkyTable:
         channel = mi.UInt32(channel)
         group, lane = channel >> 2, channel & 3
         first, weights = place.envelope
-        base = 4 * (group * (self.sun_intervals + 3) + first) + lane
+        base = 4 * (group * self.envelope_stride + first) + lane
         logarithm = self._surface(place, self.cells, 4 * group * self.size + lane, active)
         for k, weight in enumerate(weights):
             logarithm = dr.fma(weight, gather(self.envelope, base + 4 * k, active), logarithm)

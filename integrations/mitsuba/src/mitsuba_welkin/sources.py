@@ -20,11 +20,14 @@ ROWS, COLUMNS = 129, 257
 DISC = 17
 
 _bands = {}
+MOST_BANDS = 4
 
 
 def bands_of(model, key):
-    """Triangles of 20 nm about each wavelength, fitted once for each model."""
+    """Triangles of 20 nm about each wavelength, fitted once for each model and phase of the moon; the last few are kept."""
     if key not in _bands:
+        while len(_bands) >= MOST_BANDS:
+            del _bands[next(iter(_bands))]
         centres = FIRST + STEP * np.arange(COUNT)
         triangle = [0.0, 1.0, 0.0]
         responses = [

@@ -1,5 +1,7 @@
 """What differs between variants: numbers or arrays."""
 
+import math
+
 import drjit as dr
 import mitsuba as mi
 import numpy as np
@@ -7,6 +9,14 @@ import numpy as np
 
 def number(value):
     return float(dr.slice(value)) if dr.is_jit_v(value) else float(value)
+
+
+def given_number(props, name, default):
+    """A property that is a finite number."""
+    value = props.get(name, default)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError(f"{name} must be a number, got {value!r}")
+    return float(value)
 
 
 def blank(kind):

@@ -1,0 +1,1 @@
+"""The part that knows nothing of Blender: conditions, sources of light, the map, the air."""
