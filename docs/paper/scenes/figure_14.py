@@ -61,7 +61,7 @@ def compared(model, truth, error, is_solid):
 
 def main():
     more = lambda parser: (
-        parser.add_argument("--passes", type=int, help="passes of 8 walks per pixel; 2 by default, 1 in drafts"),
+        parser.add_argument("--passes", type=int, help="passes of 8 walks per pixel; 1 by default"),
         parser.add_argument("--samples", type=int, help="per pixel and lighting; 4 by default, 2 in drafts"),
         parser.add_argument("--work", default="work", help="folder of finished passes"),
         parser.add_argument("--full", help="folder that also gets the pictures in all their pixels"))
@@ -69,7 +69,7 @@ def main():
     draft = arguments.draft
     size, block, walks = DRAFT if draft else FULL
     places = ((0.0, 15e3), (0.0, 330e3)) if draft else (ALTITUDES, AHEAD)
-    passes, samples = arguments.passes or (1 if draft else 2), arguments.samples or (2 if draft else 4)
+    passes, samples = arguments.passes or 1, arguments.samples or (2 if draft else 4)
     solid = averaged(seen_points(description(size))[1].astype(float), block)
     arrays = {}
     for elevation in ELEVATIONS:
