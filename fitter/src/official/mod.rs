@@ -12,6 +12,7 @@ pub mod evaluate;
 pub mod export;
 pub mod import;
 pub mod layout;
+pub mod ray;
 pub mod read;
 pub mod tables;
 pub mod transmittance;

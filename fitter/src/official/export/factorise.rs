@@ -1,7 +1,7 @@
 //! Σ_r s_r(γ) z_r(α) with piecewise linear s and z, by alternating least squares on scattered points.
 //!
-//! With one of the two held, the other is the solution of normal equations with blocks on and beside the diagonal. What
-//! no point tells, a small weight on differences between breaks makes constant.
+//! With one of the two held, the other is the solution of normal equations with few diagonals. What no point tells, a
+//! small weight on second differences between breaks makes a straight line.
 
 use crate::official::tables::Place;
 
@@ -31,8 +31,8 @@ pub struct Factors {
     pub zenith: Vec<f64>,
 }
 
-/// Weight of the squared differences between neighbouring breaks, relative to the mean weight of a break.
-const SMOOTHNESS: f64 = 3e-5;
+/// Weight of the squared second differences between breaks, relative to the mean weight of a break.
+const SMOOTHNESS: f64 = 3e-3;
 /// Weight of the squared values, likewise.
 const RIDGE: f64 = 1e-7;
 
@@ -97,7 +97,7 @@ fn solve(
     length: usize,
     places: impl Fn(&Point) -> [Place; 2],
 ) -> Vec<f64> {
-    let mut normal = Band::new(length, 2 * rank);
+    let mut normal = Band::new(length, 2 * rank + 1);
     let mut right = vec![0.0; length];
     let mut taps = vec![0.0; 2 * rank];
     for point in points {
@@ -119,11 +119,8 @@ fn solve(
     let mean = normal.mean_diagonal();
     for i in 0..length {
         normal.add_at(i, i, RIDGE * mean + 1e-300);
-        if i + rank < length {
-            let weight = SMOOTHNESS * mean;
-            normal.add_at(i, i, weight);
-            normal.add_at(i + rank, i + rank, weight);
-            normal.add_at(i + rank, i, -weight);
+        if i + 2 * rank < length {
+            normal.add_bent(i, rank, SMOOTHNESS * mean);
         }
     }
     normal.solve(right)
@@ -159,6 +156,16 @@ impl Band {
             let start = self.position(first + i, first);
             let own = self.rows[start..=start + i].iter_mut();
             own.zip(row).for_each(|(sum, b)| *sum += a * b);
+        }
+    }
+
+    /// Adds a weight to the squared second difference of every `rank`th number from the `i`th on.
+    fn add_bent(&mut self, i: usize, rank: usize, weight: f64) {
+        let bend = [1.0, -2.0, 1.0];
+        for (a, x) in bend.iter().enumerate() {
+            for (b, y) in bend[..=a].iter().enumerate() {
+                self.add_at(i + a * rank, i + b * rank, weight * x * y);
+            }
         }
     }
 

@@ -5,6 +5,7 @@ use crate::assess::Quantiles;
 use crate::official::OfficialData;
 use crate::official::angles::PLANET_RADIUS;
 use crate::official::layout::Node;
+use crate::official::ray::Ray;
 use anyhow::Result;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
@@ -179,26 +180,16 @@ fn transmittance(data: &OfficialData, model: &Model, bands: &Bands) -> Result<Ve
             if above.to_degrees().abs() < HORIZON || above < 0.0 && h < 1.0 {
                 continue;
             }
-            let (sine, cosine) = elevation.sin_cos();
-            let (from, direction) = ([0.0, 0.0, h], [cosine, 0.0, sine]);
-            let distance = match uniform(&mut rng) < 0.3 {
-                true => f64::INFINITY,
-                false => 10f64.powf(2.0 + 3.5 * uniform(&mut rng)),
+            let ray = Ray {
+                altitude: h,
+                theta: std::f64::consts::FRAC_PI_2 - elevation,
+                length: match uniform(&mut rng) < 0.3 {
+                    true => f64::INFINITY,
+                    false => 10f64.powf(2.0 + 3.5 * uniform(&mut rng)),
+                },
             };
-            match distance.is_finite() {
-                true => {
-                    let to = [cosine * distance, 0.0, h + sine * distance];
-                    air.transmittance(from, to, &mut want)?;
-                    let end = (to[2] + PLANET_RADIUS).hypot(to[0]);
-                    // What ends within the planet ends on it, there as here.
-                    if end < PLANET_RADIUS {
-                        air.transmittance_to_end(from, direction, &mut want)?;
-                    }
-                }
-                false => air.transmittance_to_end(from, direction, &mut want)?,
-            }
-            let theta = std::f64::consts::FRAC_PI_2 - elevation;
-            let got = table.at(h, theta, distance, 1e3 * v)?;
+            air.transmittance([0.0, 0.0, h], ray.end(), &mut want)?;
+            let got = table.at(h, ray.theta, ray.length, 1e3 * v)?;
             out.extend(want.iter().zip(got).map(|(want, got)| Error {
                 size: (got - f64::from(*want)).abs(),
                 from_sun: 180.0,

@@ -9,9 +9,9 @@ use crate::official::layout::PolarisationBreaks;
 use crate::official::tables::{Place, PolarisationTables};
 
 /// Directions per sky.
-const DIRECTIONS: usize = 3000;
+const DIRECTIONS: usize = 6000;
 /// Sweeps for the first channel, and for those that start from their neighbour.
-const SWEEPS: [usize; 2] = [24, 8];
+const SWEEPS: [usize; 2] = [16, 5];
 
 /// What the directions of a sky are to the tables of the polarisation.
 pub struct PolarisedLook {

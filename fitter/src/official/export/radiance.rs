@@ -10,9 +10,9 @@ use half::f16;
 use std::f64::consts::FRAC_PI_2;
 
 /// Directions per sky.
-const DIRECTIONS: usize = 4500;
+const DIRECTIONS: usize = 12_000;
 /// Sweeps for the first channel, and for those that start from their neighbour.
-const SWEEPS: [usize; 2] = [24, 8];
+const SWEEPS: [usize; 2] = [16, 5];
 /// Radiance below this share of the mean counts less.
 const DARK: f64 = 0.01;
 /// Least emphasis of air below the horizon.

@@ -45,19 +45,23 @@ impl AlbedoLaw {
 
     /// Light over black ground and from the ground, for values by albedo.
     pub fn split(&self, values: &[f64], channel: usize) -> [f64; 2] {
-        let s = self.spherical[channel];
+        self.split_by(values, values, channel)
+    }
+
+    /// The same where errors count relative to `light`.
+    pub fn split_by(&self, values: &[f64], light: &[f64], channel: usize) -> [f64; 2] {
         match self.tells_ground() {
-            true => self.line(values, s),
+            true => self.line(values, light, self.spherical[channel]),
             false => [values[0], 0.0],
         }
     }
 
     /// Least squares of relative errors.
-    fn line(&self, values: &[f64], s: f64) -> [f64; 2] {
+    fn line(&self, values: &[f64], light: &[f64], s: f64) -> [f64; 2] {
         let (mut aa, mut ab, mut bb, mut a, mut b) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        for (albedo, value) in self.albedos.iter().zip(values) {
+        for ((albedo, value), light) in self.albedos.iter().zip(values).zip(light) {
             let x = share(*albedo, s);
-            let weight = 1.0 / (value * value).max(1e-30);
+            let weight = 1.0 / (light * light).max(1e-30);
             aa += weight;
             ab += weight * x;
             bb += weight * x * x;
@@ -85,7 +89,7 @@ impl AlbedoLaw {
                 if values.iter().any(|v| *v < 1e-12) {
                     continue;
                 }
-                let [black, ground] = self.line(&values, s);
+                let [black, ground] = self.line(&values, &values, s);
                 for (albedo, value) in self.albedos.iter().zip(&values) {
                     sum += ((black + share(*albedo, s) * ground) / value - 1.0).powi(2);
                 }

@@ -9,24 +9,38 @@ use rayon::prelude::*;
 /// Share of the energy that the compression before the decomposition may lose per mode.
 const COMPRESSION: f64 = 1e-8;
 
-/// Decomposes the fields of all chunks together. `progress` is told the sweep and the root mean square of the relative
-/// errors.
-pub fn decompose_all(chunks: &[Fields], options: Options, progress: &dyn Fn(usize, f64)) -> Fit {
-    let by_channel = channel_weights(chunks);
-    let weights: Vec<[Vec<f64>; 2]> = chunks.par_iter().map(row_weights).collect();
-    let weighed = |(chunk, weights): (&Fields, &[Vec<f64>; 2])| {
-        let mut tucker = Tucker::new(weighed(chunk, weights, &by_channel));
+/// A tensor `[view][azimuth][sun][channel]`.
+pub struct Tensor<'a> {
+    /// Views, azimuths, suns.
+    pub shape: [usize; 3],
+    /// Its values.
+    pub values: &'a [f32],
+    /// Weights of views and of suns.
+    pub weights: [Vec<f64>; 2],
+}
+
+/// Decomposes tensors together, channels weighing `by_channel`. `progress` is told the sweep and the root mean square of
+/// the relative errors.
+pub fn decompose_all(
+    tensors: &[Tensor],
+    by_channel: &[f64],
+    options: Options,
+    progress: &dyn Fn(usize, f64),
+) -> Fit {
+    let weighed = |tensor: &Tensor| {
+        let mut tucker = Tucker::new(weighed(tensor, by_channel));
         tucker.compress(0, COMPRESSION);
         tucker.compress(2, COMPRESSION);
         tucker
     };
-    let mut tuckers: Vec<Tucker> = chunks.par_iter().zip(&weights).map(weighed).collect();
+    let mut tuckers: Vec<Tucker> = tensors.par_iter().map(weighed).collect();
     compress_together(&mut tuckers, 1, COMPRESSION);
     compress_together(&mut tuckers, 3, COMPRESSION);
     let (bases, cores): (Vec<_>, Vec<_>) = tuckers.into_iter().map(|t| (t.bases, t.core)).unzip();
     let cpd = decompose(&cores, SHARED, options, progress);
-    let mut fit = assemble(&bases, &cpd.factors, &by_channel);
-    for (own, [view, sun]) in fit.own.iter_mut().zip(&weights) {
+    let mut fit = assemble(&bases, &cpd.factors, by_channel);
+    for (own, tensor) in fit.own.iter_mut().zip(tensors) {
+        let [view, sun] = &tensor.weights;
         divide_rows(&mut own.view, view, options.rank);
         divide_rows(&mut own.elevation, sun, options.rank);
     }
@@ -41,7 +55,7 @@ fn divide_rows(matrix: &mut [f32], weights: &[f64], rank: usize) {
 }
 
 /// Per view and per sun: geometric means of the inverse radiance, so that errors count relative to it.
-fn row_weights(chunk: &Fields) -> [Vec<f64>; 2] {
+pub fn row_weights(chunk: &Fields) -> [Vec<f64>; 2] {
     let [views, azimuths, suns] = chunk.sites.shape();
     let mut mean = [vec![0.0; views], vec![0.0; suns]];
     for site in 0..views * azimuths * suns {
@@ -53,7 +67,7 @@ fn row_weights(chunk: &Fields) -> [Vec<f64>; 2] {
 }
 
 /// Root mean square share of every channel in the radiance.
-fn channel_weights(chunks: &[Fields]) -> Vec<f64> {
+pub fn channel_weights(chunks: &[Fields]) -> Vec<f64> {
     let Some(first) = chunks.first() else {
         return vec![];
     };
@@ -84,9 +98,10 @@ fn channel_weights(chunks: &[Fields]) -> Vec<f64> {
     (0..width).map(|c| mean(c).sqrt().max(1e-3)).collect()
 }
 
-fn weighed(chunk: &Fields, [view, sun]: &[Vec<f64>; 2], by_channel: &[f64]) -> Dense {
-    let [views, azimuths, suns] = chunk.sites.shape();
-    let cells = chunk.values.chunks_exact(by_channel.len()).enumerate();
+fn weighed(tensor: &Tensor, by_channel: &[f64]) -> Dense {
+    let [views, azimuths, suns] = tensor.shape;
+    let [view, sun] = &tensor.weights;
+    let cells = tensor.values.chunks_exact(by_channel.len()).enumerate();
     let values = cells.flat_map(|(site, cell)| {
         let weight = view[site / (azimuths * suns)] * sun[site % suns];
         let pairs = cell.iter().zip(by_channel);

@@ -5,12 +5,14 @@
 //! are sampled where welkin's splines have their sites, under the suns of the file, parted into lobes around the sun and
 //! the rest, decomposed together, and refined in relative radiance.
 
+mod air;
 mod albedo;
 mod fields;
 mod fit;
 mod judge;
 mod light;
 mod pack;
+mod polarise;
 mod refine;
 mod sample;
 mod sites;
@@ -21,9 +23,11 @@ use super::OfficialData;
 use crate::assess::Quantiles;
 use crate::decompose::Options;
 use crate::progress::bar;
+use air::Air;
 use albedo::AlbedoLaw;
 use anyhow::{Context, Result, ensure};
 use fields::Fields;
+use fit::Tensor;
 use light::Light;
 use sample::Samples;
 pub use sites::Intervals;
@@ -42,6 +46,8 @@ pub struct Settings {
     pub options: Options,
     /// Passes of the refinement.
     pub refinements: usize,
+    /// The decomposition of the polarisation, where the file has one.
+    pub polarisation: Options,
     /// Random directions per sky that the errors are measured in.
     pub directions: usize,
 }
@@ -60,6 +66,11 @@ impl Default for Settings {
                 seed: 1,
             },
             refinements: 30,
+            polarisation: Options {
+                rank: 48,
+                sweeps: 150,
+                seed: 1,
+            },
             directions: 200,
         }
     }
@@ -83,26 +94,29 @@ pub fn import(data: &OfficialData, settings: &Settings) -> Result<Imported> {
     let grid = sites::grid(data, settings.intervals);
     let splines = SunSplines::new(&grid, &suns);
     let light = Light::new(header.channels)?;
-    let (fields, places, spherical_albedo) = sample_all(data, &grid, &splines, &light)?;
+    let (fields, places, laws) = sample_all(data, &grid, &splines, &light)?;
     let fit = fit_all(&fields, header.channels.centres(), settings);
-    let air = pack::Air {
-        extinction: vec![],
-        constituents: 0,
+    let air = match data.transmittance_shape() {
+        Some(_) => Air::new(&data.transmittance()?, &grid.visibilities)?,
+        None => Air::unknown(),
     };
     let ground = header.axes.albedos.len() > 1;
-    let head = pack::head(
-        &grid,
-        header.channels,
-        &light,
-        spherical_albedo,
-        (&air, ground),
-    );
+    let spherical = laws.iter().flat_map(|law| law.spherical.clone()).collect();
+    let head = pack::head(&grid, header.channels, &light, spherical, (&air, ground));
     let pairs = (fields.as_slice(), places.as_slice());
-    let chunks = pack::radiance(&grid, &splines, pairs, &fit, head.constituents);
+    let mut chunks = pack::radiance(&grid, &splines, pairs, &fit, head.constituents);
+    chunks.extend(pack::transmittance(&air));
+    if data.polarisation().is_some() {
+        let progress = bar(settings.polarisation.sweeps, "decomposing the polarisation");
+        let tell = |sweep: usize, _: f64| progress.set_position(sweep as u64 + 1);
+        let fit = polarise::fit(data, pairs, &laws, settings.polarisation, &tell)?;
+        progress.finish();
+        chunks.extend(pack::polarisation(&grid, &splines, pairs, &fit));
+    }
     assemble(data, settings, head, chunks, &places)
 }
 
-type Sampled = (Vec<Fields>, Vec<[usize; 2]>, Vec<f64>);
+type Sampled = (Vec<Fields>, Vec<[usize; 2]>, Vec<AlbedoLaw>);
 
 /// Samples altitude by altitude, so that a range of altitudes is one piece of the file.
 fn sample_all(
@@ -141,8 +155,7 @@ fn sample_all(
         }
     }
     progress.finish();
-    let spherical = laws.into_iter().flat_map(|law| law.spherical).collect();
-    Ok((fields, places, spherical))
+    Ok((fields, places, laws))
 }
 
 fn fit_all(fields: &[Fields], wavelengths: Vec<f64>, settings: &Settings) -> crate::decompose::Fit {
@@ -151,7 +164,16 @@ fn fit_all(fields: &[Fields], wavelengths: Vec<f64>, settings: &Settings) -> cra
         progress.set_position(sweep as u64 + 1);
         progress.set_message(format!("decomposing, rms {:.3} %", 100.0 * rms));
     };
-    let mut fit = fit::decompose_all(fields, settings.options, &tell);
+    let tensors: Vec<Tensor> = fields
+        .iter()
+        .map(|chunk| Tensor {
+            shape: chunk.sites.shape(),
+            values: &chunk.values,
+            weights: fit::row_weights(chunk),
+        })
+        .collect();
+    let weights = fit::channel_weights(fields);
+    let mut fit = fit::decompose_all(&tensors, &weights, settings.options, &tell);
     progress.finish();
     // Of light that nobody sees less is asked.
     let importance = wavelengths.iter().map(|w| match w {
@@ -195,7 +217,20 @@ fn assemble(
     );
     head.metadata = metadata(data, settings, &all);
     let bytes = encode(&head, &chunks)?;
-    let mut report = judge::table(&all);
+    let mut report = judge::table("relative error", &all);
+    if data.polarisation().is_some() {
+        let degrees = places.iter();
+        let degrees = degrees.map(|p| judge::degrees(data, &model, *p, settings.directions));
+        let degrees = degrees.collect::<Result<Vec<_>>>()?;
+        report += &judge::table("error of the degree of polarisation", &degrees.concat());
+    }
+    if data.transmittance_shape().is_some() {
+        let table = data.transmittance()?;
+        let errors = model.head().visibilities.iter();
+        let errors = errors.map(|v| judge::transmittance(&table, &model, *v));
+        let errors = errors.collect::<Result<Vec<_>>>()?.concat();
+        report += &judge::row("error of the transmittance", errors.into_iter());
+    }
     report += &format!("{} bytes from {}\n", bytes.len(), data.bytes());
     Ok(Imported { bytes, report })
 }

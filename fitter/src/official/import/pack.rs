@@ -1,5 +1,6 @@
 //! Factors to the head and the chunks of a welkin file.
 
+use super::air::Air;
 use super::fields::Fields;
 use super::light::Light;
 use super::sites::PLANET;
@@ -9,19 +10,14 @@ use crate::dataset::Grid;
 use crate::decompose::{Fit, Own};
 use crate::official::layout::Channels;
 use crate::pack::PackedBasis;
-use welkin::format::{AlphaAxis, Chunk, ColumnTable, Field, Head, Payload, PhaseFunction};
+use welkin::axis::ElevationAxis;
+use welkin::format::{
+    AlphaAxis, Chunk, ColumnTable, DensityTable, Field, Head, Payload, PhaseFunction,
+};
 
 /// Extinction of the constituent that makes rays opaque, m⁻¹: the fields are whole radiances and not shares of what a
 /// ray's optical depth lets through.
 const OPAQUE: f64 = 1e3;
-
-/// Air whose transmittance the model knows.
-pub struct Air {
-    /// Extinction where the profile is 1, m⁻¹, `[visibility][constituent][channel]`.
-    pub extinction: Vec<f64>,
-    /// Constituents without the opaque one.
-    pub constituents: usize,
-}
 
 /// The head of the model.
 pub fn head(
@@ -112,4 +108,82 @@ pub fn radiance(
         out.push(Chunk::new(Some(*altitude), Some(*visibility), payload));
     }
     out
+}
+
+/// What all skies share of the polarisation, then its chunks.
+pub fn polarisation(
+    grid: &Grid,
+    suns: &SunSplines,
+    (chunks, places): (&[Fields], &[[usize; 2]]),
+    fit: &Fit,
+) -> Vec<Chunk> {
+    let packed = PackedBasis::new(grid, &fit.basis);
+    let basis = packed.polarisation();
+    let mut out = vec![Chunk::new(None, None, Payload::PolarisationBasis(basis))];
+    for ((fields, own), [altitude, visibility]) in chunks.iter().zip(&fit.own).zip(places) {
+        let own = Own {
+            view: own.view.clone(),
+            elevation: suns.to_sites(&own.elevation, fit.basis.rank),
+        };
+        let mut factors = packed.polarisation_chunk(grid, &own);
+        for scale in &mut factors.scale {
+            *scale = (f64::from(*scale) * fields.offset) as f32;
+        }
+        let payload = Payload::Polarisation(factors);
+        out.push(Chunk::new(Some(*altitude), Some(*visibility), payload));
+    }
+    out
+}
+
+/// The profiles of all constituents; the opaque one is nowhere.
+pub fn transmittance(air: &Air) -> Option<Chunk> {
+    let profiles = air.profiles.as_ref()?;
+    let rows = profiles.density.chunks_exact(air.constituents);
+    let density = rows.flat_map(|row| row.iter().copied().chain([0.0]));
+    let table = DensityTable {
+        edges: profiles.edges.clone(),
+        density: density.collect(),
+    };
+    Some(Chunk::new(None, None, Payload::Transmittance(table)))
+}
+
+/// The head of a file that knows nothing but the air: as many wavelengths as constituents.
+pub fn bare_head(constituents: usize, extinction: Vec<f64>) -> Head {
+    let axis = AlphaAxis {
+        intervals: 1,
+        exponent: 1.0,
+    };
+    let wavelengths: Vec<f64> = (0..constituents).map(|k| 500.0 + k as f64).collect();
+    Head {
+        planet: PLANET,
+        up: axis,
+        down: axis,
+        phi_intervals: 1,
+        elevation: ElevationAxis {
+            min: 0.0,
+            max: 1.0,
+            centre: 0.0,
+            width: 1.0,
+            intervals: 1,
+        },
+        altitudes: vec![0.0],
+        visibilities: vec![1e5],
+        constituents,
+        absorbers: 0,
+        estimated: false,
+        extinction,
+        spherical_albedo: vec![0.0; constituents],
+        xyz: vec![[0.0; 3]; constituents],
+        solar_start: 500.0,
+        solar_step: 1.0,
+        solar_irradiance: vec![1.0; constituents],
+        fields: vec![Field {
+            phase: PhaseFunction::None,
+            ground: false,
+            estimate: 0,
+            parameter: vec![0.0; constituents],
+        }],
+        metadata: "{}".into(),
+        wavelengths,
+    }
 }

@@ -20,6 +20,8 @@ const REST: [usize; 3] = [7, 8, 4];
 /// Terms of those of a lobe: over solar elevation and view.
 const LOBE: [usize; 2] = [5, 6];
 const RIDGE: f64 = 1e-9;
+/// One in so many sites is fitted.
+const STRIDE: usize = 3;
 /// Radiance below this share of the mean counts less.
 const DARK: f64 = 1e-3;
 
@@ -40,7 +42,11 @@ pub struct Splitter {
 /// The sites of one side of the horizon.
 struct Half {
     range: Range<usize>,
+    /// The sites that the polynomials are fitted to, counted from the first of the range.
+    fitted: Vec<usize>,
+    /// Of these sites.
     terms: Mat<f64>,
+    /// Of all.
     lobe_terms: Mat<f64>,
 }
 
@@ -53,10 +59,25 @@ impl Splitter {
         if down {
             halves.push(sites.up..views);
         }
-        let half = |views: Range<usize>| Half {
-            range: views.start * azimuths * suns..views.end * azimuths * suns,
-            lobe_terms: lobe_terms(sites, sun_coordinate, views.clone()),
-            terms: terms(sites, sun_coordinate, views, &cosines),
+        let half = |views: Range<usize>| {
+            let count = views.len() * azimuths * suns;
+            // Others for each view and azimuth, whatever the number of suns.
+            let fitted: Vec<usize> = (0..count)
+                .filter(|i| (i + i / suns) % STRIDE == 0)
+                .collect();
+            let lobe_terms = lobe_terms(sites, sun_coordinate, views.clone());
+            let first = views.start * azimuths * suns;
+            let part = (
+                fitted.as_slice(),
+                &cosines[first..first + count],
+                &lobe_terms,
+            );
+            Half {
+                range: first..first + count,
+                terms: terms(sites, sun_coordinate, views.len(), part),
+                fitted,
+                lobe_terms,
+            }
         };
         Self {
             sides: halves.into_iter().map(half).collect(),
@@ -95,10 +116,10 @@ impl Half {
     fn lobes(&self, radiance: &[f64]) -> Mat<f64> {
         let mean = radiance.iter().sum::<f64>() / radiance.len() as f64;
         let dark = (DARK * mean).max(1e-30);
-        let weight: Vec<f64> = radiance.iter().map(|l| 1.0 / l.max(dark)).collect();
+        let weight = |i: usize| 1.0 / radiance[self.fitted[i]].max(dark);
         let (rows, columns) = (self.terms.nrows(), self.terms.ncols());
-        let weighted = Mat::from_fn(rows, columns, |i, j| weight[i] * self.terms[(i, j)]);
-        let target = Mat::from_fn(rows, 1, |i, _| weight[i] * radiance[i]);
+        let weighted = Mat::from_fn(rows, columns, |i, j| weight(i) * self.terms[(i, j)]);
+        let target = Mat::from_fn(rows, 1, |i, _| weight(i) * radiance[self.fitted[i]]);
         let mut normal = weighted.transpose() * &weighted;
         let right = weighted.transpose() * &target;
         let trace = (0..columns).map(|i| normal[(i, i)]).sum::<f64>() / columns as f64;
@@ -117,25 +138,28 @@ impl Half {
     }
 }
 
-/// Terms of the rest, then those of each lobe times its phase function.
-fn terms(sites: &Sites, sun: &[f64], views: Range<usize>, cosines: &[f32]) -> Mat<f64> {
+/// Terms of the rest, then those of each lobe times its phase function, at some sites.
+fn terms(
+    sites: &Sites,
+    sun: &[f64],
+    views: usize,
+    (fitted, cosines, lobe): (&[usize], &[f32], &Mat<f64>),
+) -> Mat<f64> {
     let [_, azimuths, suns] = sites.shape();
     let rest = REST.iter().product::<usize>();
-    let lobe = lobe_terms(sites, sun, views.clone());
-    let rows = views.len() * azimuths * suns;
-    let first = views.start * azimuths * suns;
-    let over_view = chebyshev(&spread(views.len()), REST[1]);
+    let over_view = chebyshev(&spread(views), REST[1]);
     let over_sun = chebyshev(sun, REST[0]);
     let over_azimuth: Vec<f64> = sites.azimuths.iter().map(|p| p.cos()).collect();
     let over_azimuth = chebyshev(&over_azimuth, REST[2]);
-    Mat::from_fn(rows, rest + LOBES.len() * lobe.ncols(), |i, j| {
+    Mat::from_fn(fitted.len(), rest + LOBES.len() * lobe.ncols(), |row, j| {
+        let i = fitted[row];
         let (v, p, e) = (i / (azimuths * suns), i / suns % azimuths, i % suns);
         if j < rest {
             let (a, b, c) = (j / (REST[1] * REST[2]), j / REST[2] % REST[1], j % REST[2]);
             return over_sun[e][a] * over_view[v][b] * over_azimuth[p][c];
         }
         let (l, t) = ((j - rest) / lobe.ncols(), (j - rest) % lobe.ncols());
-        lobe[(i, t)] * henyey_greenstein(LOBES[l], f64::from(cosines[first + i]))
+        lobe[(i, t)] * henyey_greenstein(LOBES[l], f64::from(cosines[i]))
     })
 }
 
