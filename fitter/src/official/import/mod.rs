@@ -62,10 +62,10 @@ impl Default for Settings {
             },
             options: Options {
                 rank: 96,
-                sweeps: 60,
+                sweeps: 120,
                 seed: 1,
             },
-            refinements: 30,
+            refinements: 24,
             polarisation: Options {
                 rank: 48,
                 sweeps: 150,

@@ -20,7 +20,7 @@ const AUREOLE: (f32, f32) = (0.966, 2.0);
 /// Share of the weight that is spread evenly over the views instead of over solid angle.
 const EVEN: f64 = 0.4;
 /// Equations per channel and chunk for the factors of the channel, and per azimuth.
-const DRAWS: [usize; 2] = [1500, 1500];
+const DRAWS: [usize; 2] = [500, 1500];
 
 /// What channels count: root weights.
 pub type Importance = Vec<f32>;
@@ -167,7 +167,10 @@ pub fn refine(
         let share = (passes as f32 / 3.0 / (pass as f32 + 1.0)).min(1.0);
         let seed = |k: usize, what: u64| (pass as u64) << 40 | what << 32 | k as u64;
         if pass + 2 < passes {
-            channels(chunks, importance, fit, (share, &|k| seed(k, 1)));
+            // Those of the channels cost as much as all others.
+            if pass % 2 == 0 {
+                channels(chunks, importance, fit, (share, &|k| seed(k, 1)));
+            }
             azimuths(chunks, importance, fit, (share, &|k| seed(k, 2)));
         }
         let basis = &fit.basis;
@@ -182,10 +185,10 @@ pub fn refine(
 
 fn views(mut view: View, own: &mut Own, basis: &Basis, share: f32) {
     let rank = basis.rank;
-    let [views, azimuths, suns] = view.chunk.sites.shape();
+    let [_, azimuths, suns] = view.chunk.sites.shape();
     let channels = view.chunk.channels;
     let mut mixed = vec![0.0; rank];
-    for v in 0..views {
+    for v in 0..view.chunk.sites.seen {
         let mut normal = Normal::new(rank);
         let x = row(&own.view, v, rank);
         for p in 0..azimuths {
@@ -205,8 +208,8 @@ fn views(mut view: View, own: &mut Own, basis: &Basis, share: f32) {
 
 fn suns(mut view: View, own: &mut Own, basis: &Basis, share: f32) {
     let rank = basis.rank;
-    let [views, azimuths, suns] = view.chunk.sites.shape();
-    let channels = view.chunk.channels;
+    let [_, azimuths, suns] = view.chunk.sites.shape();
+    let (views, channels) = (view.chunk.sites.seen, view.chunk.channels);
     let mut mixed = vec![0.0; rank];
     for e in 0..suns {
         let mut normal = Normal::new(rank);
@@ -255,7 +258,7 @@ fn azimuths(chunks: &[Fields], importance: &Importance, fit: &mut Fit, (share, s
     for p in 0..fit.basis.phi.len() / rank {
         let step = together(rank, (chunks, fit), |k, chunk, own, normal| {
             let mut view = View::new(chunk, importance, seed(k) ^ (p as u64) << 16);
-            let [views, _, suns] = chunk.sites.shape();
+            let (views, suns) = (chunk.sites.seen, chunk.sites.suns.len());
             let mut mixed = vec![0.0; rank];
             for _ in 0..DRAWS[1] / 4 {
                 let (v, e) = (view.draw(views), view.draw(suns));
@@ -284,7 +287,8 @@ fn channels(chunks: &[Fields], importance: &Importance, fit: &mut Fit, (share, s
         let x = rows(&fit.basis.channel);
         let step = together(fields * rank, (chunks, fit), |k, chunk, own, normal| {
             let mut view = View::new(chunk, importance, seed(k) ^ (c as u64) << 16);
-            let [views, azimuths, suns] = chunk.sites.shape();
+            let [_, azimuths, suns] = chunk.sites.shape();
+            let views = chunk.sites.seen;
             let mut z = vec![0.0; rank];
             for _ in 0..DRAWS[0] {
                 let (v, p, e) = (view.draw(views), view.draw(azimuths), view.draw(suns));

@@ -75,6 +75,8 @@ pub struct Sites {
     pub suns: Vec<f64>,
     /// How many of the views are above the horizon.
     pub up: usize,
+    /// How many of the views see air: on the ground only those.
+    pub seen: usize,
     /// Solid angle that a view stands for, of mean 1 over those above and below the horizon together.
     pub measure: Vec<f64>,
 }
@@ -105,6 +107,10 @@ impl Sites {
         let mean = measure.iter().sum::<f64>() / measure.len() as f64;
         Self {
             up: grid.up.0.len(),
+            seen: match Self::sees_down(h) {
+                true => views.len(),
+                false => grid.up.0.len(),
+            },
             views,
             azimuths: grid.phi_sites(),
             suns,
