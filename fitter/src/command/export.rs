@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use clap::Subcommand;
+use std::io::Write;
 use std::path::PathBuf;
 use welkin::Model;
 use welkin_fitter::official::export::{Plan, export};
@@ -97,5 +98,6 @@ pub fn run(args: &Args) -> Result<()> {
     plan.raised = args.raised;
     let name = welkin::output::printable(&args.file.display().to_string()).to_string();
     let model = Model::open(&args.file).context(name)?;
-    Ok(print!("{}", export(&model, &plan, &args.out)?))
+    let report = export(&model, &plan, &args.out)?;
+    Ok(write!(std::io::stdout(), "{report}")?)
 }

@@ -206,9 +206,9 @@ impl Band {
             let x = right[i];
             let first = (i + 1).saturating_sub(w);
             let start = self.position(i, first);
-            for k in first..i {
-                right[k] -= self.rows[start + k - first] * x;
-            }
+            let above = right[first..i].iter_mut();
+            let row = &self.rows[start..start + i - first];
+            above.zip(row).for_each(|(sum, l)| *sum -= l * x);
         }
         right
     }

@@ -55,10 +55,8 @@ impl Splitter {
     pub fn new(sites: &Sites, sun_coordinate: &[f64], down: bool) -> Self {
         let [views, azimuths, suns] = sites.shape();
         let cosines = sites.cosines();
-        let mut halves = vec![0..sites.up];
-        if down {
-            halves.push(sites.up..views);
-        }
+        let lower = down.then_some(sites.up..views);
+        let halves = std::iter::once(0..sites.up).chain(lower);
         let half = |views: Range<usize>| {
             let count = views.len() * azimuths * suns;
             // Others for each view and azimuth, whatever the number of suns.
@@ -80,7 +78,7 @@ impl Splitter {
             }
         };
         Self {
-            sides: halves.into_iter().map(half).collect(),
+            sides: halves.map(half).collect(),
             sites: views * azimuths * suns,
             cosines,
         }
