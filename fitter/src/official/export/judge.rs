@@ -1,6 +1,6 @@
 //! How far an exported file is from its model, read back and evaluated as the official code would.
 
-use super::Plan;
+use super::plan::Plan;
 use crate::assess::Quantiles;
 use crate::official::OfficialData;
 use crate::official::angles::PLANET_RADIUS;

@@ -4,6 +4,7 @@
 //! profile. Profiles are those of the gases and particles of the published atmosphere, and tents over altitude for what
 //! they miss; the extinction coefficients, which are not negative, are fitted to the tables ray by ray.
 
+use super::bare_head::bare_head;
 use super::sites::PLANET;
 use crate::atmosphere::{Atmosphere, real};
 use crate::non_negative::least_squares;
@@ -184,5 +185,5 @@ fn probe(constituents: usize) -> Head {
     for k in 0..constituents {
         extinction[k * constituents + k] = 1.0;
     }
-    super::pack::bare_head(constituents, extinction)
+    bare_head(constituents, extinction)
 }

@@ -7,6 +7,7 @@
 
 mod air;
 mod albedo;
+mod bare_head;
 mod fields;
 mod fit;
 mod judge;
@@ -61,11 +62,11 @@ impl Default for Settings {
                 azimuth: 18,
             },
             options: Options {
-                rank: 96,
+                rank: 128,
                 sweeps: 120,
                 seed: 1,
             },
-            refinements: 24,
+            refinements: 30,
             polarisation: Options {
                 rank: 48,
                 sweeps: 150,

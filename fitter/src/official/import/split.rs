@@ -19,7 +19,8 @@ pub const AIR_FIELDS: usize = 1 + LOBES.len();
 const REST: [usize; 3] = [7, 8, 4];
 /// Terms of those of a lobe: over solar elevation and view.
 const LOBE: [usize; 2] = [5, 6];
-const RIDGE: f64 = 1e-9;
+/// Large enough that lobes and rest do not cancel: a sum of small numbers is what can be decomposed.
+const RIDGE: f64 = 1e-5;
 /// One in so many sites is fitted.
 const STRIDE: usize = 3;
 /// Radiance below this share of the mean counts less.
