@@ -36,6 +36,9 @@ struct Prague {
     /// Passes of the refinement in relative radiance.
     #[arg(long)]
     refinements: Option<usize>,
+    /// Folder for finished parts of the fit: an import that is broken off goes on from them.
+    #[arg(long)]
+    work: Option<PathBuf>,
     /// Intervals above the horizon.
     #[arg(long)]
     up_intervals: Option<usize>,
@@ -55,6 +58,7 @@ pub fn run(args: &Args) -> Result<()> {
     }
     settings.options.sweeps = args.sweeps.unwrap_or(settings.options.sweeps);
     ensure!(settings.options.sweeps > 0, "--sweeps must be at least 1");
+    settings.work.clone_from(&args.work);
     settings.refinements = args.refinements.unwrap_or(settings.refinements);
     let target = Target::new(&args.out);
     target.check()?;

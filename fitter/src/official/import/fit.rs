@@ -2,7 +2,7 @@
 
 use super::fields::Fields;
 use crate::decompose::{
-    Dense, Fit, Options, SHARED, Tucker, assemble, compress_together, decompose,
+    Basis, Dense, Fit, Options, Own, SHARED, Tucker, assemble, compress_together, decompose,
 };
 use rayon::prelude::*;
 
@@ -17,6 +17,55 @@ pub struct Tensor<'a> {
     pub values: &'a [f32],
     /// Weights of views and of suns.
     pub weights: [Vec<f64>; 2],
+}
+
+impl<'a> From<&'a Fields> for Tensor<'a> {
+    fn from(chunk: &'a Fields) -> Self {
+        Self {
+            shape: chunk.sites.shape(),
+            values: &chunk.values,
+            weights: row_weights(chunk),
+        }
+    }
+}
+
+/// Changes whenever what is fitted or how it is does.
+const VERSION: u32 = 1;
+
+/// What tells a fit of these fields from others.
+pub fn key(chunks: &[Fields], options: Options) -> String {
+    let mut hash = crc32fast::Hasher::new();
+    for value in chunks
+        .iter()
+        .flat_map(|c| c.values.iter().chain(&c.radiance))
+    {
+        hash.update(&value.to_le_bytes());
+    }
+    format!("official {VERSION} {options:?} {:08x}", hash.finalize())
+}
+
+/// The inverse of [`Fit::to_values`]; `None` for another number of values.
+pub fn restore(values: &[f32], chunks: &[Fields], rank: usize) -> Option<Fit> {
+    let mut rest = values;
+    let mut take = |rows: usize| {
+        let (part, tail) = rest.split_at_checked(rows * rank)?;
+        rest = tail;
+        Some(part.to_vec())
+    };
+    let first = chunks.first()?;
+    let basis = Basis {
+        rank,
+        phi: take(first.sites.azimuths.len())?,
+        channel: take(first.width())?,
+    };
+    let own = chunks.iter().map(|chunk| {
+        Some(Own {
+            view: take(chunk.sites.views.len())?,
+            elevation: take(chunk.sites.suns.len())?,
+        })
+    });
+    let own = own.collect::<Option<Vec<_>>>()?;
+    rest.is_empty().then_some(Fit { basis, own })
 }
 
 /// Decomposes tensors together, channels weighing `by_channel`. `progress` is told the sweep and the root mean square of

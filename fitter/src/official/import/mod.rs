@@ -22,7 +22,8 @@ mod suns;
 
 use super::OfficialData;
 use crate::assess::Quantiles;
-use crate::decompose::Options;
+use crate::dataset::Store;
+use crate::decompose::{Fit, Options};
 use crate::progress::bar;
 use air::Air;
 use albedo::AlbedoLaw;
@@ -34,12 +35,13 @@ use sample::Samples;
 pub use sites::Intervals;
 use sites::Sites;
 use split::Splitter;
+use std::path::PathBuf;
 use suns::SunSplines;
 use welkin::Model;
 use welkin::format::{Chunk, Head, Payload, encode};
 
 /// How a file is imported.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Settings {
     /// Intervals of the axes.
     pub intervals: Intervals,
@@ -51,6 +53,8 @@ pub struct Settings {
     pub polarisation: Options,
     /// Random directions per sky that the errors are measured in.
     pub directions: usize,
+    /// Where finished parts of the fit are kept, so that an import that is broken off goes on from them.
+    pub work: Option<PathBuf>,
 }
 
 impl Default for Settings {
@@ -73,6 +77,7 @@ impl Default for Settings {
                 seed: 1,
             },
             directions: 200,
+            work: None,
         }
     }
 }
@@ -96,7 +101,7 @@ pub fn import(data: &OfficialData, settings: &Settings) -> Result<Imported> {
     let splines = SunSplines::new(&grid, &suns);
     let light = Light::new(header.channels)?;
     let (fields, places, laws) = sample_all(data, &grid, &splines, &light)?;
-    let fit = fit_all(&fields, header.channels.centres(), settings);
+    let fit = fit_all(&fields, &header.channels.centres(), settings)?;
     let air = match data.transmittance_shape() {
         Some(_) => Air::new(&data.transmittance()?, &grid.visibilities)?,
         None => Air::unknown(),
@@ -159,32 +164,49 @@ fn sample_all(
     Ok((fields, places, laws))
 }
 
-fn fit_all(fields: &[Fields], wavelengths: Vec<f64>, settings: &Settings) -> crate::decompose::Fit {
-    let progress = bar(settings.options.sweeps, "decomposing");
+fn fit_all(fields: &[Fields], wavelengths: &[f64], settings: &Settings) -> Result<Fit> {
+    let store = match &settings.work {
+        Some(folder) => Some(Store::open(folder, fit::key(fields, settings.options))?),
+        None => None,
+    };
+    let unit = |name: &str, compute: &dyn Fn() -> Fit| -> Result<Fit> {
+        let Some(store) = &store else {
+            return Ok(compute());
+        };
+        let values = store.unit(name, || Ok(compute().to_values()))?;
+        fit::restore(&values, fields, settings.options.rank).context("a fit of another size")
+    };
+    let first = unit("decomposition", &|| decompose(fields, settings.options))?;
+    let name = format!("refinement-{}", settings.refinements);
+    unit(&name, &|| {
+        refined(fields, wavelengths, first.clone(), settings.refinements)
+    })
+}
+
+fn decompose(fields: &[Fields], options: Options) -> Fit {
+    let progress = bar(options.sweeps, "decomposing");
     let tell = |sweep: usize, rms: f64| {
         progress.set_position(sweep as u64 + 1);
         progress.set_message(format!("decomposing, rms {:.3} %", 100.0 * rms));
     };
-    let tensors: Vec<Tensor> = fields
-        .iter()
-        .map(|chunk| Tensor {
-            shape: chunk.sites.shape(),
-            values: &chunk.values,
-            weights: fit::row_weights(chunk),
-        })
-        .collect();
+    let tensor = |chunk| Tensor::from(chunk);
+    let tensors: Vec<Tensor> = fields.iter().map(tensor).collect();
     let weights = fit::channel_weights(fields);
-    let mut fit = fit::decompose_all(&tensors, &weights, settings.options, &tell);
+    let fit = fit::decompose_all(&tensors, &weights, options, &tell);
     progress.finish();
+    fit
+}
+
+fn refined(fields: &[Fields], wavelengths: &[f64], mut fit: Fit, passes: usize) -> Fit {
     // Of light that nobody sees less is asked.
     let importance = wavelengths.iter().map(|w| match w {
         ..760.0 => 1.0,
         _ => 0.5,
     });
     let importance = importance.collect();
-    let progress = bar(settings.refinements, "refining");
+    let progress = bar(passes, "refining");
     let tell = |pass: usize| progress.set_position(pass as u64);
-    refine::refine(fields, &importance, &mut fit, settings.refinements, &tell);
+    refine::refine(fields, &importance, &mut fit, passes, &tell);
     progress.finish();
     fit
 }
