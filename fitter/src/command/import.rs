@@ -42,6 +42,9 @@ struct Prague {
     /// Intervals above the horizon.
     #[arg(long)]
     up_intervals: Option<usize>,
+    /// Intervals over azimuth.
+    #[arg(long)]
+    azimuth_intervals: Option<usize>,
 }
 
 /// Runs the command.
@@ -51,6 +54,11 @@ pub fn run(args: &Args) -> Result<()> {
     if let Some(rank) = args.rank {
         ensure!((1..=4096).contains(&rank), "--rank must be 1..=4096");
         settings.options.rank = rank;
+    }
+    if let Some(azimuth) = args.azimuth_intervals {
+        let sound = (1..=1024).contains(&azimuth);
+        ensure!(sound, "--azimuth-intervals must be 1..=1024");
+        settings.intervals.azimuth = azimuth;
     }
     if let Some(up) = args.up_intervals {
         ensure!((1..=1024).contains(&up), "--up-intervals must be 1..=1024");

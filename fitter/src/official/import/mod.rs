@@ -61,16 +61,16 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             intervals: Intervals {
-                up: 26,
+                up: 32,
                 down: 20,
-                azimuth: 18,
+                azimuth: 24,
             },
             options: Options {
-                rank: 128,
+                rank: 192,
                 sweeps: 120,
                 seed: 1,
             },
-            refinements: 30,
+            refinements: 36,
             polarisation: Options {
                 rank: 48,
                 sweeps: 150,
