@@ -63,14 +63,14 @@ impl Default for Settings {
             intervals: Intervals {
                 up: 32,
                 down: 20,
-                azimuth: 24,
+                azimuth: 18,
             },
             options: Options {
                 rank: 192,
                 sweeps: 120,
                 seed: 1,
             },
-            refinements: 36,
+            refinements: 30,
             polarisation: Options {
                 rank: 48,
                 sweeps: 150,
