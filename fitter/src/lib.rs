@@ -17,6 +17,7 @@ pub mod finite;
 pub mod fitting;
 pub mod manifest;
 mod non_negative;
+pub mod official;
 pub mod pack;
 pub mod picture;
 pub mod polarimetry;

@@ -34,6 +34,12 @@ enum Command {
     Trace(command::trace::Args),
     /// Write the real atmosphere as the JSON that `trace` reads.
     Atmosphere(command::atmosphere::Args),
+    /// Turn a welkin file into one of another model.
+    Export(command::export::Args),
+    /// Turn a file of another model into a welkin file.
+    Import(command::import::Args),
+    /// Look into files of the official model of Wilkie et al. 2021, or evaluate them exactly.
+    Official(command::official::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
     Picture(command::picture::Args),
     /// Measure how fast the tracer is.
@@ -69,6 +75,9 @@ fn main() -> ExitCode {
         Command::Units(args) => command::units::run(&args),
         Command::Trace(args) => command::trace::run(&args),
         Command::Atmosphere(args) => command::atmosphere::run(&args),
+        Command::Export(args) => command::export::run(&args),
+        Command::Import(args) => command::import::run(&args),
+        Command::Official(args) => command::official::run(&args),
         Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),

@@ -137,7 +137,7 @@ fn weighted(chunk: &Chunk, weights: &[f64]) -> Dense {
     }
 }
 
-pub(super) fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f64]) -> Fit {
+pub(crate) fn assemble(bases: &[[Mat<f64>; 4]], factors: &Factors, weights: &[f64]) -> Fit {
     let product = |k: usize, m: usize| &bases[k][m] * &factors.0[k][m];
     let mut channel = product(0, 3);
     for (c, weight) in weights.iter().enumerate() {

@@ -16,6 +16,7 @@ use crate::successive_orders::{FIELDS, NW};
 use equation::{ALBEDOS, Equation};
 pub use factors::{Basis, Own, Pass};
 use factors::{random, row};
+pub(crate) use normal::Normal;
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 
