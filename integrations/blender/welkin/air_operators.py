@@ -4,6 +4,7 @@ import bpy
 
 from . import air_nodes, images
 from .core.air import COLUMNS, ROWS, SLICES
+from .polling import is_local
 
 
 class WELKIN_OT_add_air(bpy.types.Operator):
@@ -18,7 +19,7 @@ class WELKIN_OT_add_air(bpy.types.Operator):
         if bpy.app.version < (5, 0):
             cls.poll_message_set("The compositor has the nodes from Blender 5.0 on")
             return False
-        return context.scene.welkin.enabled and not context.scene.welkin.air
+        return is_local(cls, context) and context.scene.welkin.enabled and not context.scene.welkin.air
 
     def execute(self, context):
         scene = context.scene
@@ -47,7 +48,7 @@ class WELKIN_OT_remove_air(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.welkin.air
+        return is_local(cls, context) and context.scene.welkin.air
 
     def execute(self, context):
         remove(context.scene)

@@ -17,10 +17,14 @@ def _frame_changed(scene, depsgraph) -> None:
 
 @persistent
 def _depsgraph_updated(scene, depsgraph) -> None:
-    """The camera was moved by hand."""
-    if not scene.welkin.enabled or not scene.welkin.follow_camera or scene.camera is None:
+    """The camera was moved by hand, or a lamp turned."""
+    properties = scene.welkin
+    if not properties.enabled:
         return
-    if any(one.is_updated_transform and one.id.original == scene.camera for one in depsgraph.updates):
+    watched = [properties.sun_lamp, properties.moon_lamp]
+    if properties.follow_camera:
+        watched.append(scene.camera)
+    if any(one.is_updated_transform and one.id.original in watched for one in depsgraph.updates):
         update.refresh(scene, depsgraph)
 
 

@@ -2,6 +2,8 @@
 
 import bpy
 
+COLOUR_SPACE = "Linear Rec.709"
+
 
 def float_image(name: str, columns: int, rows: int, colour_space: str) -> bpy.types.Image:
     image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
@@ -9,6 +11,12 @@ def float_image(name: str, columns: int, rows: int, colour_space: str) -> bpy.ty
     # Half precision ends at 65504, and the disc is brighter.
     image.use_half_precision = False
     return image
+
+
+def is_writable(image: bpy.types.Image) -> bool:
+    """Whether pixels of any brightness can be written. One that was packed counts as a file."""
+    is_of_pixels = image.source in {"GENERATED", "FILE"} and min(image.size) > 0
+    return is_of_pixels and image.is_float and image.library is None
 
 
 def write(image: bpy.types.Image, pixels) -> None:

@@ -7,6 +7,7 @@ from welkin_sky import WelkinError
 from . import air_operators, datablocks, status, update
 from .core import exposure
 from .core.errors import InputError, explain
+from .polling import is_local
 from .read import read_settings
 
 
@@ -21,18 +22,20 @@ class WELKIN_OT_add(bpy.types.Operator):
         name="Set Exposure", description="Make a level grey card middle grey", default=True, options={"SKIP_SAVE"}
     )
 
+    @classmethod
+    def poll(cls, context):
+        return is_local(cls, context)
+
     def execute(self, context):
         scene = context.scene
-        is_new = scene.welkin.image is None
-        datablocks.ensure_image(scene)
-        datablocks.ensure_world(scene)
-        datablocks.ensure_lamp(scene, "sun")
-        if scene.welkin.moon:
-            datablocks.ensure_lamp(scene, "moon")
+        is_new = not datablocks.are_there(scene)
+        restored = datablocks.ensure(scene)
         scene.welkin.enabled = True
         if self.expose and is_new:
             _expose(self, scene)
-        update.refresh(scene)
+        update.draw_anew(scene)
+        if not is_new:
+            self.report({"INFO"}, f"Restored: {', '.join(restored) or 'nothing was missing'}")
         return _finish(self, scene)
 
 
@@ -45,7 +48,7 @@ class WELKIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.welkin.image is not None
+        return is_local(cls, context) and datablocks.are_there(context.scene)
 
     def execute(self, context):
         context.scene.welkin.enabled = False
@@ -63,7 +66,7 @@ class WELKIN_OT_expose(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.welkin.enabled
+        return is_local(cls, context) and context.scene.welkin.enabled
 
     def execute(self, context):
         return _finish(self, context.scene) if _expose(self, context.scene) else {"CANCELLED"}

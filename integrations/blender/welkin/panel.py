@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import status
+from . import datablocks, lamps, status, update
 
 
 class _Panel:
@@ -16,7 +16,7 @@ class _Part(_Panel):
 
     @classmethod
     def poll(cls, context):
-        return context.scene.welkin.image is not None
+        return datablocks.are_there(context.scene)
 
     def draw(self, context):
         layout = self.layout
@@ -35,14 +35,14 @@ class WELKIN_PT_sky(_Panel, bpy.types.Panel):
 
     def draw(self, context):
         layout, properties = self.layout, context.scene.welkin
-        if properties.image is None:
+        if not datablocks.are_there(context.scene):
             layout.operator("welkin.add", icon="ADD")
             return
         row = layout.row(align=True)
         row.prop(properties, "enabled", text="Follow Settings")
         row.operator("welkin.add", text="Restore", icon="FILE_REFRESH")
         row.operator("welkin.remove", text="", icon="X")
-        error = status.error(context.scene)
+        error = update.obstacle(context.scene) or status.error(context.scene)
         if error:
             box = layout.box()
             box.alert = True
@@ -66,7 +66,7 @@ class WELKIN_PT_sun(_Part, bpy.types.Panel):
             column.prop(properties, name)
         layout.prop(properties, "disc")
         lamp = properties.sun_lamp
-        if lamp is not None:
+        if lamp is not None and lamps.is_sun(lamp):
             layout.label(text=f"Lamp: {lamp.data.energy:.4g} W/m²", icon="LIGHT_SUN")
 
 

@@ -19,7 +19,7 @@ def _changed(self, context) -> None:
 
 
 def _moon_switched(self, context) -> None:
-    if self.moon and self.image is not None:
+    if self.moon and self.image is not None and self.id_data.library is None:
         datablocks.ensure_lamp(self.id_data, "moon")
     _changed(self, context)
 

@@ -1,11 +1,16 @@
 """From the properties of a scene to settings of the core."""
 
-from math import degrees, pi
+from math import degrees, pi, radians
 
 from welkin_sky import Conditions, Moon
 
 from .core import almanac
+from .core.errors import InputError
 from .core.settings import Settings
+
+_STOPS = 40.0
+_FARTHEST_AZIMUTH = radians(36000.0)
+"""Single precision has 0.004° there."""
 
 
 def read_settings(scene, camera_height: float) -> Settings:
@@ -15,6 +20,7 @@ def read_settings(scene, camera_height: float) -> Settings:
     """
     properties = scene.welkin
     elevation, azimuth = _sun(properties)
+    _check_azimuth("Azimuth", azimuth)
     conditions = Conditions(
         solar_elevation=elevation,
         solar_azimuth=azimuth,
@@ -25,7 +31,7 @@ def read_settings(scene, camera_height: float) -> Settings:
     return Settings(
         conditions=conditions,
         moon=_moon(properties) if properties.moon else None,
-        exposure=properties.exposure,
+        exposure=_exposure(properties.exposure),
         disc_in_map=properties.disc == "MAP",
         ground=properties.ground,
         rows=int(properties.resolution) // 2,
@@ -44,7 +50,20 @@ def _sun(properties) -> tuple[float, float]:
 
 def _moon(properties) -> Moon:
     angles = (properties.moon_elevation, properties.moon_azimuth, properties.moon_phase)
+    _check_azimuth("Azimuth of the moon", properties.moon_azimuth)
     return Moon(*map(_exact, angles))
+
+
+def _check_azimuth(name: str, azimuth: float) -> None:
+    if not abs(azimuth) <= _FARTHEST_AZIMUTH:
+        limit = degrees(_FARTHEST_AZIMUTH)
+        raise InputError(f"{name} {degrees(azimuth):.6g}°: the panel has {-limit:.0f} to {limit:.0f}°")
+
+
+def _exposure(stops: float) -> float:
+    if not abs(stops) <= _STOPS:
+        raise InputError(f"Exposure {stops:.6g}: the panel has {-_STOPS:.0f} to {_STOPS:.0f} stops")
+    return stops
 
 
 def _exact(value: float) -> float:
