@@ -48,7 +48,7 @@ def ensure_world(scene) -> list[str]:
         done.append("world")
     if not worlds.is_whole(properties.world):
         worlds.build(properties.world)
-        done.append("nodes of the world")
+        done = done or ["nodes of the world"]
     if not worlds.is_linked(properties.world):
         worlds.link(properties.world)
         done.append("links of the world")
@@ -81,7 +81,7 @@ def ensure_lamp(scene, kind: str) -> list[str]:
         done.append(f"direction of the lamp of the {kind}")
     if scene.objects.get(lamp.name) != lamp:
         scene.collection.objects.link(lamp)
-        done.append(f"lamp of the {kind} in the scene")
+        done = done or [f"lamp of the {kind} in the scene"]
     return done
 
 

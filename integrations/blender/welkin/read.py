@@ -9,7 +9,7 @@ from .core.errors import InputError
 from .core.settings import Settings
 
 _STOPS = 40.0
-_FARTHEST_AZIMUTH = radians(36000.0)
+_LARGEST_ANGLE = radians(36000.0)
 """Single precision has 0.004° there."""
 
 
@@ -20,7 +20,7 @@ def read_settings(scene, camera_height: float) -> Settings:
     """
     properties = scene.welkin
     elevation, azimuth = _sun(properties)
-    _check_azimuth("Azimuth", azimuth)
+    _check_angle("Azimuth", azimuth)
     conditions = Conditions(
         solar_elevation=elevation,
         solar_azimuth=azimuth,
@@ -50,14 +50,16 @@ def _sun(properties) -> tuple[float, float]:
 
 def _moon(properties) -> Moon:
     angles = (properties.moon_elevation, properties.moon_azimuth, properties.moon_phase)
-    _check_azimuth("Azimuth of the moon", properties.moon_azimuth)
+    for name, angle in zip(("Elevation", "Azimuth", "Phase angle"), angles):
+        _check_angle(f"{name} of the moon", angle)
     return Moon(*map(_exact, angles))
 
 
-def _check_azimuth(name: str, azimuth: float) -> None:
-    if not abs(azimuth) <= _FARTHEST_AZIMUTH:
-        limit = degrees(_FARTHEST_AZIMUTH)
-        raise InputError(f"{name} {degrees(azimuth):.6g}°: the panel has {-limit:.0f} to {limit:.0f}°")
+def _check_angle(name: str, angle: float) -> None:
+    """Ranges of the model are its own to check; this is for what is no angle, or so many turns that none is left."""
+    if not abs(angle) <= _LARGEST_ANGLE:
+        limit = degrees(_LARGEST_ANGLE)
+        raise InputError(f"{name} {degrees(angle):.6g}°: the panel has {-limit:.0f} to {limit:.0f}°")
 
 
 def _exposure(stops: float) -> float:
