@@ -223,6 +223,25 @@ class Repair(BlenderCase):
                 np.testing.assert_array_equal(pixels_of(image), before)
                 self.assertEqual(tuple(lamp.rotation_euler), turn)
 
+    @unittest.skipIf(bpy.app.version < (5, 0), "the air needs the compositor of 5.0")
+    def test_air_of_a_copy(self):
+        """The copy lets go of the first scene's volume, and can have one of its own."""
+        self.add(resolution="256")
+        self.camera()
+        bpy.ops.welkin.add_air()
+        first, light = self.scene, self.sky.air_light
+        bpy.ops.scene.new(type="LINK_COPY")
+        copy = bpy.context.scene
+        self.restore()
+        self.assertIsNone(copy.compositing_node_group.nodes.get("Welkin Air"))
+        self.assertIsNotNone(first.compositing_node_group.nodes.get("Welkin Air"))
+        bpy.ops.welkin.add_air()
+        inside = copy.compositing_node_group.nodes["Welkin Air"].node_tree.nodes
+        images = {node.image for node in inside if node.bl_idname == "CompositorNodeImage"}
+        self.assertEqual(images, {copy.welkin.air_light, copy.welkin.air_factors})
+        self.assertNotIn(light, images)
+        self.assertEqual(first.welkin.air_light, light)
+
     def test_linked_scenes(self):
         self.add(resolution="256")
         path = str(WORK / "library.blend")

@@ -2,6 +2,8 @@
 
 import bpy
 
+from . import air_nodes
+
 BLOCKS = ("image", "world", "sun_lamp", "moon_lamp", "air_light", "air_factors")
 
 
@@ -34,7 +36,15 @@ def part(scene) -> None:
         setattr(properties, name, None)
         if name.startswith("air"):
             properties.air = False
+            _take_air_out(scene)
         take_out(scene, block)
+
+
+def _take_air_out(scene) -> None:
+    """Its nodes show the volume of the first scene."""
+    tree = air_nodes.tree_of(scene)
+    if not any(air_nodes.tree_of(other) == tree for other in bpy.data.scenes if other != scene):
+        air_nodes.take_out(scene)
 
 
 def take_out(scene, block) -> None:
