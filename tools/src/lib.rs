@@ -5,6 +5,7 @@ pub mod book;
 pub mod figures;
 pub mod http_file;
 pub mod paper;
+pub mod peers;
 pub mod random;
 pub mod texture;
 
