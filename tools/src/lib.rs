@@ -2,12 +2,14 @@
 //! tells.
 
 pub mod book;
+pub mod evidence;
 pub mod figures;
 pub mod http_file;
 pub mod paper;
 pub mod peers;
 pub mod random;
 pub mod texture;
+pub mod tone;
 
 /// Wavelengths of the embedded model: bytes 40 and 41 of a file.
 pub const WAVELENGTHS: usize =

@@ -5,7 +5,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::lanes::Lanes;
-use super::medium::{Medium, mie_phase, rayleigh_phase};
+use super::medium::{Medium, rayleigh_phase};
 use super::sky::{LaneModel, LaneSky, Observer};
 use super::transmittance::{TransmittanceTable, place};
 
@@ -101,7 +101,7 @@ impl<const K: usize> Hillaire<K> {
         let length = shell.to_end(r, mu, ground);
         let phases = match lit {
             Lit::Isotropic => [(0.25 / PI) as f32; 2],
-            Lit::All => [rayleigh_phase(nu as f32), mie_phase(medium.g, nu as f32)],
+            Lit::All => [rayleigh_phase(nu as f32), medium.mie_phase(nu as f32)],
         };
         let [mut light, mut unit] = [Lanes::default(); 2];
         let mut through = Lanes::splat(1.0);

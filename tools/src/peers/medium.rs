@@ -21,6 +21,8 @@ pub struct Medium<const K: usize> {
     pub mie_height: f64,
     /// Asymmetry of the particles' phase function.
     pub g: f32,
+    /// Which one that is.
+    pub phase: ParticlePhase,
     /// Absorption by ozone where it is densest.
     pub ozone: Lanes<K>,
     /// Altitude of that, and half the width of the layer, m.
@@ -31,7 +33,24 @@ pub struct Medium<const K: usize> {
     pub sun_radius: f64,
 }
 
+/// The form of the particles' phase function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParticlePhase {
+    /// Cornette and Shanks 1992, as published with these models. Its mean cosine is larger than `g`.
+    CornetteShanks,
+    /// Henyey and Greenstein 1941, whose mean cosine is `g`, as the air of the default model has it.
+    HenyeyGreenstein,
+}
+
 impl<const K: usize> Medium<K> {
+    /// Phase function of the particles, sr⁻¹.
+    pub fn mie_phase(&self, cosine: f32) -> f32 {
+        match self.phase {
+            ParticlePhase::CornetteShanks => cornette_shanks(self.g, cosine),
+            ParticlePhase::HenyeyGreenstein => henyey_greenstein(self.g, cosine),
+        }
+    }
+
     /// Of molecules, particles and ozone, relative to where they are densest.
     pub fn densities(&self, altitude: f64) -> [f32; 3] {
         let [centre, half_width] = self.ozone_layer;
@@ -86,11 +105,14 @@ pub fn rayleigh_phase(cosine: f32) -> f32 {
     3.0 / (16.0 * std::f32::consts::PI) * (1.0 + cosine * cosine)
 }
 
-/// Of particles after Cornette and Shanks 1992, which these models use, sr⁻¹.
-pub fn mie_phase(g: f32, cosine: f32) -> f32 {
-    let scale = 3.0 / (8.0 * std::f32::consts::PI) * (1.0 - g * g) / (2.0 + g * g);
+fn cornette_shanks(g: f32, cosine: f32) -> f32 {
+    let scale = 1.5 * (1.0 + cosine * cosine) / (2.0 + g * g);
+    scale * henyey_greenstein(g, cosine)
+}
+
+fn henyey_greenstein(g: f32, cosine: f32) -> f32 {
     let base = 1.0 + g * g - 2.0 * g * cosine;
-    scale * (1.0 + cosine * cosine) / (base * base.sqrt())
+    (1.0 - g * g) / (4.0 * std::f32::consts::PI * base * base.sqrt())
 }
 
 #[cfg(test)]
@@ -109,7 +131,9 @@ mod tests {
     fn phase_functions_lose_no_light() {
         assert!((total(rayleigh_phase) - 1.0).abs() < 1e-5);
         for g in [0.0, 0.65, 0.76, 0.8] {
-            assert!((total(|c| mie_phase(g, c)) - 1.0).abs() < 1e-4, "{g}");
+            assert!((total(|c| cornette_shanks(g, c)) - 1.0).abs() < 1e-4, "{g}");
+            assert!((total(|c| henyey_greenstein(g, c)) - 1.0).abs() < 1e-4, "{g}");
+            assert!((total(|c| c * henyey_greenstein(g, c)) - f64::from(g)).abs() < 1e-4);
         }
     }
 

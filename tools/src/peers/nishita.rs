@@ -3,7 +3,7 @@
 //! sky of Blender 2.90 to 4.5 is this with ozone.
 
 use super::lanes::Lanes;
-use super::medium::{Medium, mie_phase, rayleigh_phase};
+use super::medium::{Medium, rayleigh_phase};
 use super::sky::{LaneModel, LaneSky, Observer};
 use super::transmittance::TransmittanceTable;
 
@@ -54,7 +54,7 @@ impl<const K: usize> LaneSky<K> for NishitaSky<'_, K> {
         let ground = medium.shell.meets_ground(self.r, mu);
         let nu = view[0] * sun[0] + view[1] * sun[1] + mu * sun[2];
         let step = medium.shell.to_end(self.r, mu, ground) / STEPS as f64;
-        let phases = [rayleigh_phase(nu as f32), mie_phase(medium.g, nu as f32)];
+        let phases = [rayleigh_phase(nu as f32), medium.mie_phase(nu as f32)];
         let (mut depth, mut sum) = (Lanes::default(), Lanes::default());
         for i in 0..STEPS {
             let distance = (i as f64 + 0.5) * step;

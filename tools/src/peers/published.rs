@@ -1,7 +1,7 @@
 //! The coefficients that the models were published with.
 
 use super::lanes::Lanes;
-use super::medium::Medium;
+use super::medium::{Medium, ParticlePhase};
 use super::shell::Shell;
 
 /// Molecules per m² in a Dobson unit.
@@ -28,6 +28,7 @@ pub fn bruneton<const K: usize>(wavelengths: [f64; K]) -> Medium<K> {
         mie_extinction: Lanes::splat(mie as f32),
         mie_height: MIE_HEIGHT,
         g: 0.8,
+        phase: ParticlePhase::CornetteShanks,
         ozone: ozone(wavelengths, 300.0),
         ozone_layer: [25e3, HALF_LAYER],
         albedo: 0.1,
@@ -48,6 +49,7 @@ pub fn hillaire() -> Medium<3> {
         mie_extinction: Lanes::splat(3.996e-6 + 4.4e-6),
         mie_height: 1.2e3,
         g: 0.8,
+        phase: ParticlePhase::CornetteShanks,
         ozone: Lanes([0.65e-6, 1.881e-6, 0.085e-6]),
         ozone_layer: [25e3, HALF_LAYER],
         albedo: 0.3,
@@ -70,6 +72,7 @@ pub fn blender<const K: usize>(wavelengths: [f64; K]) -> Medium<K> {
         mie_extinction: Lanes::splat(1.11 * 2e-5),
         mie_height: 1.2e3,
         g: 0.76,
+        phase: ParticlePhase::CornetteShanks,
         ozone: ozone(wavelengths, 300.0),
         ozone_layer: [25e3, HALF_LAYER],
         albedo: 0.0,

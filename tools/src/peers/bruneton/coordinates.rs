@@ -10,18 +10,6 @@ const HALF: usize = SIZE[1] / 2;
 /// Cosine of 102°: under lower suns there is no light.
 pub const LOWEST_SUN: f64 = -0.207_911_690_817_759_34;
 
-/// What a node stands for.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    pub r: f64,
-    pub mu: f64,
-    pub mu_sun: f64,
-    /// Cosine of the angle between view and sun.
-    pub nu: f64,
-    /// Whether the view ends on the ground.
-    pub ground: bool,
-}
-
 /// The nodes around a place: the first of each pair and the share of the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
@@ -64,7 +52,7 @@ pub fn view(shell: &Shell, r: f64, i: usize) -> (f64, bool) {
 }
 
 /// The lowest sun of the table, in the coordinate of suns.
-fn lowest(shell: &Shell) -> f64 {
+pub fn lowest(shell: &Shell) -> f64 {
     let shortest = shell.top - shell.bottom;
     (shell.to_top(shell.bottom, LOWEST_SUN) - shortest) / (shell.horizon() - shortest)
 }
@@ -86,34 +74,46 @@ pub fn between(i: usize, mu: f64, mu_sun: f64) -> f64 {
     nu.clamp(mu * mu_sun - spread, mu * mu_sun + spread)
 }
 
-/// Where a point, a view and a sun are among the nodes.
-pub fn place(shell: &Shell, r: f64, mu: f64, mu_sun: f64, nu: f64, ground: bool) -> Place {
+/// Where a point and a view are among the nodes.
+pub fn view_place(shell: &Shell, r: f64, mu: f64, ground: bool) -> [(usize, f32); 2] {
     let rho = shell.tangent(r);
-    let (i, i_share) = split(rho / shell.horizon(), SIZE[0]);
-    let (j, j_share) = match ground {
-        true => {
-            let (shortest, longest) = (r - shell.bottom, rho);
-            let x = match longest > shortest {
-                true => (shell.to_ground(r, mu) - shortest) / (longest - shortest),
-                false => 0.0,
-            };
-            split(1.0 - x, HALF)
-        }
-        false => {
-            let (shortest, longest) = (shell.top - r, rho + shell.horizon());
-            let x = (shell.to_top(r, mu) - shortest) / (longest - shortest);
-            let (j, share) = split(x, HALF);
-            (HALF + j, share)
-        }
-    };
+    let altitude = split(rho / shell.horizon(), SIZE[0]);
+    if ground {
+        let (shortest, longest) = (r - shell.bottom, rho);
+        let x = match longest > shortest {
+            true => (shell.to_ground(r, mu) - shortest) / (longest - shortest),
+            false => 0.0,
+        };
+        return [altitude, split(1.0 - x, HALF)];
+    }
+    let (shortest, longest) = (shell.top - r, rho + shell.horizon());
+    let x = (shell.to_top(r, mu) - shortest) / (longest - shortest);
+    let (j, share) = split(x, HALF);
+    [altitude, (HALF + j, share)]
+}
+
+/// With a sun and its angle from the view; `lowest` is that of [`lowest`].
+pub fn with_sun(
+    shell: &Shell,
+    lowest: f64,
+    [altitude, view]: [(usize, f32); 2],
+    mu_sun: f64,
+    nu: f64,
+) -> Place {
     let (shortest, longest) = (shell.top - shell.bottom, shell.horizon());
     let a = (shell.to_top(shell.bottom, mu_sun) - shortest) / (longest - shortest);
-    let (k, k_share) = split((1.0 - a / lowest(shell)).max(0.0) / (1.0 + a), SIZE[2]);
-    let (l, l_share) = split(0.5 * (nu + 1.0), SIZE[3]);
+    let sun = split((1.0 - a / lowest).max(0.0) / (1.0 + a), SIZE[2]);
+    let between = split(0.5 * (nu + 1.0), SIZE[3]);
     Place {
-        first: [i, j, k, l],
-        share: [i_share, j_share, k_share, l_share],
+        first: [altitude.0, view.0, sun.0, between.0],
+        share: [altitude.1, view.1, sun.1, between.1],
     }
+}
+
+/// Where a point, a view and a sun are among the nodes.
+pub fn place(shell: &Shell, r: f64, mu: f64, mu_sun: f64, nu: f64, ground: bool) -> Place {
+    let view = view_place(shell, r, mu, ground);
+    with_sun(shell, lowest(shell), view, mu_sun, nu)
 }
 
 #[cfg(test)]

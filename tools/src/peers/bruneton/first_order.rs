@@ -3,7 +3,7 @@
 use super::coordinates::{SIZE, between, radius, sun, view};
 use super::table::{RadianceTable, ScatteringTable};
 use crate::peers::lanes::Lanes;
-use crate::peers::medium::{Medium, mie_phase, rayleigh_phase};
+use crate::peers::medium::{Medium, rayleigh_phase};
 use crate::peers::transmittance::TransmittanceTable;
 
 /// Steps of each integral, as published.
@@ -21,31 +21,41 @@ pub fn tables<const K: usize>(
     medium: &Medium<K>,
     transmittance: &TransmittanceTable<K>,
 ) -> [ScatteringTable<K>; 2] {
-    let kind = |kind: usize| {
-        ScatteringTable::by_layers(|i| {
-            let r = radius(&medium.shell, i);
-            let mut values = Vec::with_capacity(SIZE[1] * SIZE[2] * SIZE[3]);
-            for j in 0..SIZE[1] {
-                let (mu, ground) = view(&medium.shell, r, j);
-                let stops = stops(medium, transmittance, r, mu, ground);
-                for k in 0..SIZE[2] {
-                    let mu_sun = sun(&medium.shell, k);
-                    for l in 0..SIZE[3] {
-                        let nu = between(l, mu, mu_sun);
-                        let mut sum = Lanes::default();
-                        for stop in &stops {
-                            let there = (r * mu_sun + stop.distance * nu) / stop.r;
-                            let sunlight = transmittance.to_sun(stop.r, there.clamp(-1.0, 1.0));
-                            sum += stop.sent[kind] * sunlight;
-                        }
-                        values.push(sum);
-                    }
+    ScatteringTable::two_by_layers(|i| {
+        let r = radius(&medium.shell, i);
+        let mut values = [Vec::new(), Vec::new()];
+        for j in 0..SIZE[1] {
+            let (mu, ground) = view(&medium.shell, r, j);
+            let stops = stops(medium, transmittance, r, mu, ground);
+            for k in 0..SIZE[2] {
+                let mu_sun = sun(&medium.shell, k);
+                for l in 0..SIZE[3] {
+                    let nu = between(l, mu, mu_sun);
+                    let [molecules, particles] = sums(transmittance, &stops, r * mu_sun, nu);
+                    values[0].push(molecules);
+                    values[1].push(particles);
                 }
             }
-            values
-        })
-    };
-    [kind(0), kind(1)]
+        }
+        values
+    })
+}
+
+/// What all stops send; `height` is that of the start over the plane across the sun's direction.
+fn sums<const K: usize>(
+    transmittance: &TransmittanceTable<K>,
+    stops: &[Stop<K>],
+    height: f64,
+    nu: f64,
+) -> [Lanes<K>; 2] {
+    let mut sums = [Lanes::default(); 2];
+    for stop in stops {
+        let mu_sun = (height + stop.distance * nu) / stop.r;
+        let sunlight = transmittance.to_sun(stop.r, mu_sun.clamp(-1.0, 1.0));
+        sums[0] += stop.sent[0] * sunlight;
+        sums[1] += stop.sent[1] * sunlight;
+    }
+    sums
 }
 
 fn stops<const K: usize>(
@@ -80,9 +90,8 @@ pub fn with_phase<const K: usize>(
     rayleigh: &ScatteringTable<K>,
     mie: &ScatteringTable<K>,
 ) -> RadianceTable<K> {
-    let table = ScatteringTable::mapped(medium, |node, index| {
-        let nu = node.nu as f32;
-        rayleigh.node(index) * rayleigh_phase(nu) + mie.node(index) * mie_phase(medium.g, nu)
+    let table = ScatteringTable::combined(medium, [rayleigh, mie], |rayleigh, mie, nu| {
+        rayleigh * rayleigh_phase(nu) + mie * medium.mie_phase(nu)
     });
     RadianceTable::new(medium, table)
 }

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::coordinates::{SIZE, between, place, radius, sun, view};
+use super::coordinates::{SIZE, between, lowest, place, radius, sun, view, view_place, with_sun};
 use super::table::{RadianceTable, ScatteringTable};
 use crate::peers::lanes::Lanes;
-use crate::peers::medium::{Medium, mie_phase, rayleigh_phase};
+use crate::peers::medium::{Medium, rayleigh_phase};
 use crate::peers::transmittance::{self, TransmittanceTable};
 
 /// Directions of incoming light: zenith angles, and twice as many azimuths, as published.
@@ -60,7 +60,7 @@ pub fn direct_irradiance<const K: usize>(
         // The mean cosine of what is seen of the disc.
         let cosine = match mu_sun {
             m if m < -radius => 0.0,
-            m if m > radius => m,
+            m if m >= radius => m,
             m => (m + radius).powi(2) / (4.0 * radius),
         };
         transmittance.to_top(medium.shell.bottom, mu_sun.max(0.0)) * cosine as f32
@@ -103,7 +103,7 @@ pub fn source<const K: usize>(
                 for l in 0..SIZE[3] {
                     let out = outgoing(mu, mu_sun, between(l, mu, mu_sun));
                     values[(j * SIZE[2] + k) * SIZE[3] + l] =
-                        light.scattered(out, medium.g, &coefficients);
+                        light.scattered(out, medium, &coefficients);
                 }
             }
         }
@@ -153,12 +153,17 @@ impl<const K: usize> Light<K> {
         Self(sphere().map(from).collect())
     }
 
-    fn scattered(&self, out: [f32; 3], g: f32, [molecules, particles]: &[Lanes<K>; 2]) -> Lanes<K> {
+    fn scattered(
+        &self,
+        out: [f32; 3],
+        medium: &Medium<K>,
+        [molecules, particles]: &[Lanes<K>; 2],
+    ) -> Lanes<K> {
         let [mut rayleigh, mut mie] = [Lanes::default(); 2];
         for (direction, light) in &self.0 {
             let cosine = (0..3).map(|i| out[i] * direction[i]).sum::<f32>();
             rayleigh += *light * rayleigh_phase(cosine);
-            mie += *light * mie_phase(g, cosine);
+            mie += *light * medium.mie_phase(cosine);
         }
         rayleigh * *molecules + mie * *particles
     }
@@ -171,6 +176,7 @@ pub fn gathered<const K: usize>(
     source: &ScatteringTable<K>,
 ) -> RadianceTable<K> {
     let shell = medium.shell;
+    let lowest = lowest(&shell);
     let table = ScatteringTable::by_layers(|i| {
         let r = radius(&shell, i);
         let mut values = Vec::with_capacity(SIZE[1] * SIZE[2] * SIZE[3]);
@@ -182,7 +188,9 @@ pub fn gathered<const K: usize>(
                     let distance = step * s as f64;
                     let weight = step * if s == 0 || s == STEPS { 0.5 } else { 1.0 };
                     let through = transmittance.between(r, mu, distance, ground);
-                    (distance, shell.advanced(r, mu, distance), through * weight as f32)
+                    let (there, mu_there) = shell.advanced(r, mu, distance);
+                    let view = view_place(&shell, there, mu_there, ground);
+                    (distance, there, view, through * weight as f32)
                 })
                 .collect();
             for k in 0..SIZE[2] {
@@ -190,9 +198,9 @@ pub fn gathered<const K: usize>(
                 for l in 0..SIZE[3] {
                     let nu = between(l, mu, mu_sun);
                     let mut sum = Lanes::default();
-                    for &(distance, (there, mu_there), through) in &stops {
+                    for &(distance, there, view, through) in &stops {
                         let sun_there = ((r * mu_sun + distance * nu) / there).clamp(-1.0, 1.0);
-                        let place = place(&shell, there, mu_there, sun_there, nu, ground);
+                        let place = with_sun(&shell, lowest, view, sun_there, nu);
                         sum += source.at(&place) * through;
                     }
                     values.push(sum);

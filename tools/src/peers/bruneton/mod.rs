@@ -11,7 +11,7 @@ mod higher_orders;
 mod table;
 
 use super::lanes::Lanes;
-use super::medium::{Medium, mie_phase, rayleigh_phase};
+use super::medium::{Medium, rayleigh_phase};
 use super::sky::{LaneModel, LaneSky, Observer};
 use super::transmittance::TransmittanceTable;
 use table::ScatteringTable;
@@ -55,7 +55,7 @@ impl<const K: usize> Bruneton<K> {
         let ground = self.medium.shell.meets_ground(r, mu);
         let place = coordinates::place(&self.medium.shell, r, mu, mu_sun, nu, ground);
         self.scattering.at(&place) * rayleigh_phase(nu as f32)
-            + self.mie.at(&place) * mie_phase(self.medium.g, nu as f32)
+            + self.mie.at(&place) * self.medium.mie_phase(nu as f32)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A table over the four coordinates.
 
-use super::coordinates::{Node, Place, SIZE, between, radius, sun, view};
+use super::coordinates::{Place, SIZE, between, radius, sun, view};
 use crate::peers::lanes::Lanes;
 use crate::peers::medium::{Medium, rayleigh_phase};
 use crate::peers::parallel::in_parallel;
@@ -18,21 +18,24 @@ impl<const K: usize> ScatteringTable<K> {
         Self(in_parallel(SIZE[0], layer).concat())
     }
 
-    /// A value of every node from its own value.
-    pub fn mapped(
-        medium: &Medium<K>,
-        value: impl Fn(&Node, usize) -> Lanes<K> + Sync,
-    ) -> Self {
-        Self::by_layers(|i| {
-            let nodes = layer_nodes(medium, i);
-            let first = i * STRIDE[0];
-            nodes.enumerate().map(|(n, node)| value(&node, first + n)).collect()
-        })
+    /// Two at once, layer by layer.
+    pub fn two_by_layers(layer: impl Fn(usize) -> [Vec<Lanes<K>>; 2] + Sync) -> [Self; 2] {
+        let layers = in_parallel(SIZE[0], layer);
+        let part = |kind: usize| Self(layers.iter().flat_map(|l| &l[kind]).copied().collect());
+        [part(0), part(1)]
     }
 
-    /// The value at the index of a node.
-    pub fn node(&self, index: usize) -> Lanes<K> {
-        self.0[index]
+    /// Another from the values of two and the cosine between view and sun at each node.
+    pub fn combined(
+        medium: &Medium<K>,
+        [a, b]: [&Self; 2],
+        value: impl Fn(Lanes<K>, Lanes<K>, f32) -> Lanes<K> + Sync,
+    ) -> Self {
+        Self::by_layers(|i| {
+            let pairs = a.0[i * STRIDE[0]..].iter().zip(&b.0[i * STRIDE[0]..]);
+            let nodes = layer_angles(medium, i).zip(pairs);
+            nodes.map(|(nu, (a, b))| value(*a, *b, nu)).collect()
+        })
     }
 
     /// Linear between the 16 nodes around a place.
@@ -79,7 +82,7 @@ impl<const K: usize> RadianceTable<K> {
     /// Pairs a table with the angles of its nodes.
     pub fn new(medium: &Medium<K>, table: ScatteringTable<K>) -> Self {
         let layers = in_parallel(SIZE[0], |i| {
-            layer_nodes(medium, i).map(|node| node.nu as f32).collect::<Vec<_>>()
+            layer_angles(medium, i).collect::<Vec<_>>()
         });
         Self {
             table,
@@ -88,21 +91,15 @@ impl<const K: usize> RadianceTable<K> {
     }
 }
 
-/// Nodes of a layer of altitude, in the order of the table.
-pub fn layer_nodes<const K: usize>(medium: &Medium<K>, i: usize) -> impl Iterator<Item = Node> {
+/// Cosine of the angle between view and sun at the nodes of a layer of altitude, in the order of the table.
+fn layer_angles<const K: usize>(medium: &Medium<K>, i: usize) -> impl Iterator<Item = f32> {
     let shell = medium.shell;
     let r = radius(&shell, i);
     (0..SIZE[1]).flat_map(move |j| {
-        let (mu, ground) = view(&shell, r, j);
+        let (mu, _) = view(&shell, r, j);
         (0..SIZE[2]).flat_map(move |k| {
             let mu_sun = sun(&shell, k);
-            (0..SIZE[3]).map(move |l| Node {
-                r,
-                mu,
-                mu_sun,
-                nu: between(l, mu, mu_sun),
-                ground,
-            })
+            (0..SIZE[3]).map(move |l| between(l, mu, mu_sun) as f32)
         })
     })
 }
