@@ -9,7 +9,6 @@ pub mod paper;
 pub mod peers;
 pub mod random;
 pub mod texture;
-pub mod tone;
 
 /// Wavelengths of the embedded model: bytes 40 and 41 of a file.
 pub const WAVELENGTHS: usize =

@@ -43,7 +43,8 @@ fn no_table_is_typed() {
     let mut generated = false;
     for line in page().lines() {
         generated = (generated || line.starts_with("<!-- figures: ")) && line != "<!-- end -->";
-        let picture = line.contains("![") || line.starts_with("| ---") || line.starts_with("| model | sun");
+        let picture =
+            line.contains("![") || line.starts_with("| ---") || line.starts_with("| model | sun");
         assert!(generated || picture || !line.starts_with('|'), "{line}");
     }
 }

@@ -7,7 +7,6 @@ use std::path::Path;
 
 use exr::prelude::read_first_rgba_layer_from_file;
 use welkin::output::replace_file;
-use welkin_tools::tone::display;
 
 /// Pixels between pairs.
 const GAP: usize = 4;
@@ -109,4 +108,17 @@ fn white(picture: &Picture) -> f32 {
     let mut sorted: Vec<f32> = picture.pixels.iter().map(luminance).collect();
     sorted.sort_by(f32::total_cmp);
     sorted[(WHITE * (sorted.len() - 1) as f32) as usize].max(f32::MIN_POSITIVE)
+}
+
+/// sRGB of light: darker parts are lifted, as twilight spans decades.
+fn display(pixel: [f32; 3], white: f32) -> [u8; 3] {
+    pixel.map(|v| {
+        let v = (v.max(0.0) / white).powf(0.7);
+        let v = v / (1.0 + 0.4 * v);
+        let encoded = match v <= 0.003_130_8 {
+            true => 12.92 * v,
+            false => 1.055 * v.powf(1.0 / 2.4) - 0.055,
+        };
+        (encoded.min(1.0) * 255.0 + 0.5) as u8
+    })
 }

@@ -9,8 +9,8 @@ use std::path::Path;
 
 use welkin::output::replace_file;
 use welkin_tools::evidence::{
-    Result, abilities, air::Air, directions, errors, haze, models, pictures, profiles, table, timing,
-    truth::Traced,
+    Result, abilities, air::Air, directions, errors, haze, models, pictures, profiles, table,
+    timing, truth::Traced,
 };
 use welkin_tools::figures;
 
@@ -60,6 +60,9 @@ fn sum_up(air: &Path, folder: &Path) -> Result<()> {
     let air = Air::from_json(&text)?;
     let exponential = air.exponential()?.to_string();
     replace_file(&folder.join("exponential.json"), exponential.as_bytes())?;
-    replace_file(&folder.join("queries.csv"), directions::queries().as_bytes())?;
+    replace_file(
+        &folder.join("queries.csv"),
+        directions::queries().as_bytes(),
+    )?;
     table::write("air.csv", air.csv().as_bytes())
 }

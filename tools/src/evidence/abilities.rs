@@ -38,11 +38,23 @@ pub fn write() -> Result<()> {
     let sky = GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?;
     let mut asked = Table::new(
         COMMAND,
-        &["model", "lowest sun", "below the horizon", "observer's altitude", "ground albedo"],
+        &[
+            "model",
+            "lowest sun",
+            "below the horizon",
+            "observer's altitude",
+            "ground albedo",
+        ],
     );
     let mut papers = Table::new(
         COMMAND,
-        &["model", "spectrum", "polarisation", "transmittance", "light before things"],
+        &[
+            "model",
+            "spectrum",
+            "polarisation",
+            "transmittance",
+            "light before things",
+        ],
     );
     let mut add = |name: &str, make: Make, stated: Stated| {
         let row = |cells: [String; 4]| [name.to_owned()].into_iter().chain(cells).collect();
@@ -51,24 +63,43 @@ pub fn write() -> Result<()> {
     };
     add(
         "welkin",
-        &|albedo| Some(Box::new(Welkin { model: &model, albedo })),
+        &|albedo| {
+            Some(Box::new(Welkin {
+                model: &model,
+                albedo,
+            }))
+        },
         ["300 to 2500 nm", "yes", "between any two points", "yes"],
     );
     add(
         "Preetham et al. 1999",
         &|_| Some(Box::new(Preetham { turbidity })),
-        ["daylight of its colour", "–", "to the sun, from the ground", "near the ground"],
+        [
+            "daylight of its colour",
+            "–",
+            "to the sun, from the ground",
+            "near the ground",
+        ],
     );
     add(
         "Hosek–Wilkie 2012",
         &|albedo| Some(Box::new(Hosek { turbidity, albedo })),
-        ["320 to 720 nm", "–", "to the sun, from the ground (2013)", "–"],
+        [
+            "320 to 720 nm",
+            "–",
+            "to the sun, from the ground (2013)",
+            "–",
+        ],
     );
     add(
         "CIE clear sky (type 12)",
         &|_| {
             let zenith_luminance = |_: f64| Some(3000.0);
-            Some(Box::new(ScaledSky { sky, zenith_luminance, white: [1.0; 3] }))
+            Some(Box::new(ScaledSky {
+                sky,
+                zenith_luminance,
+                white: [1.0; 3],
+            }))
         },
         ["–", "–", "–", "–"],
     );
@@ -78,17 +109,37 @@ pub fn write() -> Result<()> {
     };
     add(
         "Nishita et al. 1993",
-        &|albedo| grey(Nishita::new(&wavelength(published::blender([550.0]), albedo))),
+        &|albedo| {
+            grey(Nishita::new(&wavelength(
+                published::blender([550.0]),
+                albedo,
+            )))
+        },
         ["any", "–", "between any two points", "yes"],
     );
     add(
         "Bruneton 2017",
-        &|albedo| grey(Bruneton::new(&wavelength(published::bruneton([550.0]), albedo), 2)),
-        ["any, or red, green and blue", "–", "between any two points", "yes"],
+        &|albedo| {
+            grey(Bruneton::new(
+                &wavelength(published::bruneton([550.0]), albedo),
+                2,
+            ))
+        },
+        [
+            "any, or red, green and blue",
+            "–",
+            "between any two points",
+            "yes",
+        ],
     );
     add(
         "Hillaire 2020",
-        &|albedo| grey(Hillaire::new(&wavelength(published::bruneton([550.0]), albedo))),
+        &|albedo| {
+            grey(Hillaire::new(&wavelength(
+                published::bruneton([550.0]),
+                albedo,
+            )))
+        },
         ["red, green and blue", "–", "between any two points", "yes"],
     );
     asked.write("abilities.csv")?;
@@ -165,7 +216,9 @@ fn probed(make: Make) -> [String; 4] {
     };
     let light = |sun: i32| luminance(model.as_ref(), f64::from(sun), 0.0, UP);
     let lowest = (LOWEST..=0).find(|&sun| light(sun).is_some_and(|light| light > NIGHT));
-    let lowest = lowest.map_or("–".into(), |sun| format!("{}°", sun.to_string().replace('-', "−")));
+    let lowest = lowest.map_or("–".into(), |sun| {
+        format!("{}°", sun.to_string().replace('-', "−"))
+    });
     let differs = |a: Option<f32>, b: Option<f32>| match (a, b) {
         (Some(a), Some(b)) => (a / b - 1.0).abs() > 2e-3,
         _ => false,
@@ -190,7 +243,15 @@ mod tests {
         let preetham: Make = &|_| Some(Box::new(Preetham { turbidity: 2.0 }));
         assert_eq!(probed(preetham), ["0°", "–", "–", "–"].map(str::to_owned));
         let model = Model::default_model().unwrap();
-        let welkin: Make = &|albedo| Some(Box::new(Welkin { model: &model, albedo }));
-        assert_eq!(probed(welkin), ["−12°", "yes", "yes", "yes"].map(str::to_owned));
+        let welkin: Make = &|albedo| {
+            Some(Box::new(Welkin {
+                model: &model,
+                albedo,
+            }))
+        };
+        assert_eq!(
+            probed(welkin),
+            ["−12°", "yes", "yes", "yes"].map(str::to_owned)
+        );
     }
 }

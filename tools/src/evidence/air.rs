@@ -13,6 +13,8 @@ use crate::peers::shell::Shell;
 
 /// Altitude of the densest ozone and half the width of its layer in the models of coefficients, m.
 const OZONE_LAYER: [f64; 2] = [25e3, 15e3];
+/// Where the air ends in the published programs of Bruneton and of Blender, whose steps are made for that, m.
+pub const LOW_TOP: f64 = 60e3;
 /// Columns of the CSV file.
 const COLUMNS: [&str; 8] = [
     "wavelength nm",
@@ -55,7 +57,11 @@ impl Air {
         let row = |(i, nm): (usize, f64)| at_wavelength(species, &altitudes, i, nm);
         let wavelengths = numbers(&air["wavelength_nm"])?;
         Ok(Self {
-            rows: wavelengths.into_iter().enumerate().map(row).collect::<Result<_>>()?,
+            rows: wavelengths
+                .into_iter()
+                .enumerate()
+                .map(row)
+                .collect::<Result<_>>()?,
             planet: number(&air["planet_radius_m"])?,
             top: number(&air["toa_altitude_m"])?,
         })
@@ -85,7 +91,10 @@ impl Air {
             Ok(words.nth(1).ok_or("no planet")?.parse()?)
         };
         let row = |line: &str| -> Result<AtWavelength> {
-            let cells: Vec<f64> = line.split(',').map(str::parse).collect::<std::result::Result<_, _>>()?;
+            let cells: Vec<f64> = line
+                .split(',')
+                .map(str::parse)
+                .collect::<std::result::Result<_, _>>()?;
             let row = cells.try_into().map_err(|_| "a row has other columns")?;
             Ok(AtWavelength(row))
         };
@@ -98,7 +107,10 @@ impl Air {
 
     /// Over which molecules and particles thin out by e, m: depth over extinction at the ground.
     fn heights(&self) -> [f64; 2] {
-        [self.mean(|row| row.ratio(2, 1)), self.mean(|row| row.ratio(5, 4))]
+        [
+            self.mean(|row| row.ratio(2, 1)),
+            self.mean(|row| row.ratio(5, 4)),
+        ]
     }
 
     fn mean(&self, value: impl Fn(&AtWavelength) -> f64) -> f64 {
@@ -115,7 +127,9 @@ impl Air {
             return Err("the air is that of other wavelengths".into());
         }
         let [molecules, particles] = self.heights();
-        let lanes = |value: &dyn Fn(&AtWavelength) -> f64| Lanes(rows.each_ref().map(|row| value(row) as f32));
+        let lanes = |value: &dyn Fn(&AtWavelength) -> f64| {
+            Lanes(rows.each_ref().map(|row| value(row) as f32))
+        };
         Ok(Medium {
             shell: Shell {
                 bottom: self.planet,
@@ -142,15 +156,22 @@ impl Air {
     pub fn exponential(&self) -> Result<Value> {
         self.medium()?;
         let [molecules, particles] = self.heights();
-        let altitudes: Vec<f64> = (0..100).map(|i| 100.0 * f64::from(i))
+        let altitudes: Vec<f64> = (0..100)
+            .map(|i| 100.0 * f64::from(i))
             .chain((0..=180).map(|i| 10e3 + 500.0 * f64::from(i)))
             .collect();
         let profile = |column: usize, shape: &dyn Fn(f64) -> f64| -> Vec<Vec<f64>> {
-            let at = |row: &AtWavelength| altitudes.iter().map(|&h| row.0[column] * shape(h)).collect();
+            let at = |row: &AtWavelength| {
+                altitudes
+                    .iter()
+                    .map(|&h| row.0[column] * shape(h))
+                    .collect()
+            };
             self.rows.iter().map(at).collect()
         };
         let thin = |height: f64| move |h: f64| (-h / height).exp() / height;
-        let tent = |h: f64| (1.0 - (h - OZONE_LAYER[0]).abs() / OZONE_LAYER[1]).max(0.0) / OZONE_LAYER[1];
+        let tent =
+            |h: f64| (1.0 - (h - OZONE_LAYER[0]).abs() / OZONE_LAYER[1]).max(0.0) / OZONE_LAYER[1];
         let share: Vec<f64> = self.rows.iter().map(|row| row.0[6]).collect();
         let wavelengths: Vec<f64> = self.rows.iter().map(|row| row.0[0]).collect();
         Ok(json!({
@@ -173,11 +194,18 @@ impl Air {
 }
 
 fn number(value: &Value) -> Result<f64> {
-    Ok(value.as_f64().ok_or_else(|| format!("{value} is not a number"))?)
+    Ok(value
+        .as_f64()
+        .ok_or_else(|| format!("{value} is not a number"))?)
 }
 
 fn numbers(value: &Value) -> Result<Vec<f64>> {
-    value.as_array().ok_or("not a list")?.iter().map(number).collect()
+    value
+        .as_array()
+        .ok_or("not a list")?
+        .iter()
+        .map(number)
+        .collect()
 }
 
 /// A number, or one per wavelength.
@@ -215,7 +243,9 @@ fn at_wavelength(species: &[Value], altitudes: &[f64], i: usize, nm: f64) -> Res
 
 fn column(altitudes: &[f64], profile: &[f64]) -> f64 {
     let pairs = altitudes.windows(2).zip(profile.windows(2));
-    pairs.map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0])).sum()
+    pairs
+        .map(|(z, p)| 0.5 * (p[0] + p[1]) * (z[1] - z[0]))
+        .sum()
 }
 
 #[cfg(test)]
@@ -239,7 +269,10 @@ mod tests {
         let again = Air::from_json(&air.exponential().unwrap().to_string()).unwrap();
         for (a, b) in air.rows.iter().zip(&again.rows) {
             for column in [2, 3, 5, 6] {
-                assert!((a.0[column] / b.0[column] - 1.0).abs() < 2e-3, "{a:?} {b:?}");
+                assert!(
+                    (a.0[column] / b.0[column] - 1.0).abs() < 2e-3,
+                    "{a:?} {b:?}"
+                );
             }
         }
         let [molecules, particles, ozone] = air.medium().unwrap().vertical();

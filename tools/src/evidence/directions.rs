@@ -62,7 +62,11 @@ fn cells(angles: &[f64], end: f64) -> Vec<(f64, [f64; 2])> {
     let middle = |i: usize| 0.5 * (angles[i - 1] + angles[i]);
     let cell = |(i, &angle): (usize, &f64)| {
         let from = if i == 0 { 0.0 } else { middle(i) };
-        let to = if i + 1 == angles.len() { end } else { middle(i + 1) };
+        let to = if i + 1 == angles.len() {
+            end
+        } else {
+            middle(i + 1)
+        };
         (angle, [from, to])
     };
     angles.iter().enumerate().map(cell).collect()

@@ -30,13 +30,25 @@ type Light = Vec<Option<Vec<[f32; 3]>>>;
 pub fn write(models: &[Entry], real: &Traced, exponential: &Traced) -> Result<()> {
     let lights: Vec<(&Entry, Light)> = models.iter().map(|entry| (entry, light(entry))).collect();
     let traced: Light = exponential.xyz.iter().cloned().map(Some).collect();
-    let mut all: Vec<(&str, bool, &Light)> = lights.iter().map(|(e, l)| (e.name, e.own_light, l)).collect();
+    let mut all: Vec<(&str, bool, &Light)> = lights
+        .iter()
+        .map(|(e, l)| (e.name, e.own_light, l))
+        .collect();
     all.push(("exponential air, traced", true, &traced));
     for region in REGIONS {
-        table(&all, &|_, light, sun, sites| luminance(light, &real.xyz[sun], sites), Some(region))
-            .write(&format!("{}.csv", region.0))?;
+        table(
+            &all,
+            &|_, light, sun, sites| luminance(light, &real.xyz[sun], sites),
+            Some(region),
+        )
+        .write(&format!("{}.csv", region.0))?;
     }
-    table(&all, &|_, light, sun, sites| level(light, &real.xyz[sun], sites), None).write("level.csv")?;
+    table(
+        &all,
+        &|_, light, sun, sites| level(light, &real.xyz[sun], sites),
+        None,
+    )
+    .write("level.csv")?;
     let colour = |own: bool, light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| match own {
         true => colour(light, &real.xyz[sun], sites),
         false => "no colour".into(),
@@ -47,16 +59,29 @@ pub fn write(models: &[Entry], real: &Traced, exponential: &Traced) -> Result<()
         .filter(|(entry, _)| entry.key.ends_with("-matched"))
         .map(|(entry, light)| (entry.name, true, light))
         .collect();
-    table(&solved, &|_, light, sun, sites| luminance(light, &exponential.xyz[sun], sites), None)
-        .write("own-air.csv")?;
+    table(
+        &solved,
+        &|_, light, sun, sites| luminance(light, &exponential.xyz[sun], sites),
+        None,
+    )
+    .write("own-air.csv")?;
     noise(real, exponential).write("noise.csv")
 }
 
 /// Standard errors of what all are compared with.
 fn noise(real: &Traced, exponential: &Traced) -> Table {
-    let mut table = Table::new(COMMAND, &["traced", "standard error at a wavelength, median"]);
-    for (name, traced) in [("the air of welkin", real), ("exponential air", exponential)] {
-        table.push(vec![name.into(), format!("{} %", short(100.0 * traced.noise))]);
+    let mut table = Table::new(
+        COMMAND,
+        &["traced", "standard error at a wavelength, median"],
+    );
+    for (name, traced) in [
+        ("the air of welkin", real),
+        ("exponential air", exponential),
+    ] {
+        table.push(vec![
+            name.into(),
+            format!("{} %", short(100.0 * traced.noise)),
+        ]);
     }
     table
 }
@@ -64,7 +89,10 @@ fn noise(real: &Traced, exponential: &Traced) -> Table {
 fn light(entry: &Entry) -> Light {
     let sky = |sun: f64| {
         let sky = entry.model.sky(Observer::on_the_ground(sun.to_radians()))?;
-        sites().iter().map(|site| sky.xyz(site.direction())).collect()
+        sites()
+            .iter()
+            .map(|site| sky.xyz(site.direction()))
+            .collect()
     };
     SUNS.iter().map(|&sun| sky(sun)).collect()
 }
@@ -75,12 +103,18 @@ type Cell<'a> = dyn Fn(bool, &[[f32; 3]], usize, &[(Site, usize)]) -> String + '
 fn table(rows: &[(&str, bool, &Light)], cell: &Cell, region: Option<Region>) -> Table {
     let mut header = vec!["model".to_owned()];
     header.extend(SUNS.map(|sun| format!("sun {}°", sun.to_string().replace('-', "−"))));
-    let mut table = Table::new(COMMAND, &header.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = Table::new(
+        COMMAND,
+        &header.iter().map(String::as_str).collect::<Vec<_>>(),
+    );
     for (name, own, light) in rows {
         let mut row = vec![(*name).to_owned()];
         for (i, sun) in SUNS.into_iter().enumerate() {
             let belongs = |site: &Site| region.is_none_or(|(_, belongs)| belongs(site, sun));
-            let part = sites().into_iter().zip(0..).filter(|(site, _)| belongs(site));
+            let part = sites()
+                .into_iter()
+                .zip(0..)
+                .filter(|(site, _)| belongs(site));
             let part: Vec<_> = part.collect();
             row.push(match &light[i] {
                 Some(light) => cell(*own, light, i, &part),
@@ -109,8 +143,14 @@ fn ratio(got: [f32; 3], truth: [f32; 3]) -> f64 {
 
 /// Median and 95th percentile of what is off, in percent.
 fn luminance(light: &[[f32; 3]], truth: &[[f32; 3]], sites: &[(Site, usize)]) -> String {
-    let mut off = values(light, truth, sites, |a, b| 100.0 * (ratio(a, b) - 1.0).abs());
-    format!("{} / {} %", short(quantile(&mut off, 0.5)), short(quantile(&mut off, 0.95)))
+    let mut off = values(light, truth, sites, |a, b| {
+        100.0 * (ratio(a, b) - 1.0).abs()
+    });
+    format!(
+        "{} / {} %",
+        short(quantile(&mut off, 0.5)),
+        short(quantile(&mut off, 0.95))
+    )
 }
 
 /// How bright it is: median of the ratio.
@@ -125,5 +165,9 @@ fn colour(light: &[[f32; 3]], truth: &[[f32; 3]], sites: &[(Site, usize)]) -> St
         let ([u, v], [s, t]) = (uniform_chromaticity(a), uniform_chromaticity(b));
         1e3 * f64::from((u - s).hypot(v - t))
     });
-    format!("{} / {}", short(quantile(&mut off, 0.5)), short(quantile(&mut off, 0.95)))
+    format!(
+        "{} / {}",
+        short(quantile(&mut off, 0.5)),
+        short(quantile(&mut off, 0.95))
+    )
 }

@@ -17,7 +17,13 @@ pub fn write() -> Result<()> {
     let model = Model::default_model()?;
     let mut table = Table::new(
         COMMAND,
-        &["visibility", "extinction at the ground", "aerosol optical depth", "turbidity", "Ångström's β"],
+        &[
+            "visibility",
+            "extinction at the ground",
+            "aerosol optical depth",
+            "turbidity",
+            "Ångström's β",
+        ],
     );
     for visibility in VISIBILITIES {
         let turbidity = model.turbidity(1e3 * visibility)?;

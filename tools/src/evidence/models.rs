@@ -2,7 +2,7 @@
 
 use welkin::{Conditions, Model};
 
-use super::air::Air;
+use super::air::{Air, LOW_TOP};
 use super::{ALBEDO, Result, VISIBILITY};
 use crate::peers::WAVELENGTHS;
 use crate::peers::bruneton::Bruneton;
@@ -40,7 +40,7 @@ impl LaneModel<8> for Welkin {
     }
 
     fn bytes(&self) -> usize {
-        self.0.file_bytes() as usize
+        self.0.file_bytes()
     }
 }
 
@@ -101,10 +101,15 @@ fn formulas() -> Result<Vec<Entry>> {
     let turbidity = Model::default_model()?.turbidity(VISIBILITY)?;
     let zenith = Model::default_model()?;
     let zenith_luminance = move |solar_elevation: f64| {
-        let sky = zenith.sky(&conditions(Observer::on_the_ground(solar_elevation))).ok()?;
+        let sky = zenith
+            .sky(&conditions(Observer::on_the_ground(solar_elevation)))
+            .ok()?;
         Some(sky.xyz([0.0, 0.0, 1.0]).ok()?[1])
     };
-    let (sky, sun) = (GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?, daylight());
+    let (sky, sun) = (
+        GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?,
+        daylight(),
+    );
     Ok(vec![
         Entry {
             key: "preetham",
@@ -118,14 +123,21 @@ fn formulas() -> Result<Vec<Entry>> {
             name: "Hosek–Wilkie 2012",
             terms: format!("turbidity {turbidity:.2}, albedo 0.2"),
             own_light: true,
-            model: Box::new(Hosek { turbidity, albedo: ALBEDO }),
+            model: Box::new(Hosek {
+                turbidity,
+                albedo: ALBEDO,
+            }),
         },
         Entry {
             key: "cie",
             name: "CIE clear sky (type 12)",
             terms: "zenith luminance of welkin, no colour".into(),
             own_light: false,
-            model: Box::new(ScaledSky { sky, zenith_luminance, white: sun }),
+            model: Box::new(ScaledSky {
+                sky,
+                zenith_luminance,
+                white: sun,
+            }),
         },
     ])
 }
@@ -137,6 +149,7 @@ fn daylight() -> [f32; 3] {
 
 fn of_coefficients(air: &Air) -> Result<Vec<Entry>> {
     let medium = air.medium()?;
+    let low = air.medium()?.below(LOW_TOP);
     let matched = "optical depths, scale heights and mean cosine of welkin's air, albedo 0.2";
     let entry = |key, name, terms: &str, model| Entry {
         key,
@@ -156,18 +169,26 @@ fn of_coefficients(air: &Air) -> Result<Vec<Entry>> {
             "Blender's coefficients, all densities 1, no ground",
             seen(Nishita::new(&published::blender(WAVELENGTHS))),
         ),
-        entry("nishita-matched", "Nishita, matched", matched, seen(Nishita::new(&medium))),
+        entry(
+            "nishita-matched",
+            "Nishita, matched",
+            matched,
+            seen(Nishita::new(&low)),
+        ),
         entry(
             "bruneton-published",
             "Bruneton 2017",
             "its coefficients, albedo 0.1, four orders",
-            seen(Bruneton::new(&published::bruneton(WAVELENGTHS), Bruneton::<8>::ORDERS)),
+            seen(Bruneton::new(
+                &published::bruneton(WAVELENGTHS),
+                Bruneton::<8>::ORDERS,
+            )),
         ),
         entry(
             "bruneton-matched",
             "Bruneton, matched",
             &format!("{matched}, four orders"),
-            seen(Bruneton::new(&medium, Bruneton::<8>::ORDERS)),
+            seen(Bruneton::new(&low, Bruneton::<8>::ORDERS)),
         ),
         entry(
             "hillaire-published",
@@ -175,7 +196,12 @@ fn of_coefficients(air: &Air) -> Result<Vec<Entry>> {
             "its coefficients in red, green and blue, albedo 0.3",
             Box::new(hillaire),
         ),
-        entry("hillaire-matched", "Hillaire, matched", matched, seen(Hillaire::new(&medium))),
+        entry(
+            "hillaire-matched",
+            "Hillaire, matched",
+            matched,
+            seen(Hillaire::new(&medium)),
+        ),
     ])
 }
 

@@ -6,7 +6,6 @@ use super::models::Entry;
 use super::quantities::quantile;
 use super::{Result, SUNS, table};
 use crate::peers::sky::{Observer, SkyModel};
-use crate::tone::display;
 
 /// Width and height of one sky.
 const SIZE: usize = 160;
@@ -14,6 +13,18 @@ const SIZE: usize = 160;
 const GAP: usize = 8;
 /// Share of the sky of this model that is darker than white.
 const WHITE: f64 = 0.95;
+
+/// sRGB of light: a curve that bends towards white, as film does.
+fn display(rgb: [f32; 3], white: f32) -> [u8; 3] {
+    rgb.map(|v| {
+        let v = 1.0 - (-1.6 * v.max(0.0) / white).exp();
+        let encoded = match v <= 0.003_130_8 {
+            true => 12.92 * v,
+            false => 1.055 * v.powf(1.0 / 2.4) - 0.055,
+        };
+        (encoded.min(1.0) * 255.0 + 0.5) as u8
+    })
+}
 
 /// Where a pixel looks: up, the sun towards the top, the horizon at the edge.
 fn direction(i: usize) -> Option<[f32; 3]> {
@@ -46,7 +57,11 @@ pub fn write(models: &[Entry]) -> Result<()> {
     let first = models.first().ok_or("no models")?;
     let white = SUNS.map(|sun| {
         let light = sky(first.model.as_ref(), sun);
-        let mut light: Vec<_> = light.iter().flatten().map(|xyz| (f64::from(xyz[1]), 1.0)).collect();
+        let mut light: Vec<_> = light
+            .iter()
+            .flatten()
+            .map(|xyz| (f64::from(xyz[1]), 1.0))
+            .collect();
         quantile(&mut light, WHITE) as f32
     });
     for entry in models {

@@ -16,7 +16,11 @@ const LEGEND: usize = 3;
 
 /// Colour and dashes of a line.
 fn style(key: &str) -> (&'static str, &'static str) {
-    let dashes = if key.ends_with("-published") { "5 3" } else { "" };
+    let dashes = if key.ends_with("-published") {
+        "5 3"
+    } else {
+        ""
+    };
     let colour = match key.split('-').next() {
         Some("welkin") => "#000000",
         Some("preetham") => "#d95f02",
@@ -91,7 +95,10 @@ fn plot(models: &[Entry], quantities: &[Quantity]) -> String {
 "##
     );
     for (i, sun) in SUNS.into_iter().enumerate() {
-        let lights: Vec<_> = models.iter().map(|entry| (entry, meridian(entry, sun))).collect();
+        let lights: Vec<_> = models
+            .iter()
+            .map(|entry| (entry, meridian(entry, sun)))
+            .collect();
         for (j, quantity) in quantities.iter().enumerate() {
             let corner = [
                 ORIGIN[0] + i as f64 * SPACING[0],
@@ -112,7 +119,14 @@ fn plot(models: &[Entry], quantities: &[Quantity]) -> String {
 fn line(light: &[(f64, [f32; 3])], quantity: &Quantity) -> Line {
     let value = |&(angle, xyz): &(f64, [f32; 3])| {
         let value = (quantity.value)(xyz);
-        (angle, if quantity.logarithmic { value.log10() } else { value })
+        (
+            angle,
+            if quantity.logarithmic {
+                value.log10()
+            } else {
+                value
+            },
+        )
     };
     light.iter().map(value).collect()
 }
@@ -120,14 +134,22 @@ fn line(light: &[(f64, [f32; 3])], quantity: &Quantity) -> Line {
 /// The span of the values of the first line, with room for others that are near.
 fn span(lines: &[(&str, Line)], logarithmic: bool) -> [f64; 2] {
     let first = lines.first().map_or(&[][..], |(_, line)| line);
-    let [low, high] = first.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-        [low.min(v.1), high.max(v.1)]
-    });
+    let [low, high] = first
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
+            [low.min(v.1), high.max(v.1)]
+        });
     let room = if logarithmic { 0.45 } else { 0.03 };
     [low - room, high + room]
 }
 
-fn panel(svg: &mut String, [left, top]: [f64; 2], quantity: &Quantity, sun: f64, lines: &[(&str, Line)]) {
+fn panel(
+    svg: &mut String,
+    [left, top]: [f64; 2],
+    quantity: &Quantity,
+    sun: f64,
+    lines: &[(&str, Line)],
+) {
     let [low, high] = span(lines, quantity.logarithmic);
     let x = |angle: f64| left + PANEL[0] * (angle + 90.0) / 180.0;
     let y = |value: f64| top + PANEL[1] * (high - value) / (high - low);
@@ -163,7 +185,10 @@ fn panel(svg: &mut String, [left, top]: [f64; 2], quantity: &Quantity, sun: f64,
     // The first last, so that it is seen.
     for (key, line) in lines.iter().rev() {
         let (colour, dashes) = style(key);
-        let points: Vec<String> = line.iter().map(|&(a, v)| format!("{:.1},{:.1}", x(a), y(v))).collect();
+        let points: Vec<String> = line
+            .iter()
+            .map(|&(a, v)| format!("{:.1},{:.1}", x(a), y(v)))
+            .collect();
         let _ = writeln!(
             svg,
             r##"<polyline points="{}" fill="none" stroke="{colour}" stroke-width="1.6" stroke-dasharray="{dashes}" clip-path="url(#p{left:.0}-{top:.0})"/>"##,
@@ -176,7 +201,11 @@ fn panel(svg: &mut String, [left, top]: [f64; 2], quantity: &Quantity, sun: f64,
 fn ticks([low, high]: [f64; 2], logarithmic: bool) -> Vec<(f64, String)> {
     if !logarithmic {
         let hundredths = (100.0 * low).ceil() as i32..=(100.0 * high).floor() as i32;
-        let step = if hundredths.clone().count() > 12 { 5 } else { 2 };
+        let step = if hundredths.clone().count() > 12 {
+            5
+        } else {
+            2
+        };
         return hundredths
             .filter(|h| h % step == 0)
             .map(|h| (f64::from(h) / 100.0, format!("{:.2}", f64::from(h) / 100.0)))

@@ -45,7 +45,13 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, text) in [(123.4, "120"), (12.34, "12"), (1.26, "1.3"), (0.0234, "0.023"), (0.0, "0")] {
+        for (value, text) in [
+            (123.4, "120"),
+            (12.34, "12"),
+            (1.26, "1.3"),
+            (0.0234, "0.023"),
+            (0.0, "0"),
+        ] {
             assert_eq!(short(value), text);
         }
         assert_eq!(short(f64::NAN), "–");

@@ -38,7 +38,7 @@ impl SkyModel for Welkin {
     }
 
     fn bytes(&self) -> usize {
-        self.0.file_bytes() as usize
+        self.0.file_bytes()
     }
 }
 
@@ -73,7 +73,16 @@ pub fn write() -> Result<()> {
     let first = &times[0];
     let mut table = Table::new(
         COMMAND,
-        &["model", "a direction", "× welkin", "a new sun", "× welkin", "new air", "tables", "per sun"],
+        &[
+            "model",
+            "a direction",
+            "× welkin",
+            "a new sun",
+            "× welkin",
+            "new air",
+            "tables",
+            "per sun",
+        ],
     );
     for t in &times {
         let ratio = |a: f64, b: f64| short(a / b);
@@ -96,7 +105,10 @@ type Timed = (&'static str, f64, Box<dyn SkyModel>);
 fn models() -> Result<Vec<Timed>> {
     let turbidity = Model::default_model()?.turbidity(VISIBILITY)?;
     let sky = GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?;
-    let rgb = |model| Coloured { model, colour: ToXyz::rgb() };
+    let rgb = |model| Coloured {
+        model,
+        colour: ToXyz::rgb(),
+    };
     let mut models = Vec::new();
     let mut add = |name, make: &mut dyn FnMut() -> Result<Box<dyn SkyModel>>| -> Result<()> {
         let start = Instant::now();
@@ -104,18 +116,38 @@ fn models() -> Result<Vec<Timed>> {
         models.push((name, start.elapsed().as_secs_f64(), model));
         Ok(())
     };
-    add("welkin, baked in colour", &mut || Ok(Box::new(Welkin(Model::default_model()?))))?;
-    add("Preetham et al. 1999", &mut || Ok(Box::new(Preetham { turbidity })))?;
-    add("Hosek–Wilkie 2012", &mut || Ok(Box::new(Hosek { turbidity, albedo: ALBEDO })))?;
+    add("welkin, baked in colour", &mut || {
+        Ok(Box::new(Welkin(Model::default_model()?)))
+    })?;
+    add("Preetham et al. 1999", &mut || {
+        Ok(Box::new(Preetham { turbidity }))
+    })?;
+    add("Hosek–Wilkie 2012", &mut || {
+        Ok(Box::new(Hosek {
+            turbidity,
+            albedo: ALBEDO,
+        }))
+    })?;
     add("CIE clear sky (type 12)", &mut || {
         let zenith_luminance = |_: f64| Some(3000.0);
-        Ok(Box::new(ScaledSky { sky, zenith_luminance, white: [1.0; 3] }))
+        Ok(Box::new(ScaledSky {
+            sky,
+            zenith_luminance,
+            white: [1.0; 3],
+        }))
     })?;
-    let lanes = |model: Box<dyn LaneModel<3>>| -> Result<Box<dyn SkyModel>> { Ok(Box::new(rgb(model))) };
+    let lanes =
+        |model: Box<dyn LaneModel<3>>| -> Result<Box<dyn SkyModel>> { Ok(Box::new(rgb(model))) };
     let medium = published::bruneton(RGB);
-    add("Nishita et al. 1993", &mut || lanes(Box::new(Nishita::new(&published::blender(RGB)))))?;
-    add("Bruneton 2017, four orders", &mut || lanes(Box::new(Bruneton::new(&medium, 4))))?;
-    add("Hillaire 2020", &mut || lanes(Box::new(Hillaire::new(&published::hillaire()))))?;
+    add("Nishita et al. 1993", &mut || {
+        lanes(Box::new(Nishita::new(&published::blender(RGB))))
+    })?;
+    add("Bruneton 2017, four orders", &mut || {
+        lanes(Box::new(Bruneton::new(&medium, 4)))
+    })?;
+    add("Hillaire 2020", &mut || {
+        lanes(Box::new(Hillaire::new(&published::hillaire())))
+    })?;
     Ok(models)
 }
 
@@ -135,7 +167,11 @@ fn measured(models: &[Timed]) -> Result<Vec<Times>> {
     let mut draws = Sequence::<2>::default();
     let up = |[x, y, z]: [f32; 3]| [x, y, z.abs()];
     let directions: Vec<_> = (0..DIRECTIONS).map(|_| up(sphere(draws.draw()))).collect();
-    let skies: Vec<_> = models.iter().map(|(.., model)| model.sky(observer)).collect::<Option<_>>().ok_or("no sky")?;
+    let skies: Vec<_> = models
+        .iter()
+        .map(|(.., model)| model.sky(observer))
+        .collect::<Option<_>>()
+        .ok_or("no sky")?;
     let mut least = vec![[f64::INFINITY; 2]; models.len()];
     for round in 0..ROUNDS {
         for (i, (.., model)) in models.iter().enumerate() {
@@ -147,7 +183,9 @@ fn measured(models: &[Timed]) -> Result<Vec<Times>> {
             debug_assert!(each > 0.0);
             if round < SUN_ROUNDS {
                 let sun = Observer::on_the_ground((20.0 + 0.3 * round as f64).to_radians());
-                fastest(&mut least[i][1], || drop(black_box(model.sky(black_box(sun)))));
+                fastest(&mut least[i][1], || {
+                    drop(black_box(model.sky(black_box(sun))))
+                });
             }
         }
     }
@@ -183,6 +221,12 @@ fn bytes(bytes: usize) -> String {
 }
 
 fn scaled(value: f64, units: [&str; 4]) -> String {
-    let step = (0..3).take_while(|&i| value >= 995.0 * 1e3f64.powi(i)).count();
-    format!("{} {}", short(value / 1e3f64.powi(step as i32)), units[step])
+    let step = (0..3)
+        .take_while(|&i| value >= 995.0 * 1e3f64.powi(i))
+        .count();
+    format!(
+        "{} {}",
+        short(value / 1e3f64.powi(step as i32)),
+        units[step]
+    )
 }

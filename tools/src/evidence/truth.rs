@@ -34,14 +34,20 @@ impl Traced {
             let at = names.iter().position(|n| n == name);
             at.ok_or_else(|| format!("no column {name}"))
         };
-        let keys = ["view_zenith_deg", "view_azimuth_deg", "solar_elevation_deg", "wavelength_nm"];
+        let keys = [
+            "view_zenith_deg",
+            "view_azimuth_deg",
+            "solar_elevation_deg",
+            "wavelength_nm",
+        ];
         let keys = keys.map(find);
         let (intensity, error) = (find("I")?, find("I_se")?);
         let mut records = rows.records();
         let mut errors = Vec::new();
         let mut next = |expected: [f64; 4]| -> Result<f32> {
             let record = records.next().ok_or("too few rows")??;
-            let cell = |i: usize| -> Result<f64> { Ok(record.get(i).ok_or("a short row")?.parse()?) };
+            let cell =
+                |i: usize| -> Result<f64> { Ok(record.get(i).ok_or("a short row")?.parse()?) };
             for (key, expected) in keys.iter().zip(expected) {
                 let got = cell(key.clone()?)?;
                 if (got - expected).abs() > 1e-9 {
@@ -59,7 +65,12 @@ impl Traced {
             }
             Ok(colour.xyz(Lanes(lanes)))
         };
-        let mut sky = |sun: f64| sites.iter().map(|s| site(sun, s)).collect::<Result<Vec<_>>>();
+        let mut sky = |sun: f64| {
+            sites
+                .iter()
+                .map(|s| site(sun, s))
+                .collect::<Result<Vec<_>>>()
+        };
         let xyz = SUNS.iter().map(|&sun| sky(sun)).collect::<Result<_>>()?;
         errors.sort_by(f64::total_cmp);
         Ok(Self {

@@ -104,7 +104,9 @@ impl Sky for Scaled {
         }
         let cosine = (0..3).map(|i| direction[i] * self.sun[i]).sum::<f32>();
         let gamma = f64::from(cosine.clamp(-1.0, 1.0)).acos();
-        let relative = self.sky.relative(f64::from(direction[2]), gamma, self.sun_zenith);
+        let relative = self
+            .sky
+            .relative(f64::from(direction[2]), gamma, self.sun_zenith);
         Some(self.white.map(|v| v * self.zenith * relative as f32))
     }
 }
@@ -122,8 +124,16 @@ mod tests {
             let indicatrix = |g: f64| 0.91 + 10.0 * (-3.0 * g).exp() + 0.45 * g.cos().powi(2);
             indicatrix(gamma) * (1.0 - (-0.32 / cosine).exp()) / (indicatrix(sun) * 0.273_85)
         };
-        for (cosine, gamma, sun) in [(1.0, 0.7, 0.7), (0.3, 0.2, 1.0), (0.05, 2.0, 0.6), (0.6, 1.5, 1.5)] {
-            let (a, b) = (clear.relative(cosine, gamma, sun), before(cosine, gamma, sun));
+        for (cosine, gamma, sun) in [
+            (1.0, 0.7, 0.7),
+            (0.3, 0.2, 1.0),
+            (0.05, 2.0, 0.6),
+            (0.6, 1.5, 1.5),
+        ] {
+            let (a, b) = (
+                clear.relative(cosine, gamma, sun),
+                before(cosine, gamma, sun),
+            );
             assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
         }
     }

@@ -92,16 +92,22 @@ mod tests {
     #[test]
     fn eight_wavelengths_see_what_all_see() {
         // A blue sky: Rayleigh scattering through ozone.
-        let spectrum = |nm: f64| (550.0 / nm).powi(4) * (-0.03 * spectra::ozone(nm) / spectra::ozone(550.0)).exp();
+        let spectrum = |nm: f64| {
+            (550.0 / nm).powi(4) * (-0.03 * spectra::ozone(nm) / spectra::ozone(550.0)).exp()
+        };
         let exact = VISIBLE.map(f64::from).fold([0.0; 3], |sum, nm| {
             let light = EFFICACY * spectra::sun(nm) * spectrum(nm);
             let matching = spectra::matching(nm);
             std::array::from_fn(|c| sum[c] + light * matching[c])
         });
         let wavelengths = super::super::WAVELENGTHS;
-        let got = ToXyz::spectral(wavelengths).xyz(Lanes(wavelengths.map(|nm| spectrum(nm) as f32)));
+        let got =
+            ToXyz::spectral(wavelengths).xyz(Lanes(wavelengths.map(|nm| spectrum(nm) as f32)));
         for (got, exact) in got.iter().zip(exact) {
-            assert!((f64::from(*got) / exact - 1.0).abs() < 0.02, "{got} {exact}");
+            assert!(
+                (f64::from(*got) / exact - 1.0).abs() < 0.02,
+                "{got} {exact}"
+            );
         }
     }
 }

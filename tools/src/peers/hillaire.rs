@@ -74,7 +74,8 @@ impl<const K: usize> Hillaire<K> {
             let mu = 1.0 - 2.0 * step(j / DIRECTIONS);
             let x = (1.0 - mu * mu).sqrt() * (TAU * step(j % DIRECTIONS)).cos();
             let nu = x * sine + mu * mu_sun;
-            let (light, scattered) = self.march(Line { r, mu, mu_sun, nu }, MULTIPLE_STEPS, Lit::Isotropic);
+            let (light, scattered) =
+                self.march(Line { r, mu, mu_sun, nu }, MULTIPLE_STEPS, Lit::Isotropic);
             second += light;
             left += scattered;
         }
@@ -114,7 +115,10 @@ impl<const K: usize> Hillaire<K> {
             let densities = medium.densities(medium.altitude(there));
             let sun_there = ((r * mu_sun + distance * nu) / there).clamp(-1.0, 1.0);
             let sunlight = self.transmittance.to_sun(there, sun_there);
-            let scattering = [medium.rayleigh * densities[0], medium.mie_scattering * densities[1]];
+            let scattering = [
+                medium.rayleigh * densities[0],
+                medium.mie_scattering * densities[1],
+            ];
             let mut source = (scattering[0] * phases[0] + scattering[1] * phases[1]) * sunlight;
             if lit == Lit::All {
                 source += (scattering[0] + scattering[1]) * self.multiple_at(there, sun_there);
@@ -177,7 +181,10 @@ impl<const K: usize> LaneSky<K> for Picture<K> {
     fn relative_radiance(&self, [x, y, z]: [f32; 3]) -> Option<Lanes<K>> {
         let azimuth = f64::from(y).atan2(f64::from(x)) / TAU;
         let column = (azimuth - azimuth.floor()) * PICTURE[0] as f64;
-        let (i, share) = ((column as usize) % PICTURE[0], (column - column.floor()) as f32);
+        let (i, share) = (
+            (column as usize) % PICTURE[0],
+            (column - column.floor()) as f32,
+        );
         let next = (i + 1) % PICTURE[0];
         let (j, row_share) = place(height(f64::from(z.clamp(-1.0, 1.0)).asin()), PICTURE[1]);
         let row = |j: usize| {
@@ -214,10 +221,15 @@ mod tests {
         medium.mie_extinction = medium.mie_extinction * 1e-3;
         medium.ozone = medium.ozone * 1e-3;
         medium.albedo = 0.0;
-        let (ours, other) = (Hillaire::new(&medium), Nishita::new(&medium));
+        let (ours, other) = (Hillaire::new(&medium), Nishita::in_steps(&medium, 1000));
         let observer = Observer::on_the_ground(0.6);
         let (ours, other) = (ours.sky(observer).unwrap(), other.sky(observer).unwrap());
-        for d in [[0.0f32, 0.0, 1.0], [-0.6, 0.0, 0.8], [0.0, 0.8, 0.6], [0.0, -0.95, 0.312]] {
+        for d in [
+            [0.0f32, 0.0, 1.0],
+            [-0.6, 0.0, 0.8],
+            [0.0, 0.8, 0.6],
+            [0.0, -0.95, 0.312],
+        ] {
             let a = ours.relative_radiance(d).unwrap().0;
             let b = other.relative_radiance(d).unwrap().0;
             for (a, b) in a.iter().zip(b) {

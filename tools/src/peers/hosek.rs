@@ -64,9 +64,44 @@ impl Sky for HosekSky {
 mod tests {
     use super::*;
 
+    /// Red, green and blue of another reader of the authors' data: `sunsky` of Mitsuba 3.9 (`scalar_rgb`, turbidity 3,
+    /// albedo 0.2, no sun), at solar elevation, zenith angle and azimuth in degrees. It divides by the integral of the
+    /// luminous efficiency function, 106.857 nm.
+    #[test]
+    fn it_is_that_of_another_reader() {
+        let model = Hosek {
+            turbidity: 3.0,
+            albedo: 0.2,
+        };
+        for ([elevation, zenith, azimuth], expected) in [
+            ([60.0f64, 5.0f64, 90.0f64], [0.0346231, 0.0532377, 0.10054]),
+            ([60.0, 80.0, 180.0], [0.0834626, 0.134677, 0.216412]),
+            ([20.0, 55.0, 90.0], [0.025732, 0.0459703, 0.0756899]),
+            ([5.0, 5.0, 90.0], [0.00671738, 0.0121455, 0.0182968]),
+            ([5.0, 80.0, 180.0], [0.0680586, 0.0755943, 0.0612984]),
+        ] {
+            let sky = model
+                .sky(Observer::on_the_ground(elevation.to_radians()))
+                .unwrap();
+            let (r, z) = zenith.to_radians().sin_cos();
+            let (y, x) = azimuth.to_radians().sin_cos();
+            let xyz = sky.xyz([r * x, r * y, z].map(|v| v as f32)).unwrap();
+            let rgb = welkin::xyz_to_linear_srgb(xyz.map(|v| v / (EFFICACY * 106.857)));
+            for (got, expected) in rgb.iter().zip(expected) {
+                assert!(
+                    (got / expected - 1.0).abs() < 0.01,
+                    "{elevation} {zenith}: {rgb:?}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn it_answers_by_day_above_the_horizon() {
-        let model = Hosek { turbidity: 2.1, albedo: 0.2 };
+        let model = Hosek {
+            turbidity: 2.1,
+            albedo: 0.2,
+        };
         assert!(model.sky(Observer::on_the_ground(-0.01)).is_none());
         let sky = model.sky(Observer::on_the_ground(0.5)).unwrap();
         assert!(sky.xyz([0.0, 0.6, -0.8]).is_none());

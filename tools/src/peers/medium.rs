@@ -61,6 +61,12 @@ impl<const K: usize> Medium<K> {
         ]
     }
 
+    /// The same without the air above an altitude, m.
+    pub fn below(mut self, altitude: f64) -> Self {
+        self.shell.top = self.shell.top.min(self.shell.bottom + altitude);
+        self
+    }
+
     /// All that is lost per metre.
     pub fn extinction(&self, [molecules, particles, ozone]: [f32; 3]) -> Lanes<K> {
         self.rayleigh * molecules + self.mie_extinction * particles + self.ozone * ozone
@@ -132,7 +138,10 @@ mod tests {
         assert!((total(rayleigh_phase) - 1.0).abs() < 1e-5);
         for g in [0.0, 0.65, 0.76, 0.8] {
             assert!((total(|c| cornette_shanks(g, c)) - 1.0).abs() < 1e-4, "{g}");
-            assert!((total(|c| henyey_greenstein(g, c)) - 1.0).abs() < 1e-4, "{g}");
+            assert!(
+                (total(|c| henyey_greenstein(g, c)) - 1.0).abs() < 1e-4,
+                "{g}"
+            );
             assert!((total(|c| c * henyey_greenstein(g, c)) - f64::from(g)).abs() < 1e-4);
         }
     }

@@ -14,6 +14,8 @@ pub mod published;
 pub mod shell;
 pub mod sky;
 pub mod spectra;
+#[cfg(test)]
+mod traced;
 pub mod transmittance;
 
 /// Wavelengths at which the models of coefficients are compared, nm.

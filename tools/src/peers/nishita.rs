@@ -14,12 +14,19 @@ const STEPS: usize = 32;
 pub struct Nishita<const K: usize> {
     medium: Medium<K>,
     transmittance: TransmittanceTable<K>,
+    steps: usize,
 }
 
 impl<const K: usize> Nishita<K> {
     /// Prepares the table.
     pub fn new(medium: &Medium<K>) -> Self {
+        Self::in_steps(medium, STEPS)
+    }
+
+    /// As [`Nishita::new`], lines of sight in other steps.
+    pub fn in_steps(medium: &Medium<K>, steps: usize) -> Self {
         Self {
+            steps,
             medium: *medium,
             transmittance: TransmittanceTable::new(medium),
         }
@@ -31,7 +38,11 @@ impl<const K: usize> LaneModel<K> for Nishita<K> {
         let r = self.medium.shell.bottom + observer.altitude;
         let (z, x) = observer.solar_elevation.sin_cos();
         let sun = [x, 0.0, z];
-        Some(Box::new(NishitaSky { model: self, r, sun }))
+        Some(Box::new(NishitaSky {
+            model: self,
+            r,
+            sun,
+        }))
     }
 
     fn bytes(&self) -> usize {
@@ -53,10 +64,10 @@ impl<const K: usize> LaneSky<K> for NishitaSky<'_, K> {
         let medium = &self.model.medium;
         let ground = medium.shell.meets_ground(self.r, mu);
         let nu = view[0] * sun[0] + view[1] * sun[1] + mu * sun[2];
-        let step = medium.shell.to_end(self.r, mu, ground) / STEPS as f64;
+        let step = medium.shell.to_end(self.r, mu, ground) / self.model.steps as f64;
         let phases = [rayleigh_phase(nu as f32), medium.mie_phase(nu as f32)];
         let (mut depth, mut sum) = (Lanes::default(), Lanes::default());
-        for i in 0..STEPS {
+        for i in 0..self.model.steps {
             let distance = (i as f64 + 0.5) * step;
             let (there, _) = medium.shell.advanced(self.r, mu, distance);
             let densities = medium.densities(medium.altitude(there));

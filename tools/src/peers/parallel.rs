@@ -1,7 +1,7 @@
 //! Work on all cores.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// `work` of 0 to `n`, in order.
 pub fn in_parallel<T: Send>(n: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
@@ -16,7 +16,9 @@ pub fn in_parallel<T: Send>(n: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T
                         break;
                     }
                     let result = work(i);
-                    done.lock().expect("no panic among workers").push((i, result));
+                    done.lock()
+                        .expect("no panic among workers")
+                        .push((i, result));
                 }
             });
         }

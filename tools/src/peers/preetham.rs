@@ -68,7 +68,8 @@ impl SkyModel for Preetham {
             return None;
         }
         let zenith = self.zenith(sun);
-        let perez = DISTRIBUTION.map(|rows| rows.map(|[slope, offset]| slope * self.turbidity + offset));
+        let perez =
+            DISTRIBUTION.map(|rows| rows.map(|[slope, offset]| slope * self.turbidity + offset));
         let scale = std::array::from_fn(|c| zenith[c] / distribution(&perez[c], 1.0, sun));
         Some(Box::new(PreethamSky {
             perez,
@@ -102,9 +103,8 @@ impl Sky for PreethamSky {
         }
         let cosine = (0..3).map(|i| direction[i] * self.sun[i]).sum::<f32>();
         let gamma = f64::from(cosine.clamp(-1.0, 1.0)).acos();
-        let value = |c: usize| {
-            self.scale[c] * distribution(&self.perez[c], f64::from(direction[2]), gamma)
-        };
+        let value =
+            |c: usize| self.scale[c] * distribution(&self.perez[c], f64::from(direction[2]), gamma);
         let (luminance, x, y) = (value(0), value(1), value(2));
         Some([luminance * x / y, luminance, luminance * (1.0 - x - y) / y].map(|v| v as f32))
     }

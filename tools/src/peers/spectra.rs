@@ -45,7 +45,9 @@ impl Table {
 pub fn ozone(nm: f64) -> f64 {
     static TABLE: OnceLock<Table> = OnceLock::new();
     const TEXT: &str = include_str!("../../../fitter/data/o3_xsec_1nm.csv");
-    1e-4 * TABLE.get_or_init(|| Table::new(TEXT, &["sigma_223K"])).at(nm, 0)
+    1e-4 * TABLE
+        .get_or_init(|| Table::new(TEXT, &["sigma_223K"]))
+        .at(nm, 0)
 }
 
 /// Of the sun outside the air, W m⁻² nm⁻¹: the one of the default model.

@@ -122,9 +122,17 @@ mod tests {
     fn between_nodes_it_is_the_integral() {
         let medium = published::bruneton([680.0, 550.0, 440.0]);
         let (table, shell) = (TransmittanceTable::new(&medium), medium.shell);
-        for (altitude, mu) in [(0.0, 0.02), (120.0, 0.1), (2e3, 0.3), (9e3, -0.02), (3e4, 0.7)] {
+        for (altitude, mu) in [
+            (0.0, 0.02),
+            (120.0, 0.1),
+            (2e3, 0.3),
+            (9e3, -0.02),
+            (3e4, 0.7),
+        ] {
             let r = shell.bottom + altitude;
-            let exact = medium.optical_depth(r, mu, shell.to_top(r, mu), 20_000).attenuated();
+            let exact = medium
+                .optical_depth(r, mu, shell.to_top(r, mu), 20_000)
+                .attenuated();
             let got = table.to_top(r, mu);
             for (got, exact) in got.0.iter().zip(exact.0) {
                 assert!((got - exact).abs() < 2e-3, "{altitude} {mu}: {got} {exact}");

@@ -6,9 +6,6 @@ use crate::peers::lanes::Lanes;
 use crate::peers::medium::{Medium, rayleigh_phase};
 use crate::peers::transmittance::TransmittanceTable;
 
-/// Steps of each integral, as published.
-const STEPS: usize = 50;
-
 /// A point of a line of sight: what molecules and particles there scatter towards its start.
 struct Stop<const K: usize> {
     distance: f64,
@@ -20,13 +17,14 @@ struct Stop<const K: usize> {
 pub fn tables<const K: usize>(
     medium: &Medium<K>,
     transmittance: &TransmittanceTable<K>,
+    steps: usize,
 ) -> [ScatteringTable<K>; 2] {
     ScatteringTable::two_by_layers(|i| {
         let r = radius(&medium.shell, i);
         let mut values = [Vec::new(), Vec::new()];
         for j in 0..SIZE[1] {
             let (mu, ground) = view(&medium.shell, r, j);
-            let stops = stops(medium, transmittance, r, mu, ground);
+            let stops = stops(medium, transmittance, [r, mu], ground, steps);
             for k in 0..SIZE[2] {
                 let mu_sun = sun(&medium.shell, k);
                 for l in 0..SIZE[3] {
@@ -61,14 +59,14 @@ fn sums<const K: usize>(
 fn stops<const K: usize>(
     medium: &Medium<K>,
     transmittance: &TransmittanceTable<K>,
-    r: f64,
-    mu: f64,
+    [r, mu]: [f64; 2],
     ground: bool,
+    steps: usize,
 ) -> Vec<Stop<K>> {
-    let step = medium.shell.to_end(r, mu, ground) / STEPS as f64;
+    let step = medium.shell.to_end(r, mu, ground) / steps as f64;
     let stop = |i: usize| {
         let distance = step * i as f64;
-        let weight = step * if i == 0 || i == STEPS { 0.5 } else { 1.0 };
+        let weight = step * if i == 0 || i == steps { 0.5 } else { 1.0 };
         let (there, _) = medium.shell.advanced(r, mu, distance);
         let through = transmittance.between(r, mu, distance, ground) * weight as f32;
         let [molecules, particles, _] = medium.densities(medium.altitude(there));
@@ -81,7 +79,7 @@ fn stops<const K: usize>(
             ],
         }
     };
-    (0..=STEPS).map(stop).collect()
+    (0..=steps).map(stop).collect()
 }
 
 /// Radiance of all nodes from both tables.

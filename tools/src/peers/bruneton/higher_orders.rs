@@ -10,8 +10,6 @@ use crate::peers::transmittance::{self, TransmittanceTable};
 
 /// Directions of incoming light: zenith angles, and twice as many azimuths, as published.
 const ZENITHS: usize = 16;
-/// Steps along each line of sight, as published.
-const STEPS: usize = 50;
 /// Suns for which the light on the ground is known.
 const SUNS: usize = 64;
 
@@ -93,7 +91,10 @@ pub fn source<const K: usize>(
     ScatteringTable::by_layers(|i| {
         let r = radius(&medium.shell, i);
         let [molecules, particles, _] = medium.densities(medium.altitude(r));
-        let coefficients = [medium.rayleigh * molecules, medium.mie_scattering * particles];
+        let coefficients = [
+            medium.rayleigh * molecules,
+            medium.mie_scattering * particles,
+        ];
         let mut values = vec![Lanes::default(); SIZE[1] * SIZE[2] * SIZE[3]];
         for k in 0..SIZE[2] {
             let mu_sun = sun(&medium.shell, k);
@@ -134,7 +135,10 @@ impl<const K: usize> Light<K> {
     ) -> Self {
         let shell = medium.shell;
         let sine = (1.0 - mu_sun * mu_sun).sqrt();
-        let from = |Incoming { direction, solid_angle }| {
+        let from = |Incoming {
+                        direction,
+                        solid_angle,
+                    }| {
             let [x, _, mu]: [f64; 3] = direction;
             let nu = x * sine + mu * mu_sun;
             let down = shell.meets_ground(r, mu);
@@ -149,7 +153,9 @@ impl<const K: usize> Light<K> {
             let direction = direction.map(|v| v as f32);
             (direction, radiance * solid_angle as f32)
         };
-        debug_assert!((sphere().map(|d| d.solid_angle).sum::<f64>() / (2.0 * TAU) - 1.0).abs() < 0.01);
+        debug_assert!(
+            (sphere().map(|d| d.solid_angle).sum::<f64>() / (2.0 * TAU) - 1.0).abs() < 0.01
+        );
         Self(sphere().map(from).collect())
     }
 
@@ -174,6 +180,7 @@ pub fn gathered<const K: usize>(
     medium: &Medium<K>,
     transmittance: &TransmittanceTable<K>,
     source: &ScatteringTable<K>,
+    steps: usize,
 ) -> RadianceTable<K> {
     let shell = medium.shell;
     let lowest = lowest(&shell);
@@ -182,11 +189,11 @@ pub fn gathered<const K: usize>(
         let mut values = Vec::with_capacity(SIZE[1] * SIZE[2] * SIZE[3]);
         for j in 0..SIZE[1] {
             let (mu, ground) = view(&shell, r, j);
-            let step = shell.to_end(r, mu, ground) / STEPS as f64;
-            let stops: Vec<_> = (0..=STEPS)
+            let step = shell.to_end(r, mu, ground) / steps as f64;
+            let stops: Vec<_> = (0..=steps)
                 .map(|s| {
                     let distance = step * s as f64;
-                    let weight = step * if s == 0 || s == STEPS { 0.5 } else { 1.0 };
+                    let weight = step * if s == 0 || s == steps { 0.5 } else { 1.0 };
                     let through = transmittance.between(r, mu, distance, ground);
                     let (there, mu_there) = shell.advanced(r, mu, distance);
                     let view = view_place(&shell, there, mu_there, ground);

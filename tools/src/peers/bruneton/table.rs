@@ -44,11 +44,11 @@ impl<const K: usize> ScatteringTable<K> {
         let mut sum = Lanes::default();
         for corner in 0..8usize {
             let (mut weight, mut index) = (1.0, start);
-            for axis in 0..3 {
+            for (axis, stride) in STRIDE[..3].iter().enumerate() {
                 let next = corner >> axis & 1;
                 let share = place.share[axis];
                 weight *= if next == 1 { share } else { 1.0 - share };
-                index += next * STRIDE[axis];
+                index += next * stride;
             }
             if weight > 0.0 {
                 sum += self.0[index].mixed(self.0[index + 1], place.share[3]) * weight;
@@ -81,9 +81,7 @@ pub struct RadianceTable<const K: usize> {
 impl<const K: usize> RadianceTable<K> {
     /// Pairs a table with the angles of its nodes.
     pub fn new(medium: &Medium<K>, table: ScatteringTable<K>) -> Self {
-        let layers = in_parallel(SIZE[0], |i| {
-            layer_angles(medium, i).collect::<Vec<_>>()
-        });
+        let layers = in_parallel(SIZE[0], |i| layer_angles(medium, i).collect::<Vec<_>>());
         Self {
             table,
             nu: layers.concat(),
