@@ -38,3 +38,63 @@ pub fn write() -> Result<()> {
     }
     table.write("haze.csv")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_measure_leads_back_to_the_visibility() {
+        let model = Model::default_model().unwrap();
+        for visibility in VISIBILITIES.map(|km| 1e3 * km) {
+            let turbidity = model.turbidity(visibility).unwrap();
+            let depth = model.aerosol_optical_depth(visibility).unwrap();
+            assert!((turbidity - 1.0 - depth / 0.0971).abs() < 1e-12);
+            let again = model.visibility_of_turbidity(turbidity).unwrap();
+            assert!(
+                (again / visibility - 1.0).abs() < 1e-5,
+                "{visibility}: {again}"
+            );
+            let again = model.visibility_of_aerosol_optical_depth(depth).unwrap();
+            assert!(
+                (again / visibility - 1.0).abs() < 1e-5,
+                "{visibility}: {again}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_the_model_does_not_reach_is_refused() {
+        let model = Model::default_model().unwrap();
+        for wrong in [0.5, 8.0, f64::NAN, f64::INFINITY] {
+            let error = model.visibility_of_turbidity(wrong).unwrap_err();
+            assert_eq!(error.class(), "range");
+            assert!(model.visibility_of_aerosol_optical_depth(wrong).is_err());
+        }
+        // What the message offers can be asked for.
+        let welkin::Error::OutOfRange { min, max, .. } =
+            model.visibility_of_turbidity(8.0).unwrap_err()
+        else {
+            panic!("another error");
+        };
+        for edge in [min, max] {
+            assert!(model.visibility_of_turbidity(edge).is_ok());
+        }
+    }
+
+    /// The exact optical depths of the traced air, at 560 nm, are near those at 550 nm.
+    #[test]
+    fn the_depth_is_that_of_the_traced_air() {
+        let air = crate::evidence::air::Air::read(&super::super::table::folder().join("air.csv"));
+        let [_, particles, _] = air.unwrap().medium().unwrap().vertical();
+        let between = 0.75 * particles.0[4] + 0.25 * particles.0[3];
+        let depth = Model::default_model()
+            .unwrap()
+            .aerosol_optical_depth(59.4e3)
+            .unwrap();
+        assert!(
+            (f64::from(between) / depth - 1.0).abs() < 0.01,
+            "{between} {depth}"
+        );
+    }
+}
