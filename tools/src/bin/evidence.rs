@@ -59,10 +59,7 @@ fn sum_up(air: &Path, folder: &Path) -> Result<()> {
     let text = fs::read_to_string(air).map_err(|e| format!("{}: {e}", air.display()))?;
     let air = Air::from_json(&text)?;
     let exponential = air.exponential()?.to_string();
-    replace_file(&folder.join("exponential.json"), exponential.as_bytes())?;
-    replace_file(
-        &folder.join("queries.csv"),
-        directions::queries().as_bytes(),
-    )?;
+    replace_file(folder.join("exponential.json"), exponential.as_bytes())?;
+    replace_file(folder.join("queries.csv"), directions::queries().as_bytes())?;
     table::write("air.csv", air.csv().as_bytes())
 }

@@ -1,6 +1,6 @@
 //! Tables as CSV files that the page is filled from.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use welkin::output::replace_file;
 
@@ -52,7 +52,7 @@ impl Table {
 /// # Errors
 /// Where it cannot be written.
 pub fn write(name: &str, bytes: &[u8]) -> Result<()> {
-    let path: &Path = &folder().join(name);
+    let path = folder().join(name);
     println!("{name}");
-    Ok(replace_file(path, bytes)?)
+    Ok(replace_file(&path, bytes)?)
 }
