@@ -50,7 +50,7 @@ impl Model {
     /// # Errors
     /// As [`Model::aerosol_optical_depth`].
     pub fn turbidity(&self, visibility: f64) -> Result<f64> {
-        Ok(1.0 + self.aerosol_optical_depth(visibility)? / MOLECULES)
+        Ok(of_depth(self.aerosol_optical_depth(visibility)?))
     }
 
     /// Lowest and highest turbidity that the model reaches.
@@ -58,8 +58,8 @@ impl Model {
     /// # Errors
     /// [`Error::OutOfRange`] if the model does not reach 550 nm.
     pub fn turbidity_range(&self) -> Result<[f64; 2]> {
-        let [hazy, clear] = self.visibility_range();
-        Ok([self.turbidity(clear)?, self.turbidity(hazy)?])
+        let [clear, hazy] = self.aerosol_optical_depth_range()?;
+        Ok([clear, hazy].map(of_depth))
     }
 
     /// The visibility (m) of a turbidity.
@@ -79,11 +79,20 @@ impl Model {
     /// # Errors
     /// [`Error::OutOfRange`] for a depth that the model does not reach, or if it does not reach 550 nm.
     pub fn visibility_of_aerosol_optical_depth(&self, depth: f64) -> Result<f64> {
-        let range = self.turbidity_range()?.map(|t| (t - 1.0) * MOLECULES);
+        let range = self.aerosol_optical_depth_range()?;
         if !(range[0]..=range[1]).contains(&depth) {
             return Err(out_of_range("aerosol optical depth", depth, range));
         }
         self.visibility_where(|visibility| Ok(self.aerosol_optical_depth(visibility)? < depth))
+    }
+
+    /// Of the clearest and of the haziest air.
+    fn aerosol_optical_depth_range(&self) -> Result<[f64; 2]> {
+        let [hazy, clear] = self.visibility_range();
+        Ok([
+            self.aerosol_optical_depth(clear)?,
+            self.aerosol_optical_depth(hazy)?,
+        ])
     }
 
     /// The visibility at which the air stops being too clear.
@@ -100,6 +109,10 @@ impl Model {
         }
         Ok((0.5 * (clear + hazy)).recip().clamp(low, high))
     }
+}
+
+fn of_depth(depth: f64) -> f64 {
+    1.0 + depth / MOLECULES
 }
 
 fn out_of_range(parameter: &'static str, value: f64, [min, max]: [f64; 2]) -> Error {
