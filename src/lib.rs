@@ -137,6 +137,7 @@ cfg_if::cfg_if! {
         mod sky;
         mod sun;
         mod transmittance;
+        mod turbidity;
 
         pub use aerial_perspective::{
             AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, CameraVolume,

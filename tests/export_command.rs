@@ -462,6 +462,13 @@ fn names_may_have_an_extension_and_both_files_come_together() {
             std::fs::remove_file(folder.join(name)).unwrap();
         }
     }
+    for out in [".", "./", "d/", ".."] {
+        let arguments = ["export", "--for", "usd", "--size", "8", "--out", out];
+        assert_eq!(run(folder, &arguments, "").status.code(), Some(2), "{out}");
+    }
+    let output = call(folder, "export --for usd --size 8 --sun --exr-type half");
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(listed().is_empty());
     // A folder where the scene should be: nothing is written.
     std::fs::create_dir(folder.join("s.ass")).unwrap();
     let output = call(folder, "export --for arnold --size 8 --out s");

@@ -2,9 +2,11 @@
 //! tells.
 
 pub mod book;
+pub mod evidence;
 pub mod figures;
 pub mod http_file;
 pub mod paper;
+pub mod peers;
 pub mod random;
 pub mod texture;
 

@@ -54,10 +54,11 @@ class AerialPerspective:
         others = Extent(planet, floor, floor, max(high, floor + 1.0), far, steps, 17, 11, 12)
         self.tables = []
         for sources, body in zip(emitter.sources_from(emitter.values["altitude"]), emitter.bodies):
-            arrays = lambda extent: SegmentArrays(sources.model, sources.key, sources.conditions, extent)
+            arrays = lambda extent, joined=False: SegmentArrays(
+                sources.model, sources.key, sources.conditions, extent, joined)
             coarse = arrays(others)
             self.tables.append((
-                body, SegmentTable(arrays(camera), arrays(lengths), body.sky_scale),
+                body, SegmentTable(arrays(camera, True), arrays(lengths), body.sky_scale),
                 SegmentTable(coarse, coarse, body.sky_scale)))
 
     def is_near(self, start, eye):

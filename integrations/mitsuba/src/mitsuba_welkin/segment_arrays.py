@@ -1,5 +1,6 @@
 """What welkin says of the air along paths, as arrays over their start, direction and length."""
 
+import dataclasses
 import math
 
 import mitsuba as mi
@@ -42,7 +43,8 @@ class SegmentArrays:
     """`source`: ln of in-scattered light over the opacity and the lobe, and with polarisation Q/I and U/I: (nodes…, wavelengths,
     1 or 3). `extinction`: ln of the mean extinction, m⁻¹: (nodes…, wavelengths); of colours red, green, blue and Y."""
 
-    def __init__(self, model, key, conditions, extent):
+    def __init__(self, model, key, conditions, extent, joined=False):
+        """`joined`: to the sky that is seen from the one altitude of the extent, without a seam."""
         self.extent = extent
         altitude, mu, azimuth, length = extent.paths()
         flat = np.sqrt(np.maximum(1.0 - mu * mu, 0.0))
@@ -51,6 +53,8 @@ class SegmentArrays:
         start = np.stack([0.0 * altitude, 0.0 * altitude, altitude], -1)
         end = start + d * length[..., None]
         light, optical_depth, degrees = self.of_segments(model, key, conditions, start, end)
+        if joined:
+            light = light * joining(model, dataclasses.replace(conditions, altitude=max(extent.low, 0.0)), start, end)
         opacity = -np.expm1(-optical_depth[..., -1:] if light.shape[-1] == 3 else -optical_depth)
         e, a = conditions.solar_elevation, conditions.solar_azimuth
         sun = np.array([math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)])
@@ -79,8 +83,20 @@ class SegmentArrays:
         return light, optical_depth, to_wavelengths(shares, np.asarray(air.wavelengths))
 
 
+def joining(model, conditions, start, end):
+    """What the light of paths from an observer is multiplied by, so that far things vanish in that observer's sky."""
+    air = model.aerial_perspective(conditions)
+    joined = air.joined_to(model.sky(conditions))
+    if not (mi.is_spectral or mi.is_polarized):
+        pair = joined.rgb(end, "xyz")[0], air.xyz(start, end)[0]
+    else:
+        pair = joined.in_scattering(end)[0], air.in_scattering(start, end)[0]
+    share = np.clip(pair[0] / np.maximum(pair[1], TINY), 0.5, 2.0)
+    return share if share.shape[-1] == 3 else to_wavelengths(share[..., None, :], np.asarray(air.wavelengths))[..., 0]
+
+
 def to_wavelengths(shares, nodes):
-    """(…, 2, nodes) → (…, wavelengths, 2), linear: degrees of polarisation are smooth."""
+    """(…, n, nodes) → (…, wavelengths, n), linear: for what is smooth, as degrees of polarisation are."""
     wavelengths = FIRST + STEP * np.arange(COUNT)
     cell = np.clip(np.searchsorted(nodes, wavelengths) - 1, 0, len(nodes) - 2)
     t = (wavelengths - nodes[cell]) / (nodes[cell + 1] - nodes[cell])

@@ -136,6 +136,10 @@ impl Renderer {
 pub fn run(options: &Options) -> Result<()> {
     let renderer = options.renderer;
     renderer.check(options.encoding.space())?;
+    if options.sun && options.encoding.is_half() {
+        let text = "half precision ends far below the sun's disc, which would be lost: --exr-type float, or no --sun";
+        return Err(Failure::message(text));
+    }
     let files = Files::new(&options.out, renderer.extension())?;
     let model = options.source.open()?;
     let conditions = options.scene.conditions(&model)?;

@@ -28,6 +28,9 @@ impl Files {
         if Target::new(out).is_stream() {
             return refused("a scene and its picture are two files: name them");
         }
+        if is_folder(out) {
+            return refused("the name of a file is missing");
+        }
         let formats = [(Which::Picture, "exr"), (Which::Scene, extension)];
         let base: PathBuf = match naming::named(out, None, &formats)? {
             Some(Named { .. }) => out.with_extension(""),
@@ -68,6 +71,13 @@ impl Files {
             (&self.scene, scene),
         ])?)
     }
+}
+
+/// Whether a path names a folder by how it is written.
+fn is_folder(path: &Path) -> bool {
+    let text = path.as_os_str().to_string_lossy();
+    let last = text.rsplit(std::path::is_separator).next();
+    matches!(last, Some("" | "." | ".."))
 }
 
 /// Whether a character means itself in the names of files in every scene format: `<` begins a token of Arnold and USD.
