@@ -100,7 +100,6 @@ class WelkinPath(mi.SamplingIntegrator):
         while dr.hint(active, label="welkin_path"):
             # What the ray has come to: its own light.
             ds = mi.DirectionSample3f(scene, si, before)
-            weight = mi.Float(1.0)
             pdf = scene.pdf_emitter_direction(before, ds, active & ~delta_before)
             weight = balance(pdf_before, dr.select(delta_before, 0.0, pdf))
             light = si.emitter(scene, active)

@@ -44,7 +44,7 @@ class Taps:
 
 
 def cell(x, nodes):
-    """The lower node and the share of the upper; of axes with one node the same twice."""
+    """The lower node and the share of the upper; none of an axis with one node."""
     if nodes == 1:
         return mi.UInt32(0), None
     place = dr.clip(x * (nodes - 1), 0.0, nodes - 1.0)
