@@ -65,10 +65,20 @@ pub fn errors(
     [altitude, visibility]: [usize; 2],
     count: usize,
 ) -> Result<Vec<Error>> {
-    let nodes = nodes(data, [altitude, visibility]);
-    let skies: Vec<Vec<Error>> = nodes
+    over_skies(data, [altitude, visibility], |node| {
+        of_sky(data, model, node, count)
+    })
+}
+
+/// Errors of all stored skies of an altitude and visibility, one after the other.
+fn over_skies(
+    data: &OfficialData,
+    place: [usize; 2],
+    of_sky: impl Fn(Node) -> Result<Vec<Error>> + Sync + Send,
+) -> Result<Vec<Error>> {
+    let skies: Vec<Vec<Error>> = nodes(data, place)
         .into_par_iter()
-        .map(|node| of_sky(data, model, node, count))
+        .map(of_sky)
         .collect::<Result<_>>()?;
     Ok(skies.concat())
 }
@@ -177,12 +187,9 @@ pub fn degrees(
     [altitude, visibility]: [usize; 2],
     count: usize,
 ) -> Result<Vec<Error>> {
-    let nodes = nodes(data, [altitude, visibility]);
-    let skies: Vec<Vec<Error>> = nodes
-        .into_par_iter()
-        .map(|node| degrees_of_sky(data, model, node, count))
-        .collect::<Result<_>>()?;
-    Ok(skies.concat())
+    over_skies(data, [altitude, visibility], |node| {
+        degrees_of_sky(data, model, node, count)
+    })
 }
 
 fn degrees_of_sky(
