@@ -140,12 +140,12 @@ cfg_if::cfg_if! {
         mod turbidity;
 
         pub use aerial_perspective::{
-            AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, CameraVolume,
+            AerialBuffers, AerialHeader, AerialPerspective, AerialPerspectiveQuery, BandAerialPerspective, CameraVolume,
             ColourAerialPerspective, JoinedAerialPerspective, JoinedBandAerialPerspective, JoinedPolarisedAerialPerspective, SkyDifference,
         };
         pub use baked::{
             BakeError, BufferHeader, BakedBandSky, BakedColourSky, BakedPolarisedBandSky, BakedPolarisedSky, BakedSky,
-            Directions, Part, Sample, SkyBuffers, SkySampler, SunCourse,
+            Directions, Part, Sample, SamplerBuffers, SamplerHeader, SkyBuffers, SkySampler, SunCourse,
         };
         pub use bands::{
             BandSky, BandSolarDisc, BandTransmittance, Bands, ColourSky,
@@ -161,7 +161,7 @@ cfg_if::cfg_if! {
         };
         pub use sky::{ColourSpace, Sky, xyz_to_linear_srgb};
         pub use spectrum::{SpectralInterpolation, between_wavelengths};
-        pub use sun::{SOLAR_ANGULAR_RADIUS, SolarDisc};
-        pub use transmittance::Transmittance;
+        pub use sun::{DiscBuffers, DiscHeader, SOLAR_ANGULAR_RADIUS, SolarDisc};
+        pub use transmittance::{AirBuffers, AirHeader, Transmittance};
     }
 }

@@ -6,6 +6,7 @@ use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::model::Model;
 use crate::sky::ColourSpace;
+use crate::transmittance::Transmittance;
 
 /// An [`AerialPerspective`] for colour alone: only the wavelengths that X, Y and Z are made of are prepared and asked.
 /// Queries do not allocate, but that of a whole volume. `Send + Sync`.
@@ -49,6 +50,21 @@ impl ColourAerialPerspective {
     /// The conditions that it was prepared for.
     pub fn conditions(&self) -> &Conditions {
         self.aerial.conditions()
+    }
+
+    /// As [`AerialPerspective::transmittance`].
+    pub(super) fn transmittance(&self) -> &Transmittance {
+        self.aerial.transmittance()
+    }
+
+    /// As [`AerialPerspective::sun_direction`].
+    pub fn sun_direction(&self) -> [f64; 3] {
+        self.aerial.sun_direction()
+    }
+
+    /// X, Y and Z of the unattenuated sun.
+    pub(super) fn white(&self) -> [f32; 3] {
+        self.aerial.white
     }
 
     /// As [`AerialPerspective::set_solar_azimuth`].

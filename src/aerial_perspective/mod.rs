@@ -1,6 +1,7 @@
 //! Aerial perspective: the light that the air between two points scatters towards the first. Format specification,
 //! section 7.7.
 
+mod aerial_buffers;
 mod aerial_perspective_query;
 mod angular_basis;
 mod band_segments;
@@ -17,6 +18,7 @@ mod path_points;
 mod prepared;
 mod quadrature_limits;
 mod quadrature_panels;
+mod ray_lattice;
 mod reach;
 mod scatterers;
 mod segment_integral;
@@ -32,6 +34,7 @@ mod stokes_integral;
 mod sun_transmittance;
 mod xyz_sum;
 
+pub use aerial_buffers::{AerialBuffers, AerialHeader};
 pub use aerial_perspective_query::AerialPerspectiveQuery;
 pub use band_segments::{BandAerialPerspective, JoinedBandAerialPerspective};
 pub use camera_volume::CameraVolume;

@@ -110,6 +110,13 @@ impl SkyBuffers {
         self.header.as_bytes()
     }
 
+    /// All arrays one after the other, for a single buffer: the envelope, the cells, the polarisation, the scale.
+    pub fn table(&self) -> Vec<[f32; 4]> {
+        [&self.envelope, &self.cells, &self.polarisation, &self.scale]
+            .map(|part| part.as_slice())
+            .concat()
+    }
+
     fn of<const N: usize>(frame: &LocalFrame, table: &Table<N>, channels: usize) -> Self {
         let groups = channels.div_ceil(GROUP);
         let lanes = |cells: &[Lanes<N>], length| regrouped(cells, length, groups, [0, N]);

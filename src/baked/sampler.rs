@@ -12,9 +12,9 @@ use crate::kernel::simd::dispatch;
 use crate::sun::SolarDisc;
 
 /// Rows of cells above and below the horizon, and columns from the sun's azimuth to the opposite one.
-const UP: usize = 48;
-const DOWN: usize = 24;
-const COLUMNS: usize = 48;
+pub(super) const UP: usize = 48;
+pub(super) const DOWN: usize = 24;
+pub(super) const COLUMNS: usize = 48;
 const ROWS: usize = UP + DOWN;
 
 /// What a direction was drawn for. Its density counts both all the same.
@@ -96,20 +96,20 @@ pub struct Sample {
 #[derive(Clone, Debug)]
 pub struct SkySampler {
     sky: BakedColourSky,
-    frame: LocalFrame,
+    pub(super) frame: LocalFrame,
     /// z at the edges of each row, from the horizon to the pole: above, then below.
-    heights: Vec<[f32; 2]>,
+    pub(super) heights: Vec<[f32; 2]>,
     /// Azimuths from the sun at the edges of the columns, 0..=π.
-    azimuths: Vec<f32>,
+    pub(super) azimuths: Vec<f32>,
     /// Cumulative probability at the edges of the rows.
-    rows: Vec<f32>,
+    pub(super) rows: Vec<f32>,
     /// Cumulative probability in a row at the edges of the columns, `[row][edge]`.
-    columns: Vec<f32>,
+    pub(super) columns: Vec<f32>,
     /// Density, `[row][column]`.
-    density: Vec<f32>,
+    pub(super) density: Vec<f32>,
     /// Luminous flux through a sphere, cd sr m⁻².
     flux: f64,
-    sun: Option<(SolarDisc, f32)>,
+    pub(super) sun: Option<(SolarDisc, f32)>,
 }
 
 impl BakedColourSky {

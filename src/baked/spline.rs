@@ -79,6 +79,16 @@ pub(crate) fn refined<const N: usize>(coefficients: &[Lanes<N>]) -> Vec<Lanes<N>
     core::iter::once(half(0)).chain(pairs).collect()
 }
 
+/// The spline with these coefficients at `x` in 0..=1.
+pub(crate) fn spline_value<const N: usize>(coefficients: &[Lanes<N>], x: f32) -> Lanes<N> {
+    let taps = taps(Lanes([x]), Lanes([(coefficients.len() - 3) as f32]));
+    let cells = &coefficients[taps.first[0] as usize..];
+    let terms = cells.iter().zip(taps.weight);
+    terms.fold(Lanes::splat(0.0), |sum, (cell, weight)| {
+        sum + *cell * weight.0[0]
+    })
+}
+
 /// Second difference at the first of four values in a row, exact for cubics.
 fn curvature<const N: usize>([a, b, c, d]: [Lanes<N>; 4]) -> Lanes<N> {
     a * 2.0 - b * 5.0 + c * 4.0 - d

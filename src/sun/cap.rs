@@ -36,6 +36,15 @@ pub(super) struct Cap {
     bend: f64,
 }
 
+/// The disc's own axes and what is drawn from; see [`Cap`].
+pub(super) struct Shape {
+    pub left: [f64; 3],
+    pub up: [f64; 3],
+    pub chord: f64,
+    pub floor: f64,
+    pub area: f64,
+}
+
 impl Cap {
     /// The sun over a geometric horizon that lies `dip` (rad) below the horizontal.
     pub fn new(conditions: &Conditions, dip: f64) -> Self {
@@ -60,6 +69,17 @@ impl Cap {
             floor,
             area: segment(angle(floor)),
             bend,
+        }
+    }
+
+    /// What a graphics processor is told.
+    pub fn shape(&self) -> Shape {
+        Shape {
+            left: self.left,
+            up: self.up,
+            chord: self.chord,
+            floor: self.floor,
+            area: self.area,
         }
     }
 

@@ -13,7 +13,7 @@ use crate::spectrum::SpectralInterpolation;
 use crate::transmittance::{Amounts, Extinction, Layers, visibility_weights};
 
 /// Elevations at which depths are kept, over the visible part of the disc.
-const NODES: usize = 129;
+pub(super) const NODES: usize = 129;
 /// More lets nothing through, and its differences stay exact.
 const OPAQUE: f32 = 1e4;
 
@@ -91,6 +91,16 @@ impl Depths {
             terms.map(|(w, node)| w * node.get(k)).sum::<f32>().max(0.0)
         };
         interpolation.transmittance(wavelength, &self.visibility, column)
+    }
+
+    /// Depths at all wavelengths, node by node.
+    pub fn rows(&self) -> impl Iterator<Item = &[f32]> {
+        self.depths.chunks_exact(self.wavelengths)
+    }
+
+    /// Elevation of the first node, rad, and nodes per radian.
+    pub fn axis(&self) -> [f64; 2] {
+        [self.lowest, self.nodes_per_radian]
     }
 
     /// The first of four nodes around an elevation, and their weights.

@@ -75,6 +75,15 @@ struct Layer {
     polynomial: [Amounts; 3],
 }
 
+/// A layer as a graphics processor is told of it.
+pub(super) struct LayerRow<'a> {
+    /// `w` at the bottom and the top, m.
+    pub edges: [f64; 2],
+    pub rate: f64,
+    pub bend: f64,
+    pub polynomial: &'a [Amounts; 3],
+}
+
 /// Piecewise quadratic densities of all constituents.
 #[derive(Clone, Debug)]
 pub(crate) struct Layers {
@@ -142,6 +151,17 @@ impl Layers {
             layers,
             quads: constituents.div_ceil(LANES),
         }
+    }
+
+    /// From below the ground upwards.
+    pub(super) fn rows(&self) -> impl Iterator<Item = LayerRow<'_>> {
+        let layers = self.layers.iter().enumerate();
+        layers.map(|(i, layer)| LayerRow {
+            edges: [self.edges[i], self.edges[i + 1]],
+            rate: layer.rate,
+            bend: layer.bend,
+            polynomial: &layer.polynomial,
+        })
     }
 
     pub fn planet(&self) -> Planet {

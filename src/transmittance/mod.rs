@@ -1,9 +1,11 @@
 //! The air alone: transmittance between any two points. Format specification, section 7.6.
 
+mod buffers;
 mod layers;
 mod segment;
 mod spectral_transmittance;
 
+pub use buffers::{AirBuffers, AirHeader};
 pub(crate) use layers::{Amounts, Layers, Line, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 

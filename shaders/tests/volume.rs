@@ -1,0 +1,154 @@
+//! Volumes that the device fills are those of the library.
+
+mod common;
+
+use common::Errors;
+use common::gpu::{Binding, bytes, device};
+use welkin::{CameraVolume, ColourAerialPerspective, Conditions, Model};
+
+const SIZE: [usize; 2] = [64, 36];
+
+fn depths(last: f64, n: usize) -> Vec<f64> {
+    // Denser near the camera.
+    (1..=n)
+        .map(|k| last * (k as f64 / n as f64).powi(2))
+        .collect()
+}
+
+/// Light and factors, `[row][column][slice]`.
+fn fill(
+    gpu: &common::gpu::Gpu,
+    aerial: &ColourAerialPerspective,
+    volume: &CameraVolume,
+) -> [Vec<[f32; 4]>; 2] {
+    let buffers = aerial.buffers(volume.from).unwrap();
+    let mut uniform = Vec::new();
+    let counts = [volume.size[0], volume.size[1], volume.depths.len()];
+    for (vector, count) in [volume.axis, volume.right, volume.up].iter().zip(counts) {
+        uniform.extend(vector.iter().flat_map(|v| (*v as f32).to_ne_bytes()));
+        uniform.extend((count as u32).to_ne_bytes());
+    }
+    let depths: Vec<u8> = volume
+        .depths
+        .iter()
+        .flat_map(|d| (*d as f32).to_ne_bytes())
+        .collect();
+    let length = counts.iter().product();
+    let bindings = [
+        Binding::Uniform(buffers.header_bytes()),
+        Binding::Uniform(&uniform),
+        Binding::Input(&depths),
+        Binding::Output(length),
+        Binding::Output(length),
+    ];
+    let groups = volume.size.map(|n| n.div_ceil(8) as u32);
+    let table = [vec![[f32::NAN; 4]; 2], buffers.table].concat();
+    let out = gpu.run(
+        "fill_volume",
+        &bytes(&table),
+        [2, 0, 0, 0],
+        &bindings,
+        groups,
+    );
+    out.try_into().expect("two outputs")
+}
+
+/// Whether the point is above the ground, and the way to it.
+fn is_seen(volume: &CameraVolume, place: [usize; 2], depth: f64) -> bool {
+    const RADIUS: f64 = 6.378e6;
+    let way = volume.direction(place.map(|n| n as f64));
+    let at = |t: f64| {
+        let p: [f64; 3] = std::array::from_fn(|i| volume.from[i] + t * way[i]);
+        p[2] + (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / (2.0 * RADIUS)
+    };
+    (1..=64).all(|k| at(depth * f64::from(k) / 64.0) >= 0.0)
+}
+
+struct Compared {
+    light: Errors,
+    factors: Errors,
+}
+
+fn compare(
+    gpu: &common::gpu::Gpu,
+    conditions: &Conditions,
+    volume: &CameraVolume,
+    out: &mut Compared,
+) {
+    let aerial = Model::default_model()
+        .unwrap()
+        .colour_aerial_perspective(conditions)
+        .unwrap();
+    let [light, factors] = fill(gpu, &aerial, volume);
+    let slices = volume.depths.len();
+    let [mut rays, mut through] = [(); 2].map(|()| vec![[0.0; 3]; slices]);
+    for row in 0..volume.size[1] {
+        for column in 0..volume.size[0] {
+            let way = volume.direction([column, row].map(|n| n as f64));
+            let stretch = way.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let distances: Vec<f64> = volume.depths.iter().map(|d| d * stretch).collect();
+            aerial
+                .linear_srgb_along(volume.from, way, &distances, &mut rays, &mut through)
+                .unwrap();
+            for k in 0..slices {
+                if !is_seen(volume, [column, row], volume.depths[k]) {
+                    continue;
+                }
+                let at = (row * volume.size[0] + column) * slices + k;
+                // Of the luminance, as single components of dusk can be near zero.
+                let luminance = 0.2126 * rays[k][0] + 0.7152 * rays[k][1] + 0.0722 * rays[k][2];
+                for c in 0..3 {
+                    out.light.add(light[at][c], rays[k][c], luminance);
+                    out.factors.add(factors[at][c], through[k][c], 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// Towards a heading and up, both in radians, 77° wide.
+fn view(from: [f64; 3], heading: f64, pitch: f64, depths: &[f64]) -> CameraVolume<'_> {
+    let ((s, c), (sp, cp)) = (heading.sin_cos(), pitch.sin_cos());
+    CameraVolume {
+        from,
+        axis: [cp * c, cp * s, sp],
+        right: [0.8 * s, -0.8 * c, 0.0],
+        up: [-0.45 * sp * c, -0.45 * sp * s, 0.45 * cp],
+        size: SIZE,
+        depths,
+    }
+}
+
+#[test]
+fn volumes() {
+    let Some(gpu) = device() else { return };
+    for (name, elevations, limits) in [
+        ("by day", [40.0, 90.0, 10.0], [0.03, 0.01]),
+        ("of a low sun", [4.0, 2.0, 1.0], [0.1, 0.02]),
+        ("at dusk", [-1.0, -2.5, -4.0], [0.3, 0.02]),
+    ] {
+        let mut out = Compared {
+            light: Errors::default(),
+            factors: Errors::default(),
+        };
+        for elevation in elevations {
+            let conditions = Conditions {
+                solar_elevation: f64::to_radians(elevation),
+                solar_azimuth: 0.7,
+                ..Conditions::default()
+            };
+            for altitude in [2.0, 3e3, 30e3] {
+                let depths = depths(if altitude < 1e4 { 100e3 } else { 400e3 }, 32);
+                for (heading, pitch) in [(0.7, 0.1), (2.5, -0.15), (3.8, 0.6)] {
+                    let volume = view([150.0, -80.0, altitude], heading, pitch, &depths);
+                    compare(&gpu, &conditions, &volume, &mut out);
+                }
+            }
+        }
+        let [p99, _] = out.light.report(&format!("light of volumes {name}"));
+        let [factors, _] = out
+            .factors
+            .report(&format!("factors of volumes {name} (differences)"));
+        assert!(p99 < limits[0] && factors < limits[1]);
+    }
+}

@@ -1,0 +1,121 @@
+//! The air around a camera as plain arrays, from which a graphics processor fills volumes.
+
+use zerocopy::{Immutable, IntoBytes};
+
+use super::colour_segments::ColourAerialPerspective;
+use super::ray_lattice::RayLattice;
+use crate::error::Result;
+
+/// Where the air around a camera is looked up: 144 bytes with the layout that std140 and std430 give these fields.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let aerial = Model::default_model()?.colour_aerial_perspective(&Conditions::default())?;
+/// let header = aerial.buffers([0.0, 0.0, 2.0])?.header;
+/// assert_eq!((header.up, header.intervals), ([0.0, 0.0, 1.0], [32, 16, 16]));
+/// # Ok::<(), welkin::Error>(())
+/// ```
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, IntoBytes, Immutable)]
+pub struct AerialHeader {
+    /// Unit vector towards the sun.
+    pub sun: [f32; 3],
+    /// Cosine of the angle from `up` at which the camera sees the geometric horizon, ≤ 0.
+    pub horizon: f32,
+    /// Unit vector away from the planet's centre at the camera.
+    pub up: [f32; 3],
+    /// Distance of the first node, m; light and optical depth are proportional to the distance up to there.
+    pub nearest: f32,
+    /// Unit vector across `up` in the vertical plane of the sun.
+    pub forward: [f32; 3],
+    /// Distance of the last node, m; beyond it nothing is added.
+    pub farthest: f32,
+    /// Unit vector across both, counter-clockwise from `forward` seen from above.
+    pub left: [f32; 3],
+    /// Nodes per octave of the distance.
+    pub nodes_per_octave: f32,
+    /// X, Y and Z of the sun outside the air, relative to one another: what the factors are those of.
+    pub white: [f32; 3],
+    /// How far rows stand from the poles.
+    pub pole: f32,
+    /// 1 / (1 − horizon) and 1 / (1 + horizon).
+    pub shrink: [f32; 2],
+    /// How rows crowd towards the horizon above and below it.
+    pub crowding: [f32; 2],
+    /// Intervals of the rows above and below the horizon, and of the azimuth.
+    pub intervals: [u32; 3],
+    /// Intervals of the angle from the sun.
+    pub sun_intervals: u32,
+    /// Intervals of the distance.
+    pub distances: u32,
+    /// 0.
+    pub unused: [u32; 6],
+    /// [`AerialBuffers::LAYOUT`].
+    pub layout: u32,
+}
+
+/// The light that the air between a camera and all points around it scatters to the camera, and what it leaves of
+/// light from there, as plain arrays. One table serves all views from one place.
+///
+/// With `h` the header, a point at the distance `s` in the direction of a unit vector `d` is looked up as a
+/// [`SkyBuffers`](crate::SkyBuffers) is, with `d · h.up` for `d.z` and `(d · h.forward, d · h.left)` for the azimuth, so
+/// that row, column and angle are those of its formulae, and with four more neighbours over the distance:
+///
+/// ```text
+/// t          = min(s, h.farthest)
+/// node       = clamp(log2(t / h.nearest) · h.nodes_per_octave, 0, h.distances)
+/// logarithm  = Σ envelope[angle · h.sun_intervals] + Σ Σ Σ light[node][row][column]
+/// X, Y, Z    = 2^logarithm · t                                  // cd m⁻²
+/// factors    = 2^(−t · max(Σ Σ Σ depth[node][row][column], 0))  // of X, Y and Z
+/// ```
+///
+/// `table` has `envelope[h.sun_intervals + 3]`, `light[h.distances + 3][rows][columns]` and `depth[…]` of the same size,
+/// one after the other, with rows and columns as those of the sky. The fourth component is 0.
+///
+/// ```
+/// use welkin::{Conditions, Model};
+///
+/// let aerial = Model::default_model()?.colour_aerial_perspective(&Conditions::default())?;
+/// let buffers = aerial.buffers([0.0, 0.0, 2.0])?;
+/// let h = buffers.header;
+/// let [up, down, columns] = h.intervals.map(|n| n + 3);
+/// let cells = (h.distances + 3) * (up + down) * columns;
+/// assert_eq!(buffers.table.len() as u32, h.sun_intervals + 3 + 2 * cells);
+/// assert_eq!(buffers.header_bytes().len(), 144);
+/// # Ok::<(), welkin::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct AerialBuffers {
+    /// The numbers that all points share.
+    pub header: AerialHeader,
+    /// Envelope, light, optical depths.
+    pub table: Vec<[f32; 4]>,
+}
+
+impl AerialBuffers {
+    /// Version of the layout; another one means other fields or formulae.
+    pub const LAYOUT: u32 = 1;
+
+    /// The header as it is uploaded, in the byte order of this machine.
+    pub fn header_bytes(&self) -> &[u8] {
+        self.header.as_bytes()
+    }
+
+    /// The table as it is uploaded, in the byte order of this machine.
+    pub fn table_bytes(&self) -> &[u8] {
+        self.table.as_bytes()
+    }
+}
+
+impl ColourAerialPerspective {
+    /// The air around a camera (m, in the frame of [`CameraVolume`](crate::CameraVolume)), for volumes that are filled
+    /// elsewhere. Some hundred rays are marched; what lies between them is interpolated.
+    ///
+    /// # Errors
+    /// As [`ColourAerialPerspective::linear_srgb_along`], for rays in all directions: a camera high above the air sees
+    /// some that are beyond reach.
+    pub fn buffers(&self, camera: [f64; 3]) -> Result<AerialBuffers> {
+        RayLattice::new(self, camera)?.buffers()
+    }
+}
