@@ -1,22 +1,5 @@
 // Directions on the disc, evenly in solid angle.
 
-const WELKIN_PI: f32 = 3.14159265358979;
-
-// Cosine and sine of 0 ≤ x ≤ π/2 to rounding; those of a graphics processor may be off by 5e-4.
-fn quarter_turn(x: f32) -> vec2<f32> {
-    let t = x - 0.25 * WELKIN_PI;
-    let s = t * t;
-    let sine = t * (1.0 - s * (1.0 / 6.0 - s * (1.0 / 120.0 - s * (1.0 / 5040.0 - s / 362880.0))));
-    let cosine = 1.0 - s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s / 40320.0)));
-    return vec2<f32>(cosine - sine, cosine + sine) * 0.70710678;
-}
-
-// Cosine and sine of 0 ≤ x ≤ π.
-fn half_turn(x: f32) -> vec2<f32> {
-    let half = quarter_turn(0.5 * x);
-    return vec2<f32>((half.x - half.y) * (half.x + half.y), 2.0 * half.x * half.y);
-}
-
 // The angle at which a chord cuts a segment of this area, 0 ≤ area ≤ π, off the unit disc.
 fn segment_angle(area: f32) -> f32 {
     let bounded = clamp(area, 0.0, WELKIN_PI);

@@ -1,5 +1,5 @@
-// A picture of the whole upper sky with the disc, equidistant around the zenith, in linear sRGB: `[row][column]`, north
-// (+y) up and east (+x) left, as it is seen from below.
+// A picture of the whole upper sky with the disc, equidistant around the zenith, in linear sRGB: `[row][column]`, +x at the top
+// and +y on the right, as it is seen from below.
 
 // Where tables begin, in elements of four: the sky and the disc; then rows and columns of the picture.
 @group(1) @binding(0) var<uniform> place: vec4<u32>;
@@ -18,9 +18,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         out[id.y * place.z + id.x] = vec4<f32>();
         return;
     }
-    let angle = radius * 1.57079633;
-    let level = -sin(angle) * spot / max(radius, 1e-9);
-    let d = vec3<f32>(level, cos(angle));
+    let turn = half_turn(radius * 0.5 * WELKIN_PI);
+    let level = vec2<f32>(-spot.y, spot.x) * (turn.y / max(radius, 1e-9));
+    let d = vec3<f32>(level, turn.x);
     let xyz = sky_xyz(sky, place.x, d) + disc_xyz(disc, place.y, d);
     out[id.y * place.z + id.x] = vec4<f32>(linear_srgb(xyz), 1.0);
 }

@@ -61,7 +61,9 @@ pub fn record(row: [String; 3]) {
         let mut cells = line.split('|').skip(1).map(|cell| cell.trim().to_string());
         std::array::from_fn(|_| cells.next().unwrap_or_default())
     });
-    let mut rows: Vec<[String; 3]> = rows.filter(|known: &[String; 3]| known[0] != row[0]).collect();
+    let mut rows: Vec<[String; 3]> = rows
+        .filter(|known: &[String; 3]| known[0] != row[0])
+        .collect();
     rows.push(row);
     rows.sort();
     fill("errors", &table(&["what", "%", "of"], &rows));

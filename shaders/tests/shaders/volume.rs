@@ -1,12 +1,10 @@
 //! Volumes that the device fills are those of the library.
 
-mod common;
-
-use common::Errors;
-use common::gpu::{Binding, bytes, device};
+use crate::common::Errors;
+use crate::common::gpu::{Binding, bytes, device};
 use welkin::{CameraVolume, ColourAerialPerspective, Conditions, Model};
 
-const SIZE: [usize; 2] = [64, 36];
+const SIZE: [usize; 2] = [32, 18];
 
 fn depths(last: f64, n: usize) -> Vec<f64> {
     // Denser near the camera.
@@ -17,7 +15,7 @@ fn depths(last: f64, n: usize) -> Vec<f64> {
 
 /// Light and factors, `[row][column][slice]`.
 fn fill(
-    gpu: &common::gpu::Gpu,
+    gpu: &crate::common::gpu::Gpu,
     aerial: &ColourAerialPerspective,
     volume: &CameraVolume,
 ) -> [Vec<[f32; 4]>; 2] {
@@ -70,7 +68,7 @@ struct Compared {
 }
 
 fn compare(
-    gpu: &common::gpu::Gpu,
+    gpu: &crate::common::gpu::Gpu,
     conditions: &Conditions,
     volume: &CameraVolume,
     out: &mut Compared,
@@ -138,7 +136,7 @@ fn volumes() {
                 ..Conditions::default()
             };
             for altitude in [2.0, 3e3, 30e3] {
-                let depths = depths(if altitude < 1e4 { 100e3 } else { 400e3 }, 32);
+                let depths = depths(if altitude < 1e4 { 100e3 } else { 400e3 }, 24);
                 for (heading, pitch) in [(0.7, 0.1), (2.5, -0.15), (3.8, 0.6)] {
                     let volume = view([150.0, -80.0, altitude], heading, pitch, &depths);
                     compare(&gpu, &conditions, &volume, &mut out);

@@ -1,9 +1,7 @@
 //! Draws on the device are those of the library, and as many as its density says.
 
-mod common;
-
-use common::gpu::{Binding, bytes, device};
-use common::{Errors, directions, horizon, scenes};
+use crate::common::gpu::{Binding, bytes, device};
+use crate::common::{Errors, directions, horizon, scenes};
 use welkin::{BakedSky, Conditions, DiscBuffers, Model, Part, SkySampler};
 
 /// Numbers and a direction whose density is looked up.
@@ -11,7 +9,7 @@ type Request = ([f32; 2], [f32; 3]);
 
 /// `[draw][2]`.
 fn run(
-    gpu: &common::gpu::Gpu,
+    gpu: &crate::common::gpu::Gpu,
     sampler: &SkySampler,
     disc: &DiscBuffers,
     requests: &[Request],

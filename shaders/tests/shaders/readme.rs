@@ -1,8 +1,6 @@
 //! What the README shows compiles, and its figures are true.
 
-mod common;
-
-use common::readme::{block, fill, table};
+use crate::common::readme::{block, fill, table};
 use welkin::{BakedSky, Conditions, Model};
 use welkin_shaders::module;
 

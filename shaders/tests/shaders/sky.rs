@@ -1,13 +1,15 @@
 //! The baked sky on the device is that of the library.
 
-mod common;
-
-use common::gpu::{Binding, bytes, device, padded};
-use common::{Errors, directions, horizon, scenes};
+use crate::common::gpu::{Binding, bytes, device, padded};
+use crate::common::{Errors, directions, horizon, scenes};
 use welkin::{BakedSky, Model, Moon, PolarisationFrame, SkyBuffers, StokesSpectra};
 
 /// `[direction][group][1 or 3]`.
-fn run(gpu: &common::gpu::Gpu, buffers: &SkyBuffers, directions: &[[f32; 3]]) -> Vec<[f32; 4]> {
+fn run(
+    gpu: &crate::common::gpu::Gpu,
+    buffers: &SkyBuffers,
+    directions: &[[f32; 3]],
+) -> Vec<[f32; 4]> {
     let h = buffers.header;
     let length = directions.len() * h.groups as usize * (1 + 2 * h.polarised as usize);
     // Something before the table, as where there are several.

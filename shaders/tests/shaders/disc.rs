@@ -1,9 +1,7 @@
 //! The disc on the device is that of the library.
 
-mod common;
-
-use common::gpu::{Binding, bytes, device, padded};
-use common::{Errors, scenes, unit};
+use crate::common::gpu::{Binding, bytes, device, padded};
+use crate::common::{Errors, scenes, unit};
 use welkin::{Conditions, Model, Moon};
 
 /// All over the disc and a little beyond; its limb apart, where rounding decides.

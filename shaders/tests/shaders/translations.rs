@@ -1,11 +1,9 @@
 //! What stands in `glsl` and `hlsl` is what naga makes of the sources, and other compilers take it.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::readme::{compare, fill, table};
+use crate::common::readme::{compare, fill, table};
 use welkin_shaders::{PROGRAMS, cost, translations};
 
 fn room() -> &'static Path {

@@ -1,9 +1,7 @@
 //! Transmittance on the device is that of the library.
 
-mod common;
-
-use common::gpu::{Binding, bytes, device};
-use common::{Errors, unit};
+use crate::common::gpu::{Binding, bytes, device};
+use crate::common::{Errors, unit};
 use welkin::Model;
 
 /// Short and long ones, up, down, level and through the air above the horizon, some from beyond the air.
