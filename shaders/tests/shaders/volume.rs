@@ -40,7 +40,7 @@ fn fill(
         Binding::Output(length),
     ];
     let groups = volume.size.map(|n| n.div_ceil(8) as u32);
-    let table = [vec![[f32::NAN; 4]; 2], buffers.table].concat();
+    let table = [vec![[f32::NAN; 4]; 2], buffers.table.clone()].concat();
     let out = gpu.run(
         "fill_volume",
         &bytes(&table),
