@@ -76,7 +76,8 @@ fn air_piece(h: AirHeader, first: u32, line: AirLine, layer: u32, ends: vec2<f32
 
 // Columns of the constituents along a line of some length, m.
 fn air_columns(h: AirHeader, first: u32, start: vec3<f32>, direction: vec3<f32>, length: f32) -> array<vec4<f32>, 4> {
-    var sums = array<vec4<f32>, 4>();
+    let none = vec4<f32>();
+    var sums = array<vec4<f32>, 4>(none, none, none, none);
     let line = air_line(h, start, direction);
     var s = 0.0;
     // From beyond the air: in, if at all.

@@ -74,7 +74,8 @@ fn draws_and_densities() {
             // On the edges of cells rounding decides.
             for (got, at) in [(got[0][3], expected.direction), (got[1][0], *direction)] {
                 let expected = sampler.pdf(at).unwrap();
-                match (got / expected - 1.0).abs() < 1e-3 {
+                // 0 below the horizon of an observer on the ground.
+                match (got - expected).abs() <= 1e-3 * expected {
                     true => densities.add(got, expected, 0.0),
                     false => misses += 1,
                 }
@@ -144,7 +145,7 @@ fn draws_follow_the_density() {
         println!(
             "sun {elevation}°, {altitude} m: chi² {statistic:.0} of {degrees} degrees, z = {z:.2}"
         );
-        assert!(z < 4.0 && degrees > 100.0);
+        assert!(z < 4.0 && degrees > 40.0);
     }
 }
 
@@ -159,19 +160,20 @@ fn bin([x, y, z, _]: [f32; 4]) -> usize {
 
 /// Draws of the sky that bins should have: the density of a sampler without the disc, summed over a fine grid.
 fn expected(sky: &SkySampler, draws: f64) -> Vec<f64> {
-    const FINE: usize = 48;
+    // Rows of cells are narrow along the horizon.
+    const FINE: [usize; 2] = [400, 16];
     let mut out = vec![0.0; ROWS * COLUMNS];
-    for i in 0..ROWS * FINE {
-        let z = (i as f64 + 0.5) / (ROWS * FINE) as f64 * 2.0 - 1.0;
+    for i in 0..ROWS * FINE[0] {
+        let z = (i as f64 + 0.5) / (ROWS * FINE[0]) as f64 * 2.0 - 1.0;
         let flat = (1.0 - z * z).sqrt();
-        for k in 0..COLUMNS * FINE {
-            let phi = ((k as f64 + 0.5) / (COLUMNS * FINE) as f64 - 0.5) * std::f64::consts::TAU;
+        for k in 0..COLUMNS * FINE[1] {
+            let phi = ((k as f64 + 0.5) / (COLUMNS * FINE[1]) as f64 - 0.5) * std::f64::consts::TAU;
             let d = [flat * phi.cos(), flat * phi.sin(), z].map(|v| v as f32);
-            out[(i / FINE) * COLUMNS + k / FINE] += f64::from(sky.pdf(d).unwrap());
+            out[(i / FINE[0]) * COLUMNS + k / FINE[1]] += f64::from(sky.pdf(d).unwrap());
         }
     }
     let sum: f64 = out.iter().sum();
-    let solid = 4.0 * std::f64::consts::PI / (ROWS * COLUMNS * FINE * FINE) as f64;
+    let solid = 4.0 * std::f64::consts::PI / (ROWS * COLUMNS * FINE[0] * FINE[1]) as f64;
     // It is a density.
     assert!((sum * solid - 1.0).abs() < 2e-3, "{}", sum * solid);
     out.iter().map(|v| v / sum * draws).collect()

@@ -108,6 +108,9 @@ fn spectra_and_stokes_vectors() {
             for w in 0..n {
                 let at = |k: usize| got[3 * (w / 4) + k][w % 4];
                 radiance.add(at(0), i[w], 0.0);
+                if i[w] == 0.0 {
+                    continue;
+                }
                 // Degrees as they are: they go through zero.
                 degrees.add(at(1), q[w] / i[w], 1.0);
                 degrees.add(at(2), u[w] / i[w], 1.0);
