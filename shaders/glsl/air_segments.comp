@@ -153,84 +153,85 @@ vec4[4] air_columns(AirHeader h_6, uint first_2, vec3 start_2, vec3 direction_2,
     bool local_2 = false;
     bool local_3 = false;
     bool local_4 = false;
-    AirLine _e7 = air_line(h_6, start_2, direction_2);
+    sums_1 = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    AirLine _e8 = air_line(h_6, start_2, direction_2);
     float top_1 = _group_0_binding_0_cs[((first_2 + h_6.layers) - 1u)].w;
-    if ((_e7.w > top_1)) {
-        float _e20 = air_down(h_6, _e7, top_1);
-        s = _e20;
+    if ((_e8.w > top_1)) {
+        float _e21 = air_down(h_6, _e8, top_1);
+        s = _e21;
     }
-    float _e21 = s;
-    if ((_e21 >= length_)) {
-        vec4 _e23[4] = sums_1;
-        return _e23;
+    float _e22 = s;
+    if ((_e22 >= length_)) {
+        vec4 _e24[4] = sums_1;
+        return _e24;
     }
-    uint _e26 = air_layer(h_6, first_2, min(_e7.w, top_1));
-    layer_1 = _e26;
+    uint _e27 = air_layer(h_6, first_2, min(_e8.w, top_1));
+    layer_1 = _e27;
     while(true) {
-        float _e28 = s;
-        if ((_e28 < length_)) {
-            local_2 = (_e7.b < 0.0);
+        float _e29 = s;
+        if ((_e29 < length_)) {
+            local_2 = (_e8.b < 0.0);
         } else {
             local_2 = false;
         }
-        bool _e36 = local_2;
-        if (_e36) {
+        bool _e37 = local_2;
+        if (_e37) {
         } else {
             break;
         }
         {
-            uint _e38 = layer_1;
-            float _e42 = _group_0_binding_0_cs[(first_2 + _e38)].x;
-            float _e43 = air_down(h_6, _e7, _e42);
-            if (!((_e43 >= length_))) {
-                uint _e48 = layer_1;
-                local_3 = (_e48 == 0u);
+            uint _e39 = layer_1;
+            float _e43 = _group_0_binding_0_cs[(first_2 + _e39)].x;
+            float _e44 = air_down(h_6, _e8, _e43);
+            if (!((_e44 >= length_))) {
+                uint _e49 = layer_1;
+                local_3 = (_e49 == 0u);
             } else {
                 local_3 = true;
             }
-            bool _e52 = local_3;
-            if (_e52) {
+            bool _e53 = local_3;
+            if (_e53) {
                 break;
             }
-            uint _e53 = layer_1;
-            float _e54 = s;
+            uint _e54 = layer_1;
             float _e55 = s;
-            air_piece(h_6, first_2, _e7, _e53, vec2(_e54, max(_e43, _e55)), sums_1);
-            float _e58 = s;
-            s = max(_e43, _e58);
-            uint _e60 = layer_1;
-            layer_1 = (_e60 - 1u);
+            float _e56 = s;
+            air_piece(h_6, first_2, _e8, _e54, vec2(_e55, max(_e44, _e56)), sums_1);
+            float _e59 = s;
+            s = max(_e44, _e59);
+            uint _e61 = layer_1;
+            layer_1 = (_e61 - 1u);
         }
     }
     while(true) {
-        float _e63 = s;
-        if ((_e63 < length_)) {
-            uint _e67 = layer_1;
-            local_4 = (_e67 < h_6.layers);
+        float _e64 = s;
+        if ((_e64 < length_)) {
+            uint _e68 = layer_1;
+            local_4 = (_e68 < h_6.layers);
         } else {
             local_4 = false;
         }
-        bool _e71 = local_4;
-        if (_e71) {
+        bool _e72 = local_4;
+        if (_e72) {
         } else {
             break;
         }
         {
-            uint _e73 = layer_1;
-            float _e77 = _group_0_binding_0_cs[(first_2 + _e73)].w;
-            float _e78 = air_up(h_6, _e7, _e77);
-            float _e79 = s;
-            float end = max(_e78, _e79);
-            uint _e81 = layer_1;
-            float _e82 = s;
-            air_piece(h_6, first_2, _e7, _e81, vec2(_e82, min(end, length_)), sums_1);
+            uint _e74 = layer_1;
+            float _e78 = _group_0_binding_0_cs[(first_2 + _e74)].w;
+            float _e79 = air_up(h_6, _e8, _e78);
+            float _e80 = s;
+            float end = max(_e79, _e80);
+            uint _e82 = layer_1;
+            float _e83 = s;
+            air_piece(h_6, first_2, _e8, _e82, vec2(_e83, min(end, length_)), sums_1);
             s = end;
-            uint _e85 = layer_1;
-            layer_1 = (_e85 + 1u);
+            uint _e86 = layer_1;
+            layer_1 = (_e86 + 1u);
         }
     }
-    vec4 _e88[4] = sums_1;
-    return _e88;
+    vec4 _e89[4] = sums_1;
+    return _e89;
 }
 
 vec4 air_depth(AirHeader h_7, uint first_3, vec4 columns[4], uint group_1) {

@@ -171,105 +171,107 @@ uint air_layer(AirHeader h_5, uint first_1, float w)
     return _e23;
 }
 
-typedef float4 ret_ZeroValuearray4_float4_[4];
-ret_ZeroValuearray4_float4_ ZeroValuearray4_float4_() {
-    return (float4[4])0;
+typedef float4 ret_Constructarray4_float4_[4];
+ret_Constructarray4_float4_ Constructarray4_float4_(float4 arg0, float4 arg1, float4 arg2, float4 arg3) {
+    float4 ret[4] = { arg0, arg1, arg2, arg3 };
+    return ret;
 }
 
 typedef float4 ret_air_columns[4];
 ret_air_columns air_columns(AirHeader h_6, uint first_2, float3 start_2, float3 direction_2, float length_)
 {
-    float4 sums_1[4] = ZeroValuearray4_float4_();
+    float4 sums_1[4] = (float4[4])0;
     float s = 0.0;
     uint layer_1 = (uint)0;
     bool local_2 = (bool)0;
     bool local_3 = (bool)0;
     bool local_4 = (bool)0;
 
-    const AirLine _e7 = air_line(h_6, start_2, direction_2);
+    sums_1 = Constructarray4_float4_(ZeroValuefloat4(), ZeroValuefloat4(), ZeroValuefloat4(), ZeroValuefloat4());
+    const AirLine _e8 = air_line(h_6, start_2, direction_2);
     float top_1 = asfloat(welkin_table.Load(12+((first_2 + h_6.layers) - 1u)*16));
-    if ((_e7.w > top_1)) {
-        const float _e20 = air_down(h_6, _e7, top_1);
-        s = _e20;
+    if ((_e8.w > top_1)) {
+        const float _e21 = air_down(h_6, _e8, top_1);
+        s = _e21;
     }
-    float _e21 = s;
-    if ((_e21 >= length_)) {
-        float4 _e23[4] = sums_1;
-        return _e23;
+    float _e22 = s;
+    if ((_e22 >= length_)) {
+        float4 _e24[4] = sums_1;
+        return _e24;
     }
-    const uint _e26 = air_layer(h_6, first_2, min(_e7.w, top_1));
-    layer_1 = _e26;
+    const uint _e27 = air_layer(h_6, first_2, min(_e8.w, top_1));
+    layer_1 = _e27;
     uint2 loop_bound_2 = uint2(4294967295u, 4294967295u);
     while(true) {
         if (all(loop_bound_2 == uint2(0u, 0u))) { break; }
         loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
-        float _e28 = s;
-        if ((_e28 < length_)) {
-            local_2 = (_e7.b < 0.0);
+        float _e29 = s;
+        if ((_e29 < length_)) {
+            local_2 = (_e8.b < 0.0);
         } else {
             local_2 = false;
         }
-        bool _e36 = local_2;
-        if (_e36) {
+        bool _e37 = local_2;
+        if (_e37) {
         } else {
             break;
         }
         {
-            uint _e38 = layer_1;
-            float _e42 = asfloat(welkin_table.Load(0+(first_2 + _e38)*16));
-            const float _e43 = air_down(h_6, _e7, _e42);
-            if (!((_e43 >= length_))) {
-                uint _e48 = layer_1;
-                local_3 = (_e48 == 0u);
+            uint _e39 = layer_1;
+            float _e43 = asfloat(welkin_table.Load(0+(first_2 + _e39)*16));
+            const float _e44 = air_down(h_6, _e8, _e43);
+            if (!((_e44 >= length_))) {
+                uint _e49 = layer_1;
+                local_3 = (_e49 == 0u);
             } else {
                 local_3 = true;
             }
-            bool _e52 = local_3;
-            if (_e52) {
+            bool _e53 = local_3;
+            if (_e53) {
                 break;
             }
-            uint _e53 = layer_1;
-            float _e54 = s;
+            uint _e54 = layer_1;
             float _e55 = s;
-            air_piece(h_6, first_2, _e7, _e53, float2(_e54, max(_e43, _e55)), sums_1);
-            float _e58 = s;
-            s = max(_e43, _e58);
-            uint _e60 = layer_1;
-            layer_1 = (_e60 - 1u);
+            float _e56 = s;
+            air_piece(h_6, first_2, _e8, _e54, float2(_e55, max(_e44, _e56)), sums_1);
+            float _e59 = s;
+            s = max(_e44, _e59);
+            uint _e61 = layer_1;
+            layer_1 = (_e61 - 1u);
         }
     }
     uint2 loop_bound_3 = uint2(4294967295u, 4294967295u);
     while(true) {
         if (all(loop_bound_3 == uint2(0u, 0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
-        float _e63 = s;
-        if ((_e63 < length_)) {
-            uint _e67 = layer_1;
-            local_4 = (_e67 < h_6.layers);
+        float _e64 = s;
+        if ((_e64 < length_)) {
+            uint _e68 = layer_1;
+            local_4 = (_e68 < h_6.layers);
         } else {
             local_4 = false;
         }
-        bool _e71 = local_4;
-        if (_e71) {
+        bool _e72 = local_4;
+        if (_e72) {
         } else {
             break;
         }
         {
-            uint _e73 = layer_1;
-            float _e77 = asfloat(welkin_table.Load(12+(first_2 + _e73)*16));
-            const float _e78 = air_up(h_6, _e7, _e77);
-            float _e79 = s;
-            float end = max(_e78, _e79);
-            uint _e81 = layer_1;
-            float _e82 = s;
-            air_piece(h_6, first_2, _e7, _e81, float2(_e82, min(end, length_)), sums_1);
+            uint _e74 = layer_1;
+            float _e78 = asfloat(welkin_table.Load(12+(first_2 + _e74)*16));
+            const float _e79 = air_up(h_6, _e8, _e78);
+            float _e80 = s;
+            float end = max(_e79, _e80);
+            uint _e82 = layer_1;
+            float _e83 = s;
+            air_piece(h_6, first_2, _e8, _e82, float2(_e83, min(end, length_)), sums_1);
             s = end;
-            uint _e85 = layer_1;
-            layer_1 = (_e85 + 1u);
+            uint _e86 = layer_1;
+            layer_1 = (_e86 + 1u);
         }
     }
-    float4 _e88[4] = sums_1;
-    return _e88;
+    float4 _e89[4] = sums_1;
+    return _e89;
 }
 
 uint naga_mod(uint lhs, uint rhs) {

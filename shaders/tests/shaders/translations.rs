@@ -47,13 +47,25 @@ fn accepted(tool: &str, arguments: &[&str], path: &Path) {
     }
 }
 
+/// Without what sets local arrays to 0, as ` = (float4[4])0`.
+fn without_zeros(hlsl: &str) -> String {
+    let lines = hlsl.lines().map(|line| match line.split_once(" = (") {
+        Some((before, after)) if after.ends_with("])0;") => format!("{before};\n"),
+        _ => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
 #[test]
 fn other_compilers_take_them() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     for program in &PROGRAMS {
         let [glsl, hlsl] = files(program.name);
         accepted("glslangValidator", &[], &glsl);
-        // glslang reads HLSL of shader model 5; Debian has no dxc.
+        // glslang reads HLSL of shader model 5, but no arrays that are set to 0; Debian has no dxc.
+        let text = std::fs::read_to_string(&hlsl).unwrap();
+        let hlsl = folder.join(format!("{}.hlsl", program.name));
+        std::fs::write(&hlsl, without_zeros(&text)).unwrap();
         let out = folder.join("hlsl.spv");
         let out = out.to_str().unwrap();
         accepted(
