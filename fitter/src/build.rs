@@ -46,8 +46,7 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let polarisation = fit_polarisation(plan, fitting, &store, media, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
     let (mut head, mut file) = radiance_file(plan, &solved, tables, &places, &fit)?;
-    if !plan.training.visibilities.is_empty() {
-        let spectrum = spectrum::pack(plan, work, &solved)?;
+    if let Some(spectrum) = spectrum::pack(plan, work, &solved)? {
         head.xyz = spectrum.xyz;
         let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
         file.insert(1, spectrum);
@@ -314,12 +313,7 @@ pub(crate) fn radiance_file(
 ) -> Result<(Head, Vec<format::Chunk>)> {
     let air = |s: &Solved| AirTables::new(&s.medium, s.light.spherical_albedo);
     let airs: Vec<AirTables> = solved.iter().map(air).collect();
-    let head = pack::head(
-        (&plan.grid, &plan.coverage),
-        &airs,
-        &solved[0].gatherer(),
-        "{}".into(),
-    )?;
+    let head = pack::head(plan, &airs, &solved[0].gatherer(), "{}".into())?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
     let shared = Payload::RadianceBasis(basis.radiance());
     let mut out = vec![

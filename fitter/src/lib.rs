@@ -4,6 +4,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod air;
 pub mod assess;
 pub mod atmosphere;
 pub mod build;
@@ -15,6 +16,7 @@ pub mod decompose;
 pub mod estimate;
 pub mod finite;
 pub mod fitting;
+pub mod make;
 pub mod manifest;
 mod non_negative;
 pub mod official;
@@ -23,6 +25,7 @@ pub mod picture;
 pub mod polarimetry;
 pub mod polarise;
 pub mod progress;
+pub mod recipe;
 pub mod reference;
 pub mod report;
 pub mod round_trip;

@@ -18,6 +18,8 @@ struct Cli {
 enum Command {
     /// Trace the atmospheres of a grid and fit a model file to them.
     Build(command::build::Args),
+    /// Make a model file from a recipe of the air.
+    Make(command::make::Args),
     /// Compare a model file with freshly traced radiance between its nodes.
     Assess(command::assess::Args),
     /// Chart ways to represent a sky: bytes and time against held-out error.
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
     let _ = welkin::output::abandon_on_signals();
     let result = match parse().command {
         Command::Build(args) => command::build::run(&args),
+        Command::Make(args) => command::make::run(&args),
         Command::Assess(args) => command::assess::run(&args),
         Command::Chart(args) => command::chart::run(&args),
         Command::Finite(args) => command::finite::run(&args),

@@ -1,10 +1,10 @@
 //! What goes into a model file: the head with axes, optics and colour, and the factor matrices as splines.
 
-use crate::atmosphere::table::Table;
-use crate::dataset::{Coverage, Grid};
+use crate::dataset::Grid;
 use crate::decompose::{Basis, Own, row_major, splines};
 use crate::estimate::OF_FIELD;
 use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
+use crate::units::Plan;
 use anyhow::Result;
 use faer::Mat;
 use welkin::format::{
@@ -31,21 +31,16 @@ impl AirTables {
     }
 }
 
-/// Assembles the head, without colour. `airs` has one entry per visibility of the grid; `gatherer` gives the phase
+/// Assembles the head, without colour. `airs` has one entry per visibility of the plan; `gatherer` gives the phase
 /// functions.
 pub fn head(
-    (grid, coverage): (&Grid, &Coverage),
+    plan: &Plan,
     airs: &[AirTables],
     gatherer: &Gatherer,
     metadata: String,
 ) -> Result<Head> {
-    let solar = Table::parse(
-        "solar_irradiance_1nm.csv",
-        include_str!("../data/solar_irradiance_1nm.csv"),
-    )?;
-    let sun = solar.curve("wavelength_nm", "g173")?;
-    let [first, last] = coverage.range();
-    let samples = (last - first) as usize + 1;
+    let Plan { grid, coverage, .. } = plan;
+    let range = coverage.range();
     let wide = |s: &Spectrum| s.iter().map(|&v| f64::from(v)).collect::<Vec<f64>>();
     Ok(Head {
         planet: gatherer.planet(),
@@ -75,11 +70,9 @@ pub fn head(
             .collect(),
         // For whoever knows better.
         xyz: vec![[0.0; 3]; NW],
-        solar_start: first,
+        solar_start: range[0],
         solar_step: 1.0,
-        solar_irradiance: (0..samples)
-            .map(|i| sun.at(first + i as f64) as f32)
-            .collect(),
+        solar_irradiance: plan.air.solar_irradiance(range)?,
         fields: fields(gatherer, wide),
         metadata,
     })

@@ -12,7 +12,7 @@ pub mod table;
 mod variation;
 
 pub use aerosol::Particles;
-pub use composition::{Atmosphere, Constituent, Phase, Scatterer};
+pub use composition::{Atmosphere, Constituent, Phase, Scatterer, column};
 pub use monochromatic::Monochromatic;
 pub use real::{VISIBILITIES, real, real_at, real_varied, real_with};
 pub use variation::{AerosolProfile, Variation};

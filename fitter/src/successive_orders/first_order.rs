@@ -1,7 +1,7 @@
 //! Singly scattered sunlight along a ray.
 
 use super::scattered_source::{DARK, Stokes, Sun};
-use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
+use super::spectral_medium::{Aerosol, Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
 
 /// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one
 /// per constituent.
@@ -18,16 +18,32 @@ pub fn rayleigh(medium: &Medium, sums: &[Spectrum]) -> Spectrum {
     weighted(medium.parts.iter().map(|part| &part.rayleigh).zip(sums))
 }
 
-/// Line integrals of each aerosol species (by its position within the constituents), per steradian, without phase
-/// functions.
-pub fn aerosol(medium: &Medium, species: usize, sums: &[Spectrum]) -> Spectrum {
-    weighted(
-        medium
-            .parts
-            .iter()
-            .zip(sums)
-            .filter_map(|(part, sum)| Some((&part.aerosols.get(species)?.scattering, sum))),
-    )
+/// Line integral of the particles of a kind, per steradian, without phase functions.
+pub fn particles(medium: &Medium, kind: usize, sums: &[Spectrum]) -> Spectrum {
+    let all = aerosols(medium, sums).filter(|(aerosol, _)| aerosol.kind == kind);
+    weighted(all.map(|(aerosol, sum)| (&aerosol.scattering, sum)))
+}
+
+/// What the phase functions of particles add to those of their kinds, at a cosine of the scattering angle.
+pub fn beside_kinds(medium: &Medium, sums: &[Spectrum], cosine: f32) -> Spectrum {
+    let mut out = [0.0; NW];
+    let kinds = medium.kinds.map(|g| henyey_greenstein(&g, cosine));
+    for (aerosol, sum) in aerosols(medium, sums).filter(|(a, _)| a.g != medium.kinds[a.kind]) {
+        let own = henyey_greenstein(&aerosol.g, cosine);
+        for w in 0..NW {
+            let light = PER_SPHERE * aerosol.scattering[w] * sum[w];
+            out[w] += light * (own[w] - kinds[aerosol.kind][w]);
+        }
+    }
+    out
+}
+
+fn aerosols<'a>(
+    medium: &'a Medium,
+    sums: &'a [Spectrum],
+) -> impl Iterator<Item = (&'a Aerosol, &'a Spectrum)> {
+    let parts = medium.parts.iter().zip(sums);
+    parts.flat_map(|(part, sum)| part.aerosols.iter().map(move |a| (a, sum)))
 }
 
 fn weighted<'a>(terms: impl Iterator<Item = (&'a Spectrum, &'a Spectrum)>) -> Spectrum {
@@ -63,12 +79,10 @@ pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes 
         let d = medium.polarising[w];
         out[0][w] += dipole[w] * (0.75 * d * (1.0 + cosine * cosine) + 1.0 - d);
     }
-    for (part, sum) in medium.parts.iter().zip(sums) {
-        for species in &part.aerosols {
-            let phase = henyey_greenstein(&species.g, cosine);
-            for w in 0..NW {
-                out[0][w] += PER_SPHERE * species.scattering[w] * sum[w] * phase[w];
-            }
+    for (aerosol, sum) in aerosols(medium, sums) {
+        let phase = henyey_greenstein(&aerosol.g, cosine);
+        for w in 0..NW {
+            out[0][w] += PER_SPHERE * aerosol.scattering[w] * sum[w] * phase[w];
         }
     }
     out

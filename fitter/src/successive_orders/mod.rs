@@ -8,6 +8,7 @@
 //! tracer is its reference.
 
 pub mod first_order;
+mod kinds;
 pub mod moments;
 pub mod ray_points;
 pub mod scattered_source;

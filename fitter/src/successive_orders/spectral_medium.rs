@@ -1,5 +1,6 @@
 //! An atmosphere prepared for spectral loops: coefficients as fixed-length arrays over wavelength.
 
+use super::kinds;
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
 use anyhow::{Result, bail, ensure};
@@ -27,6 +28,8 @@ pub struct Aerosol {
     pub scattering: Spectrum,
     /// Asymmetry parameter.
     pub g: Spectrum,
+    /// The kind that it counts among, an index into [`Medium::kinds`].
+    pub kind: usize,
 }
 
 /// One constituent's spectral coefficients.
@@ -49,6 +52,8 @@ pub struct Medium {
     pub parts: Vec<Part>,
     /// Polarising share Δ = (1−ρ)/(1+ρ/2) of Rayleigh scattering.
     pub polarising: Spectrum,
+    /// Asymmetry parameters of the two kinds of particles that the model tells apart in single scattering.
+    pub kinds: [Spectrum; 2],
     sun: SunColumns,
     sun_radius: f64,
 }
@@ -103,7 +108,11 @@ impl Medium {
                                 sum[w] += scattering[w] * g[w].powi(l as i32);
                             }
                         }
-                        part.aerosols.push(Aerosol { scattering, g });
+                        part.aerosols.push(Aerosol {
+                            scattering,
+                            g,
+                            kind: 0,
+                        });
                     }
                     Phase::Tabulated(_) => bail!(
                         "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
@@ -114,10 +123,12 @@ impl Medium {
             parts.push(part);
         }
         let sun = SunColumns::new(&atmosphere);
+        let kinds = kinds::assign(&atmosphere, &mut parts);
         Ok(Self {
             atmosphere,
             parts,
             polarising,
+            kinds,
             sun,
             sun_radius,
         })

@@ -16,15 +16,15 @@ pub const POLARISED: usize = 4;
 
 /// Light along a view ray, divided by what the evaluator multiplies back.
 ///
-/// Singly scattered light is stored without its phase function; soot shares the phase function of the water-soluble
-/// particles and the small difference goes to the multiply scattered light.
+/// Singly scattered light is stored without its phase function; particles share that of their kind, and the small
+/// difference goes to the multiply scattered light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fields {
     /// Single Rayleigh scattering, over its phase function.
     pub rayleigh: Spectrum,
-    /// Single scattering by water-soluble particles and soot, over the phase function of the former.
+    /// Single scattering by particles of the first kind, over its phase function.
     pub fine: Spectrum,
-    /// Single scattering by insoluble particles, over their phase function.
+    /// Single scattering by particles of the second kind, over its phase function.
     pub coarse: Spectrum,
     /// Multiply scattered light over a black ground: I, Q, U.
     pub multiple: Stokes,
@@ -43,10 +43,6 @@ impl Fields {
         ]
     }
 }
-
-const WASO: usize = 0;
-const INSO: usize = 1;
-const SOOT: usize = 2;
 
 /// Gathers along view rays.
 pub struct Gatherer<'a> {
@@ -176,17 +172,14 @@ impl<'a> Gatherer<'a> {
 
     fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
         let [mut multiple, ground] = light;
-        let waso = first_order::aerosol(self.medium, WASO, sums);
-        let soot = first_order::aerosol(self.medium, SOOT, sums);
-        let shared = henyey_greenstein(&self.asymmetry(WASO), cosine);
-        let own = henyey_greenstein(&self.asymmetry(SOOT), cosine);
+        let beside = first_order::beside_kinds(self.medium, sums, cosine);
         for w in 0..NW {
-            multiple[0][w] += soot[w] * (own[w] - shared[w]);
+            multiple[0][w] += beside[w];
         }
         Fields {
             rayleigh: first_order::rayleigh(self.medium, sums),
-            fine: std::array::from_fn(|w| waso[w] + soot[w]),
-            coarse: first_order::aerosol(self.medium, INSO, sums),
+            fine: first_order::particles(self.medium, 0, sums),
+            coarse: first_order::particles(self.medium, 1, sums),
             multiple,
             ground,
         }
@@ -197,18 +190,13 @@ impl<'a> Gatherer<'a> {
         &self.medium.polarising
     }
 
-    /// Henyey-Greenstein phase function of an aerosol species.
-    pub fn phase(&self, species: usize, cosine: f32) -> Spectrum {
-        henyey_greenstein(&self.asymmetry(species), cosine)
+    /// Henyey-Greenstein phase function of a kind of particles.
+    pub fn phase(&self, kind: usize, cosine: f32) -> Spectrum {
+        henyey_greenstein(&self.asymmetry(kind), cosine)
     }
 
-    /// Asymmetry parameter of an aerosol species; 0 where the atmosphere has none.
-    pub fn asymmetry(&self, species: usize) -> Spectrum {
-        let mut found = self
-            .medium
-            .parts
-            .iter()
-            .filter_map(|p| p.aerosols.get(species));
-        found.next().map_or([0.0; NW], |a| a.g)
+    /// Asymmetry parameter of a kind of particles; 0 where the atmosphere has none.
+    pub fn asymmetry(&self, kind: usize) -> Spectrum {
+        self.medium.kinds[kind]
     }
 }
