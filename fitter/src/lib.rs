@@ -23,6 +23,7 @@ pub mod picture;
 pub mod polarimetry;
 pub mod polarise;
 pub mod progress;
+pub mod recipe;
 pub mod reference;
 pub mod report;
 pub mod round_trip;
