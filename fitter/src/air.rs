@@ -74,7 +74,13 @@ impl Air {
                     "sun": "ASTM G173-03 extraterrestrial",
                 }),
             ),
-            Self::Recipes(nodes) => nodes[0].1.provenance(),
+            Self::Recipes(nodes) => {
+                let recipe = &nodes[0].1;
+                (
+                    recipe.name().into(),
+                    json!({ "description": recipe.description() }),
+                )
+            }
         }
     }
 }

@@ -19,8 +19,12 @@ const WAVELENGTHS: [f64; 14] = [
     315.0, 338.0, 360.0, 405.0, 450.0, 490.0, 530.0, 565.0, 592.0, 625.0, 670.0, 780.0, 860.0,
     1050.0,
 ];
-/// Relative standard error of the tracer, at the median of the wavelengths.
-const NOISE: f64 = 0.004;
+/// Relative standard error of the tracer that is enough.
+const NOISE: f64 = 0.01;
+/// Most walks of a line of sight.
+const MOST_WALKS: usize = 100_000;
+/// Values with more noise than this tell nothing.
+const TOO_NOISY: f64 = 3.0 * NOISE;
 /// Suns below are not judged, rad: noise takes too long.
 const LOWEST_SUN: f64 = -8.0 / 180.0 * PI;
 /// Radiance below (sr⁻¹) does not count.
@@ -61,12 +65,12 @@ pub fn judge(model: &Model, plan: &Plan, count: usize) -> Result<Judgement> {
             let line = Line::random(&plan.grid, model, seed);
             let query = line.query();
             let walks = tracer.samples_for(&query, NOISE, line.albedo, 2 * seed)?;
-            let traced = tracer.estimate(&query, walks, 2 * seed + 1)?;
+            let traced = tracer.estimate(&query, walks.min(MOST_WALKS), 2 * seed + 1)?;
             let sky = model.sky(&line.conditions(visibility))?;
             for (w, &nm) in wavelengths.iter().enumerate() {
                 let truth = traced.radiance(line.albedo, w);
                 let [light, noise] = [truth.stokes[0], truth.error[0]];
-                if light > DARK {
+                if light > DARK && noise < TOO_NOISY * light {
                     let got = f64::from(sky.relative_radiance_at(line.direction(), nm)?);
                     out.push(line.error(model, got / light - 1.0, noise / light));
                 }

@@ -66,8 +66,7 @@ impl Request {
         fs::create_dir_all(work).with_context(|| format!("cannot create {}", work.display()))?;
         let path = work.join("whole.welkin");
         let mut report = build(&plan, fitting, work, &Target::new(&path))?;
-        let bytes =
-            fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let bytes = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
         let bytes = match self.scene.bands {
             Bands::All => bytes,
             Bands::Rgb => colours_only(&bytes)?,
