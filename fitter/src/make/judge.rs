@@ -21,8 +21,6 @@ const WAVELENGTHS: [f64; 14] = [
 ];
 /// Relative standard error of the tracer that is enough.
 const NOISE: f64 = 0.01;
-/// Most walks of a line of sight.
-const MOST_WALKS: usize = 100_000;
 /// Values with more noise than this tell nothing.
 const TOO_NOISY: f64 = 3.0 * NOISE;
 /// Suns below are not judged, rad: noise takes too long.
@@ -48,8 +46,18 @@ struct Error {
 /// Errors of a model.
 pub struct Judgement(Vec<Error>);
 
-/// Judges `model` by `count` random lines of sight through the air of `plan`.
-pub fn judge(model: &Model, plan: &Plan, count: usize) -> Result<Judgement> {
+/// How much is judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// Random lines of sight.
+    pub lines: usize,
+    /// Most walks of the tracer per batch of each.
+    pub walks: usize,
+}
+
+/// Judges `model` by random lines of sight through the air of `plan`.
+pub fn judge(model: &Model, plan: &Plan, extent: Extent) -> Result<Judgement> {
+    let count = extent.lines;
     let wavelengths = wavelengths(model)?;
     let mut out = vec![];
     let progress = bar(
@@ -65,7 +73,7 @@ pub fn judge(model: &Model, plan: &Plan, count: usize) -> Result<Judgement> {
             let line = Line::random(&plan.grid, model, seed);
             let query = line.query();
             let walks = tracer.samples_for(&query, NOISE, line.albedo, 2 * seed)?;
-            let traced = tracer.estimate(&query, walks.min(MOST_WALKS), 2 * seed + 1)?;
+            let traced = tracer.estimate(&query, walks.min(extent.walks), 2 * seed + 1)?;
             let sky = model.sky(&line.conditions(visibility))?;
             for (w, &nm) in wavelengths.iter().enumerate() {
                 let truth = traced.radiance(line.albedo, w);

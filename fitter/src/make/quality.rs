@@ -1,5 +1,6 @@
 //! How good a model is, and what that costs.
 
+use super::judge::Extent;
 use crate::air::Air;
 use crate::dataset::Grid;
 use crate::decompose::Options;
@@ -58,16 +59,17 @@ impl Quality {
             0.3 * suns * rank.powi(2) * (fitting.refinements + fitting.options.sweeps / 5) as f64;
         visibilities.len() as f64 * (light + learned)
             + chunks * (tensor * suns + fit)
-            + 0.3 * self.judged() as f64
+            + 0.5 * self.judged().lines as f64
     }
 
-    /// Lines of sight that the model is judged by.
-    pub fn judged(self) -> usize {
-        match self {
-            Self::Draft => 60,
-            Self::Good => 160,
-            Self::Best => 400,
-        }
+    /// What the model is judged by.
+    pub fn judged(self) -> Extent {
+        let [lines, walks] = match self {
+            Self::Draft => [24, 1_000],
+            Self::Good => [120, 2_500],
+            Self::Best => [300, 8_000],
+        };
+        Extent { lines, walks }
     }
 }
 

@@ -100,7 +100,10 @@ impl Scene {
         let visibility = match (self.visibility, self.turbidity) {
             (Some(km), _) => 1e3 * km,
             (None, Some(ratio)) => turbidity::visibility(model, ratio, self.clamp)?,
-            (None, None) => standard.visibility,
+            (None, None) => {
+                let [hazy, clear] = model.visibility_range();
+                standard.visibility.clamp(hazy, clear)
+            }
         };
         Ok(Conditions {
             visibility,

@@ -1,0 +1,128 @@
+//! From a recipe to a model: a coarse one, judged where it was fitted to nothing.
+
+use std::path::Path;
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+use welkin::output::Target;
+use welkin::{Conditions, Model};
+use welkin_fitter::make::{Bands, Quality, Request, Scene, judge::judge};
+use welkin_fitter::recipe::Recipe;
+
+fn request(bands: Bands) -> Request {
+    Request {
+        recipe: Recipe::named("urban").unwrap(),
+        scene: Scene {
+            altitudes: [0.0, 0.0],
+            elevations: [5.0, 40.0].map(f64::to_radians),
+            bands,
+        },
+        quality: Quality::Draft,
+    }
+}
+
+struct Made {
+    folder: tempfile::TempDir,
+    model: Model,
+    report: String,
+}
+
+impl Made {
+    fn again(&self, bands: Bands) -> (Model, Duration) {
+        let out = self.folder.path().join("again.welkin");
+        let started = Instant::now();
+        request(bands)
+            .make(&self.folder.path().join("work"), &Target::new(&out))
+            .unwrap();
+        (open(&out), started.elapsed())
+    }
+}
+
+fn open(path: &Path) -> Model {
+    Model::from_bytes(std::fs::read(path).unwrap()).unwrap()
+}
+
+fn made() -> &'static Made {
+    static MADE: OnceLock<Made> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("urban.welkin");
+        let report = request(Bands::All)
+            .make(&folder.path().join("work"), &Target::new(&out))
+            .unwrap();
+        println!("{report}");
+        Made {
+            model: open(&out),
+            folder,
+            report,
+        }
+    })
+}
+
+fn conditions() -> Conditions {
+    Conditions {
+        solar_elevation: 20f64.to_radians(),
+        visibility: made().model.head().visibilities[0],
+        ..Conditions::default()
+    }
+}
+
+#[test]
+fn the_model_has_the_air_and_the_ranges_of_the_request() {
+    let head = made().model.head();
+    let visibility = Recipe::named("urban").unwrap().visibility().unwrap();
+    assert_eq!(head.visibilities, [visibility]);
+    assert_eq!(head.altitudes, [0.0]);
+    let [low, high] = made().model.solar_elevation_range().map(f64::to_degrees);
+    assert!((low - 5.0).abs() < 1e-9 && (high - 40.0).abs() < 1e-9);
+    assert!(head.metadata.contains("Urban"), "{}", head.metadata);
+    assert!(made().report.contains("against the unbiased tracer"));
+}
+
+#[test]
+fn the_unbiased_tracer_confirms_a_draft() {
+    let (plan, _) = request(Bands::All).plan().unwrap();
+    let judgement = judge(&made().model, &plan, Quality::Draft.judged()).unwrap();
+    println!("{judgement}");
+    let errors = judgement.quantiles().unwrap();
+    assert!(errors.count > 200);
+    assert!(errors.median < 0.03, "{}", errors.median);
+    // A wrong air, or a wrong ground, would be off everywhere.
+    assert!(errors.p95 < 0.15, "{}", errors.p95);
+}
+
+#[test]
+fn an_interrupted_run_goes_on_from_its_units() {
+    let whole = std::fs::read(made().folder.path().join("urban.welkin")).unwrap();
+    let (_, _) = made().again(Bands::All);
+    let again = std::fs::read(made().folder.path().join("again.welkin")).unwrap();
+    assert_eq!(whole, again);
+    let units = std::fs::read_dir(made().folder.path().join("work")).unwrap();
+    let names: Vec<String> = units
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert!(names.iter().any(|n| n.starts_with("light-")), "{names:?}");
+}
+
+#[test]
+fn colours_are_the_same_without_the_other_wavelengths() {
+    let (small, _) = made().again(Bands::Rgb);
+    assert!(small.file_bytes() < made().model.file_bytes());
+    let sky = |model: &Model| {
+        let sky = model.sky(&conditions()).unwrap();
+        sky.xyz([0.6, 0.0, 0.8]).unwrap()
+    };
+    for (a, b) in sky(&small).into_iter().zip(sky(&made().model)) {
+        assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
+    }
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_before_anything_is_traced() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut wrong = request(Bands::All);
+    wrong.scene.elevations = [-30.0, 40.0].map(f64::to_radians);
+    let out = folder.path().join("x.welkin");
+    let error = wrong.make(folder.path(), &Target::new(&out)).unwrap_err();
+    assert!(error.to_string().contains("solar elevations"), "{error}");
+    assert!(!out.exists());
+}
