@@ -17,9 +17,17 @@ pub enum Air {
 }
 
 impl Air {
-    /// The air of a recipe alone, at its own visibility.
+    /// The air of a recipe alone, at its own visibility, to the metre.
     pub fn of(recipe: Recipe) -> Result<Self> {
-        Ok(Self::Recipes(vec![(recipe.visibility()?, recipe)]))
+        Ok(Self::Recipes(vec![(recipe.visibility()?.round(), recipe)]))
+    }
+
+    /// The visibilities that alone there are, m; none if there is any.
+    pub fn visibilities(&self) -> Vec<f64> {
+        match self {
+            Self::Continental => vec![],
+            Self::Recipes(nodes) => nodes.iter().map(|(v, _)| *v).collect(),
+        }
     }
 
     /// The atmosphere of a visibility (m) for some lights.

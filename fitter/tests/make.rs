@@ -69,7 +69,11 @@ fn conditions() -> Conditions {
 #[test]
 fn the_model_has_the_air_and_the_ranges_of_the_request() {
     let head = made().model.head();
-    let visibility = Recipe::named("urban").unwrap().visibility().unwrap();
+    let visibility = Recipe::named("urban")
+        .unwrap()
+        .visibility()
+        .unwrap()
+        .round();
     assert_eq!(head.visibilities, [visibility]);
     assert_eq!(head.altitudes, [0.0]);
     let [low, high] = made().model.solar_elevation_range().map(f64::to_degrees);

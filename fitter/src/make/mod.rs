@@ -38,8 +38,7 @@ impl Request {
     /// What is traced, and how it is fitted.
     pub fn plan(&self) -> Result<(Plan, Fitting)> {
         let air = Air::of(self.recipe.clone())?;
-        let visibilities = vec![self.recipe.visibility()?];
-        let (mut plan, fitting) = self.quality.plan(air, visibilities);
+        let (mut plan, fitting) = self.quality.plan(air);
         self.scene.narrow(&mut plan.grid)?;
         plan.grid.check()?;
         Ok((plan, fitting))

@@ -6,12 +6,13 @@ use crate::dataset::Grid;
 use crate::decompose::Options;
 use crate::fitting::Fitting;
 use crate::spectrum::training::Training;
-use crate::units::{Between, Plan};
+use crate::successive_orders::Settings;
+use crate::units::{Between, HeldOut, Plan};
 
 /// Presets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// Coarse in everything: to see what a recipe looks like.
+    /// The light is solved coarsely and fitted loosely: to see what a recipe looks like.
     Draft,
     /// Traced and fitted as finely as the default model; what lies between the nodes of the wavelengths is taken from
     /// it.
@@ -22,10 +23,11 @@ pub enum Quality {
 }
 
 impl Quality {
-    /// The plan and the fit of a model of `air` at `visibilities`, m.
-    pub fn plan(self, air: Air, visibilities: Vec<f64>) -> (Plan, Fitting) {
+    /// The plan and the fit of a model of `air`, made of recipes.
+    pub fn plan(self, air: Air) -> (Plan, Fitting) {
+        let visibilities = air.visibilities();
         let (mut plan, fitting) = match self {
-            Self::Draft => (Plan::draft(), draft()),
+            Self::Draft => (coarse(), draft()),
             Self::Good | Self::Best => (Plan::default(), good()),
         };
         plan.between = match self {
@@ -50,7 +52,7 @@ impl Quality {
         let chunks = (altitudes.len() * visibilities.len()) as f64;
         let suns = plan.grid.elevation_sites().len() as f64 / 54.0;
         let [light, tensor, learned] = match self {
-            Self::Draft => [4.0, 0.2, 0.0],
+            Self::Draft => [15.0, 4.0, 0.0],
             Self::Good => [150.0, 4.0, 0.0],
             Self::Best => [150.0, 4.0, 800.0],
         };
@@ -73,12 +75,23 @@ impl Quality {
     }
 }
 
+fn coarse() -> Plan {
+    Plan {
+        settings: Settings::COARSE,
+        held_out: HeldOut {
+            views: 48,
+            suns: 12,
+        },
+        ..Plan::default()
+    }
+}
+
 fn good() -> Fitting {
     fitted([64, 60, 24], [32, 150])
 }
 
 fn draft() -> Fitting {
-    fitted([32, 30, 6], [16, 60])
+    fitted([48, 40, 10], [24, 100])
 }
 
 /// Components, sweeps and refinements of the radiance, components and sweeps of the polarisation.
