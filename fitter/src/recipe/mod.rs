@@ -23,6 +23,7 @@ mod surface;
 mod tables;
 
 pub use error::RecipeError;
+pub use shipped::{OPAC, OPAC_HUMIDITY, Published};
 
 use crate::atmosphere::table::Curve;
 use crate::atmosphere::{Atmosphere, Constituent, Monochromatic};

@@ -25,7 +25,10 @@ fn profiles(recipe: &Recipe) -> Result<Panel> {
             let parts = constituents.iter().map(|c| c.profile[i] * c.extinction[0]);
             1000.0 * parts.sum::<f64>()
         };
-        let points = nodes.iter().enumerate().map(|(i, z)| (extinction(i), z / 1000.0));
+        let points = nodes
+            .iter()
+            .enumerate()
+            .map(|(i, z)| (extinction(i), z / 1000.0));
         let shown = points.filter(|p| p.1 <= HIGHEST);
         Series::new(name, shown.collect())
     };
@@ -34,8 +37,15 @@ fn profiles(recipe: &Recipe) -> Result<Panel> {
         line("molecules", &air.altitudes, &[&air.constituents[0]]),
         line("ozone", &air.altitudes, &ozone),
     ];
-    series.extend(layers.iter().map(|layer| line(&layer.name, &nodes, &[layer])));
-    let largest = series.iter().flat_map(|s| &s.points).fold(0.0, |m: f64, p| m.max(p.0));
+    series.extend(
+        layers
+            .iter()
+            .map(|layer| line(&layer.name, &nodes, &[layer])),
+    );
+    let largest = series
+        .iter()
+        .flat_map(|s| &s.points)
+        .fold(0.0, |m: f64, p| m.max(p.0));
     Ok(Panel {
         title: "extinction at 550 nm",
         below: "1/km",
@@ -48,18 +58,29 @@ fn profiles(recipe: &Recipe) -> Result<Panel> {
 }
 
 fn ozone(air: &Atmosphere) -> Vec<&Constituent> {
-    air.constituents.iter().filter(|c| c.name.starts_with("ozone")).collect()
+    air.constituents
+        .iter()
+        .filter(|c| c.name.starts_with("ozone"))
+        .collect()
 }
 
 fn depths(recipe: &Recipe) -> Result<Panel> {
     let wavelengths: Vec<f64> = (0..=110).map(|i| 300.0 + 20.0 * f64::from(i)).collect();
-    let lights: Vec<_> = wavelengths.iter().map(|&w| Monochromatic::beside_lines(w)).collect();
+    let lights: Vec<_> = wavelengths
+        .iter()
+        .map(|&w| Monochromatic::beside_lines(w))
+        .collect();
     let air = recipe.air(&lights)?;
     let of = |name: &str, depths: Vec<f64>| {
         Series::new(name, wavelengths.iter().copied().zip(depths).collect())
     };
     let gas = |constituents: &[usize]| -> Vec<f64> {
-        let at = |w: usize| constituents.iter().map(|&k| air.vertical_optical_depth(k, w)).sum();
+        let at = |w: usize| {
+            constituents
+                .iter()
+                .map(|&k| air.vertical_optical_depth(k, w))
+                .sum()
+        };
         (0..wavelengths.len()).map(at).collect()
     };
     let is_ozone = |k: &usize| air.constituents[*k].name.starts_with("ozone");
@@ -68,7 +89,10 @@ fn depths(recipe: &Recipe) -> Result<Panel> {
     for layer in recipe.layers(&wavelengths)? {
         series.push(of(&layer.name, layer.optical_depth));
     }
-    let largest = series.iter().flat_map(|s| &s.points).fold(0.0, |m: f64, p| m.max(p.1));
+    let largest = series
+        .iter()
+        .flat_map(|s| &s.points)
+        .fold(0.0, |m: f64, p| m.max(p.1));
     Ok(Panel {
         title: "vertical optical depth beside lines",
         below: "wavelength, nm",
@@ -88,9 +112,18 @@ fn phases(recipe: &Recipe) -> Result<Panel> {
         let at = |i: usize| (angle(i).to_degrees(), phase_function(constituent, i));
         Series::new(name, points.map(at).collect())
     };
-    let mut series = vec![line("molecules", &air.constituents[0]), Series::new("ozone", vec![])];
+    let mut series = vec![
+        line("molecules", &air.constituents[0]),
+        Series::new("ozone", vec![]),
+    ];
     series.extend(layers.iter().map(|layer| line(&layer.name, layer)));
-    let values = || series.iter().flat_map(|s| &s.points).map(|p| p.1).filter(|v| *v > 0.0);
+    let values = || {
+        series
+            .iter()
+            .flat_map(|s| &s.points)
+            .map(|p| p.1)
+            .filter(|v| *v > 0.0)
+    };
     let (least, most) = (values().fold(1.0, f64::min), values().fold(1.0, f64::max));
     Ok(Panel {
         title: "phase function at 550 nm, mean 1",

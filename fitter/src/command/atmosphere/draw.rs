@@ -54,7 +54,9 @@ pub fn svg(title: &str, panels: &[Panel]) -> Result<String> {
         let root = SVGBackend::with_string(&mut out, SIZE).into_drawing_area();
         let failed = |e: &dyn std::fmt::Display| anyhow!("cannot draw the plot: {e}");
         root.fill(&WHITE).map_err(|e| failed(&e))?;
-        let root = root.titled(title, ("sans-serif", 24)).map_err(|e| failed(&e))?;
+        let root = root
+            .titled(title, ("sans-serif", 24))
+            .map_err(|e| failed(&e))?;
         for (area, panel) in root.split_evenly((1, panels.len())).iter().zip(panels) {
             draw(area, panel).map_err(|e| failed(&e))?;
         }

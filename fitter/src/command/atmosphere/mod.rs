@@ -18,7 +18,7 @@ use welkin_fitter::recipe::Recipe;
 pub struct Args {
     /// A recipe: a TOML file, or the name of one that comes with the program; says what is in it.
     recipe: Option<String>,
-    /// The recipes that come with the program, with what they make.
+    /// The recipes that come with the program, with what they make; as CSV with --out.
     #[arg(long, conflicts_with_all = ["recipe", "visibility"])]
     list: bool,
     /// Print the recipe of that name itself, to start an own one from.
@@ -44,7 +44,7 @@ pub struct Args {
     /// Sun elevation that goes into the file, degrees.
     #[arg(long, default_value_t = 20.0)]
     solar_elevation: f64,
-    /// Output JSON; `-` for standard output. Without a recipe that is where it goes.
+    /// Output JSON; `-` for standard output, which is where it goes without a recipe.
     #[arg(long)]
     out: Option<PathBuf>,
 }
@@ -52,13 +52,18 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     if args.list {
-        print!("{}", summary::list()?);
-        return Ok(());
+        return match &args.out {
+            Some(out) => Ok(write(&[(&Target::new(out), &summary::csv()?)])?),
+            None => Ok(print!("{}", summary::list()?)),
+        };
     }
     match &args.recipe {
         Some(name) if args.toml => {
             let text = Recipe::text(name);
-            print!("{}", text.with_context(|| format!("no recipe {name:?} comes with the program"))?);
+            print!(
+                "{}",
+                text.with_context(|| format!("no recipe {name:?} comes with the program"))?
+            );
             Ok(())
         }
         Some(name) => of_recipe(args, name),
@@ -69,7 +74,9 @@ pub fn run(args: &Args) -> Result<()> {
 /// The model's own air.
 fn of_the_model(args: &Args) -> Result<()> {
     let variation = args.variation.variation();
-    let visibility = args.visibility.context("--visibility or a recipe is needed")?;
+    let visibility = args
+        .visibility
+        .context("--visibility or a recipe is needed")?;
     let case = Case {
         id: format!("real air, visibility {visibility} km{variation}"),
         atmosphere: real_varied(
@@ -102,8 +109,13 @@ fn of_recipe(args: &Args, name: &str) -> Result<()> {
     }
     let mut recipe = named_or_read(name)?;
     for set in &args.set {
-        let parts = set.split_once('=').with_context(|| format!("--set {set}: no ="))?;
-        let value = parts.1.parse().with_context(|| format!("--set {set}: no number"))?;
+        let parts = set
+            .split_once('=')
+            .with_context(|| format!("--set {set}: no ="))?;
+        let value = parts
+            .1
+            .parse()
+            .with_context(|| format!("--set {set}: no number"))?;
         recipe = recipe.with(parts.0, value)?;
     }
     if let Some(plot) = &args.plot {
@@ -124,7 +136,10 @@ fn named_or_read(name: &str) -> Result<Recipe> {
     let path = Path::new(name);
     if !path.exists() && path.extension().is_none() {
         let names: Vec<&str> = Recipe::names().collect();
-        bail!("no recipe {name:?}, neither a file nor one of {}", names.join(", "));
+        bail!(
+            "no recipe {name:?}, neither a file nor one of {}",
+            names.join(", ")
+        );
     }
     Recipe::read(path)
 }
@@ -136,7 +151,10 @@ fn case_of(args: &Args, recipe: &Recipe) -> Result<Case> {
         wavelengths.len() == args.wavelengths.len() && wavelengths.is_sorted(),
         "wavelengths must increase"
     );
-    let lights: Vec<_> = wavelengths.iter().map(|&w| Monochromatic::beside_lines(w)).collect();
+    let lights: Vec<_> = wavelengths
+        .iter()
+        .map(|&w| Monochromatic::beside_lines(w))
+        .collect();
     let surface = recipe.surface()?;
     let mean = |albedo: &dyn Fn(f64) -> f64| {
         wavelengths.iter().map(|&w| albedo(w)).sum::<f64>() / wavelengths.len() as f64

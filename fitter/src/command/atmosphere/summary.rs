@@ -3,7 +3,7 @@
 use anyhow::Result;
 use std::fmt::Write;
 use welkin_fitter::atmosphere::Monochromatic;
-use welkin_fitter::recipe::Recipe;
+use welkin_fitter::recipe::{OPAC, OPAC_HUMIDITY, Published, Recipe};
 
 const WAVELENGTHS: [f64; 4] = [400.0, 550.0, 700.0, 1000.0];
 const GREEN: usize = 1;
@@ -26,7 +26,11 @@ pub fn of(recipe: &Recipe) -> Result<String> {
     )?;
     if let Some(surface) = recipe.surface()? {
         let at = WAVELENGTHS.map(|w| format!("{:.2}", surface.at(w)));
-        writeln!(out, "ground albedo {} at 400, 550, 700 and 1000 nm", at.join(", "))?;
+        writeln!(
+            out,
+            "ground albedo {} at 400, 550, 700 and 1000 nm",
+            at.join(", ")
+        )?;
     }
     depths(recipe, &mut out)?;
     for caution in recipe.cautions()? {
@@ -44,13 +48,18 @@ fn depths(recipe: &Recipe, out: &mut String) -> Result<()> {
     };
     let air = recipe.air(&WAVELENGTHS.map(Monochromatic::beside_lines))?;
     let gas = |k: usize| -> Vec<f64> {
-        (0..WAVELENGTHS.len()).map(|w| air.vertical_optical_depth(k, w)).collect()
+        (0..WAVELENGTHS.len())
+            .map(|w| air.vertical_optical_depth(k, w))
+            .collect()
     };
     line("molecules", &gas(0))?;
     let mut ozone = vec![0.0; WAVELENGTHS.len()];
     for (k, constituent) in air.constituents.iter().enumerate() {
         if constituent.name.starts_with("ozone") {
-            ozone.iter_mut().zip(gas(k)).for_each(|(sum, depth)| *sum += depth);
+            ozone
+                .iter_mut()
+                .zip(gas(k))
+                .for_each(|(sum, depth)| *sum += depth);
         }
     }
     line("ozone", &ozone)?;
@@ -58,36 +67,97 @@ fn depths(recipe: &Recipe, out: &mut String) -> Result<()> {
     let mut all = vec![0.0; WAVELENGTHS.len()];
     for layer in &layers {
         line(&layer.name, &layer.optical_depth)?;
-        all.iter_mut().zip(&layer.optical_depth).for_each(|(sum, depth)| *sum += depth);
+        all.iter_mut()
+            .zip(&layer.optical_depth)
+            .for_each(|(sum, depth)| *sum += depth);
     }
     line("all particles", &all)?;
     Ok(())
 }
 
-/// A table of those that come with the program.
-pub fn list() -> Result<String> {
-    let mut out = String::new();
-    writeln!(
-        out,
-        "{:<22}{:>14}{:>22}{:>13}{:>10}{:>10}",
-        "recipe", "visibility, km", "extinction, 1/km", "depth", "ozone, DU", "water, cm"
-    )?;
+/// A row for each recipe that comes with the program, after the names of the columns.
+pub fn rows() -> Result<Vec<[String; 8]>> {
+    let names = [
+        "recipe",
+        "visibility, km",
+        "ozone, DU",
+        "water, cm",
+        "extinction, 1/km",
+        "OPAC",
+        "optical depth",
+        "OPAC",
+    ];
+    let mut out = vec![names.map(str::to_owned)];
     for name in Recipe::names() {
         let recipe = Recipe::named(name).expect("a name of the list");
-        let layers = recipe.layers(&WAVELENGTHS)?;
-        let depth: f64 = layers.iter().map(|layer| layer.optical_depth[GREEN]).sum();
-        let (nodes, particles) = recipe.particles(&[WAVELENGTHS[GREEN]])?;
-        debug_assert_eq!(nodes[0], 0.0);
-        let ground: f64 = particles.iter().map(|c| c.profile[0] * c.extinction[0]).sum();
-        writeln!(
-            out,
-            "{name:<22}{:>14.1}{:>22.4}{depth:>13.4}{:>10.0}{:>10.2}",
-            recipe.visibility()? / 1000.0,
-            ground * 1000.0,
-            recipe.ozone()?,
-            recipe.water()?
-        )?;
+        let opac = OPAC.iter().find(|opac| opac.name == name);
+        let as_opac = match opac {
+            Some(_) => recipe.with("humidity", OPAC_HUMIDITY)?,
+            None => recipe.clone(),
+        };
+        let [ground, depth] = green(&as_opac)?;
+        let published = |of: fn(&Published) -> f64| {
+            opac.map_or(String::new(), |opac| format!("{:.3}", of(opac)))
+        };
+        out.push([
+            name.to_owned(),
+            format!("{:.1}", recipe.visibility()? / 1000.0),
+            format!("{:.0}", recipe.ozone()?),
+            format!("{:.2}", recipe.water()?),
+            format!("{ground:.4}"),
+            published(|opac| opac.extinction),
+            format!("{depth:.4}"),
+            published(|opac| opac.optical_depth),
+        ]);
     }
-    writeln!(out, "\nExtinction at the ground and vertical optical depth are those of particles at 550 nm.")?;
+    Ok(out)
+}
+
+/// Extinction at the ground, 1/km, and optical depth of the particles.
+fn green(recipe: &Recipe) -> Result<[f64; 2]> {
+    let green = WAVELENGTHS[GREEN];
+    let depth = recipe
+        .layers(&[green])?
+        .iter()
+        .map(|layer| layer.optical_depth[0])
+        .sum();
+    let (_, particles) = recipe.particles(&[green])?;
+    let ground: f64 = particles
+        .iter()
+        .map(|c| c.profile[0] * c.extinction[0])
+        .sum();
+    Ok([1000.0 * ground, depth])
+}
+
+/// What the columns are.
+const NOTES: [&str; 3] = [
+    "Printed by `welkin-fit atmosphere --list`: extinction at the ground and vertical optical depth are those of",
+    "particles at 550 nm, after OPAC at 80 % humidity beside what Hess et al. 1998 publish (Tables 4 and 5); visibility,",
+    "ozone and water as the recipes have them.",
+];
+
+/// The table for people.
+pub fn list() -> Result<String> {
+    let mut out = String::new();
+    for row in rows()? {
+        let cells: String = row[1..].iter().map(|cell| format!("{cell:>18}")).collect();
+        writeln!(out, "{:<22}{}", row[0], cells)?;
+    }
+    writeln!(out, "\n{}", NOTES.join("\n"))?;
+    Ok(out)
+}
+
+/// The table as CSV.
+pub fn csv() -> Result<Vec<u8>> {
+    let mut out: Vec<u8> = NOTES
+        .map(|note| format!("# {note}\n"))
+        .concat()
+        .into_bytes();
+    let mut writer = csv::Writer::from_writer(&mut out);
+    for row in rows()? {
+        writer.write_record(row)?;
+    }
+    writer.flush()?;
+    drop(writer);
     Ok(out)
 }
