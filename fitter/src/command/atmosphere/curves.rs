@@ -65,7 +65,7 @@ fn ozone(air: &Atmosphere) -> Vec<&Constituent> {
 }
 
 fn depths(recipe: &Recipe) -> Result<Panel> {
-    let wavelengths: Vec<f64> = (0..=110).map(|i| 300.0 + 20.0 * f64::from(i)).collect();
+    let wavelengths: Vec<f64> = (0..=440).map(|i| 300.0 + 5.0 * f64::from(i)).collect();
     let lights: Vec<_> = wavelengths
         .iter()
         .map(|&w| Monochromatic::beside_lines(w))
