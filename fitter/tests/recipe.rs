@@ -515,3 +515,18 @@ fn sharp_edges_high_up_are_said_to_be_a_risk() {
         );
     }
 }
+
+#[test]
+fn what_the_page_shows_are_recipes() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/recipes.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let blocks = page.split("```toml\n").skip(1);
+    let texts: Vec<&str> = blocks
+        .map(|block| block.split("```").next().unwrap())
+        .collect();
+    assert_eq!(texts.len(), 2);
+    for text in texts {
+        assert_eq!(parse(text).unwrap().cautions().unwrap(), [""; 0]);
+    }
+    assert_eq!(parse("").unwrap().layers(&[550.0]).unwrap(), []);
+}

@@ -54,17 +54,13 @@ pub fn run(args: &Args) -> Result<()> {
     if args.list {
         return match &args.out {
             Some(out) => Ok(write(&[(&Target::new(out), &summary::csv()?)])?),
-            None => Ok(print!("{}", summary::list()?)),
+            None => say(&summary::list()?),
         };
     }
     match &args.recipe {
         Some(name) if args.toml => {
             let text = Recipe::text(name);
-            print!(
-                "{}",
-                text.with_context(|| format!("no recipe {name:?} comes with the program"))?
-            );
-            Ok(())
+            say(text.with_context(|| format!("no recipe {name:?} comes with the program"))?)
         }
         Some(name) => of_recipe(args, name),
         None => of_the_model(args),
@@ -123,10 +119,9 @@ fn of_recipe(args: &Args, name: &str) -> Result<()> {
         write(&[(&Target::new(plot), svg.as_bytes())])?;
     }
     match &args.out {
-        Some(out) => write_case(&case_of(args, &recipe)?, out)?,
-        None => print!("{}", summary::of(&recipe)?),
+        Some(out) => write_case(&case_of(args, &recipe)?, out),
+        None => say(&summary::of(&recipe)?),
     }
-    Ok(())
 }
 
 fn named_or_read(name: &str) -> Result<Recipe> {
@@ -173,4 +168,9 @@ fn case_of(args: &Args, recipe: &Recipe) -> Result<Case> {
 fn write_case(case: &Case, out: &Path) -> Result<()> {
     let text = case.to_json()? + "\n";
     Ok(write(&[(&Target::new(out), text.as_bytes())])?)
+}
+
+/// To standard output.
+fn say(text: &str) -> Result<()> {
+    Ok(write(&[(&Target::Standard, text.as_bytes())])?)
 }
