@@ -530,3 +530,43 @@ fn what_the_page_shows_are_recipes() {
     }
     assert_eq!(parse("").unwrap().layers(&[550.0]).unwrap(), []);
 }
+
+#[test]
+fn own_profiles_are_kept() {
+    let gases = "[gases.table]\naltitude_km = [0, 10, 20, 40]\ntemperature_k = [288, 223, 217, 250]\n\
+        air_per_cm3 = [2.5e19, 8.6e18, 1.8e18, 8.3e16]\nozone_per_cm3 = [0, 1e12, 4e12, 6e11]\n";
+    let layer = "[layers.smoke]\noptical_depth_550 = 0.3\nparticles_per_cm3 = { soot = 1 }\n\
+        profile = { altitude_km = [0, 1, 2], relative = [4, 4, 0] }\n";
+    let recipe = parse(&format!("{gases}{layer}")).unwrap();
+    let air = recipe.air(&[Monochromatic::beside_lines(550.0)]).unwrap();
+    assert_eq!((recipe.water().unwrap(), air.constituents.len()), (0.0, 5));
+    assert!((air.profile(0, 10_000.0) / air.profile(0, 0.0) - 8.6 / 25.0).abs() < 1e-9);
+    let smoke = |z: f64| air.profile(4, z) * air.constituents[4].extinction[0];
+    for (z, per_km) in [
+        (0.0, 0.2),
+        (700.0, 0.2),
+        (1500.0, 0.1),
+        (2000.0, 0.0),
+        (9000.0, 0.0),
+    ] {
+        assert!(
+            (1000.0 * smoke(z) - per_km).abs() < 1e-6,
+            "{z} m: {}",
+            smoke(z)
+        );
+    }
+    // Ozone of 1 cm⁻³ through 1 m is 1e6 molecules per m²; the profile is exponential between its rows.
+    assert!(
+        (100.0..250.0).contains(&recipe.ozone().unwrap()),
+        "{}",
+        recipe.ozone().unwrap()
+    );
+    let half = recipe.with("ozone", 0.5 * recipe.ozone().unwrap()).unwrap();
+    let depth = |recipe: &Recipe| {
+        let air = recipe.air(&[Monochromatic::beside_lines(600.0)]).unwrap();
+        (1..4)
+            .map(|k| air.vertical_optical_depth(k, 0))
+            .sum::<f64>()
+    };
+    assert!((depth(&half) / depth(&recipe) - 0.5).abs() < 1e-6);
+}
