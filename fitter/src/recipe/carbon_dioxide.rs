@@ -34,7 +34,7 @@ fn wavenumber(wavelength: f64) -> f64 {
     1e7 / wavelength
 }
 
-/// Refractive index less 1: Bideau-Mehu et al. 1973, as Sneep and Ubachs 2005 (their equation 15) give it.
+/// Refractive index less 1: Bideau-Mehu et al. 1973, as Sneep and Ubachs 2005 give it.
 fn refractivity(wavelength: f64) -> f64 {
     let square = wavenumber(wavelength).powi(2);
     let terms = [
@@ -48,7 +48,7 @@ fn refractivity(wavelength: f64) -> f64 {
     1.1427e3 * terms.into_iter().map(term).sum::<f64>()
 }
 
-/// Sneep and Ubachs 2005, equation 16.
+/// Sneep and Ubachs 2005.
 fn king_factor(wavelength: f64) -> f64 {
     1.1364 + 25.3e-12 * wavenumber(wavelength).powi(2)
 }
@@ -73,10 +73,25 @@ fn depolarisation(wavelength: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Sneep and Ubachs 2005: 12.4e-27 cm² at 532.2 nm.
+    /// Kaye and Laby: 449e-6 at 589.3 nm, 0 °C and one atmosphere.
     #[test]
-    fn the_cross_section_is_the_published_one() {
-        let ours = cross_section(532.2) * 1e27;
-        assert!((ours / 12.4 - 1.0).abs() < 0.01, "{ours}");
+    fn the_refractive_index_is_the_published_one() {
+        let at_freezing = refractivity(589.3) * 288.15 / 273.15;
+        assert!((at_freezing / 449e-6 - 1.0).abs() < 0.005, "{at_freezing}");
+    }
+
+    /// Bodhaine et al. 1999 take a King factor of 1.15; ρ of that is 0.081.
+    #[test]
+    fn molecules_are_as_long_as_is_known() {
+        assert!((king_factor(550.0) - 1.15).abs() < 0.01);
+        let rho = depolarisation(550.0);
+        assert!(((6.0 + 3.0 * rho) / (6.0 - 7.0 * rho) - king_factor(550.0)).abs() < 1e-12);
+    }
+
+    /// Nearly as λ⁻⁴, a little steeper for the index and the King factor.
+    #[test]
+    fn scattering_is_rayleighs() {
+        let slope = (cross_section(400.0) / cross_section(800.0)).log2();
+        assert!((4.0..4.1).contains(&slope), "{slope}");
     }
 }

@@ -253,12 +253,7 @@ fn own(columns: &Columns) -> Result<GasProfile, RecipeError> {
     }
     let density = |name: &str| -> Result<Curve, RecipeError> {
         let curve = table.curve(name, 0.0, 1e25)?;
-        let floored = curve
-            .nodes()
-            .iter()
-            .map(|&z| curve.at(z).max(NOTHING))
-            .collect();
-        Curve::new(curve.nodes().to_vec(), floored).map_err(|e| field(PLACE, e.to_string()))
+        continued(&curve).map_err(|e| field(PLACE, e.to_string()))
     };
     let maybe = |name: &str| table.has(name).then(|| density(name)).transpose();
     Ok(GasProfile {
@@ -267,4 +262,22 @@ fn own(columns: &Columns) -> Result<GasProfile, RecipeError> {
         ozone: maybe("ozone_per_cm3")?,
         water: maybe("water_per_cm3")?,
     })
+}
+
+/// A number density that is nowhere nothing and thins out above its last row as between the last two.
+fn continued(density: &Curve) -> Result<Curve> {
+    let mut altitudes = density.nodes().to_vec();
+    let mut values: Vec<f64> = altitudes
+        .iter()
+        .map(|&z| density.at(z).max(NOTHING))
+        .collect();
+    let last = altitudes.len() - 1;
+    if altitudes[last] < TOP {
+        let thickness = altitudes[last] - altitudes[last - 1];
+        let slope = (values[last] / values[last - 1]).ln().min(0.0) / thickness;
+        let above = TOP - altitudes[last];
+        values.push((values[last] * (slope * above).exp()).max(NOTHING));
+        altitudes.push(TOP);
+    }
+    Curve::new(altitudes, values)
 }

@@ -23,6 +23,7 @@ mod surface;
 mod tables;
 
 pub use error::RecipeError;
+pub use shipped::{OPAC, OPAC_HUMIDITY, Published};
 
 use crate::atmosphere::table::Curve;
 use crate::atmosphere::{Atmosphere, Constituent, Monochromatic};
@@ -239,10 +240,12 @@ impl Recipe {
 
     /// What may trace less exactly than usual.
     pub fn cautions(&self) -> Result<Vec<String>> {
-        let pairs = self.file.layers.keys().zip(self.shapes()?);
-        Ok(pairs
-            .flat_map(|(name, shape)| risk::cautions(name, &shape))
-            .collect())
+        let (_, layers) = self.particles(&[GREEN])?;
+        let pairs = layers.iter().zip(self.shapes()?);
+        let say = |(layer, shape): (&Constituent, Shape)| {
+            risk::cautions(&layer.name, &shape, layer.extinction[0])
+        };
+        Ok(pairs.flat_map(say).collect())
     }
 
     fn shapes(&self) -> Result<Vec<Shape>, RecipeError> {

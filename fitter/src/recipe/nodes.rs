@@ -34,7 +34,8 @@ pub fn altitudes<'a>(shapes: impl Iterator<Item = &'a Shape>, gases: &[f64]) -> 
 fn insert(nodes: &mut Vec<f64>, z: f64) {
     let i = nodes.partition_point(|&node| node < z);
     let near = |j: usize| nodes.get(j).is_some_and(|node| (node - z).abs() < NEAREST);
-    if !near(i) && !(i > 0 && near(i - 1)) {
+    let before = i.checked_sub(1).is_some_and(near);
+    if !near(i) && !before {
         nodes.insert(i, z);
     }
 }

@@ -7,7 +7,7 @@ use crate::atmosphere::table::{Curve, Table};
 use anyhow::Result;
 
 /// Names of the surfaces of `fitter/data/surfaces.csv`.
-pub const NAMES: [&str; 6] = ["grass", "snow", "sand", "sea", "lake", "urban"];
+pub const NAMES: [&str; 5] = ["grass", "snow", "sand", "sea", "urban"];
 
 /// Albedo of the ground, if the recipe says something about it.
 pub fn surface(ground: &Ground) -> Result<Option<Curve>> {
