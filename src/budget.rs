@@ -191,6 +191,7 @@ impl Model {
     /// # Errors
     /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`].
     pub fn point_query(&self, plan: &Plan) -> Result<PointQuery<'_>> {
+        self.refuse_ground()?;
         self.load(plan)?;
         let head = checked_head(self.front())?;
         let mut chunks = Chunks::new(&head)?;
@@ -222,6 +223,7 @@ impl Model {
     /// # Errors
     /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.
     pub fn polarised_point_query(&self, plan: &Plan) -> Result<PolarisedPointQuery<'_>> {
+        self.refuse_ground()?;
         let query = self.point_query(plan)?;
         let head = self.head();
         let visibilities = head.visibilities.len();

@@ -40,7 +40,9 @@ impl Model {
         conditions: &Conditions,
         bands: &Bands,
     ) -> Result<BandAerialPerspective> {
-        let aerial = AerialPerspective::prepare(self, bands.at(self)?, conditions)?;
+        let conditions = conditions.checked(self)?;
+        let albedos = bands.albedos(&conditions);
+        let aerial = AerialPerspective::prepare(self, bands.at(self)?, &conditions, &albedos)?;
         let visibility = aerial.conditions().visibility;
         Ok(BandAerialPerspective {
             aerial,

@@ -1,12 +1,15 @@
 //! The bands of a sensor on the nodes of a model.
 
 use super::band_fit::Fit;
+use super::band_ground::slots;
 use super::band_projection::{Made, Projection};
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use super::transmittance_fit::TransmittanceFit;
+use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::ground::Albedo;
 use crate::model::{Model, NodeSubset, Nodes};
 use crate::polarisation::Stokes;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
@@ -41,6 +44,9 @@ pub struct Bands {
     /// What tells the file that they are made for.
     file: Vec<u8>,
     nodes: NodeSubset,
+    /// At the nodes, where they depend on wavelength.
+    albedos: Option<Vec<f64>>,
+    ground: Option<Albedo>,
     projection: Projection,
     residuals: Vec<Residual>,
     air: TransmittanceFit,
@@ -71,12 +77,21 @@ impl Model {
             mut made,
             residuals,
         } = Fit::new(self, &axis, responses)?;
-        let kept = renumber(&mut made);
+        let ground = self.spectral_ground();
+        let (kept, albedos) = match ground {
+            None => (renumber(&mut made), None),
+            Some(ground) => {
+                let slots = slots(self, &axis, ground, (responses, &mut made))?;
+                (slots.nodes, Some(slots.albedos))
+            }
+        };
         let nodes = NodeSubset::new(self, kept);
         Ok(Bands {
             file: identity(self),
             projection: Projection::new(nodes.kept().len(), &made, axis.has_cells()),
             nodes,
+            albedos,
+            ground: ground.cloned(),
             residuals,
             air: TransmittanceFit::new(self, &axis, responses)?,
         })
@@ -108,10 +123,18 @@ impl Bands {
         Ok(self.nodes.nodes())
     }
 
+    /// Albedos at the nodes under checked conditions.
+    pub(crate) fn albedos(&self, conditions: &Conditions) -> Vec<f64> {
+        let grey = || vec![conditions.albedo; self.nodes.kept().len()];
+        self.albedos.clone().unwrap_or_else(grey)
+    }
+
     /// Refuses models that the bands are not made for.
     fn check(&self, model: &Model) -> Result<()> {
-        match self.file == identity(model) {
+        let same = self.file == identity(model);
+        match same && self.ground.as_ref() == model.spectral_ground() {
             true => Ok(()),
+            false if same => Err(Error::invalid("bands", "were made over another ground")),
             false => Err(Error::invalid("bands", "were made for another model")),
         }
     }
@@ -143,7 +166,9 @@ impl Bands {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`] unless there is one number per wavelength of the model and `out` has one per band.
+    /// [`Error::Length`] unless there is one number per wavelength of the model and `out` has one per band;
+    /// [`Error::Invalid`] for bands over a ground whose albedo depends on wavelength ([`Model::over`]): they see it with
+    /// other albedos than a node does.
     pub fn project(&self, relative: &[f32], out: &mut [f32]) -> Result<()> {
         let mut kept = [0.0; MOST_WAVELENGTHS];
         let kept = self.pick(relative, out.len(), &mut kept)?;
@@ -165,6 +190,10 @@ impl Bands {
     /// What belongs to the nodes.
     fn pick<'k, T: Copy>(&self, all: &[T], bands: usize, kept: &'k mut [T]) -> Result<&'k [T]> {
         check_length(bands, self.count())?;
+        if self.ground.is_some() {
+            let detail = "over a ground whose albedo depends on wavelength are not made of light at the nodes";
+            return Err(Error::invalid("bands", detail));
+        }
         if all.len() != self.nodes.stored() {
             return Err(Error::Length {
                 what: "wavelengths of the model",
