@@ -132,7 +132,8 @@ impl Model {
     ///
     /// Over a ground whose albedo depends on wavelength light at a node is that over the albedo there, and light at
     /// any other wavelength that over the albedo of that: the model's own for a grey ground of the same albedo.
-    /// Colours and bands are sums over spectra; so they are prepared with the albedos that the ground has in them.
+    /// [`SpectralInterpolation`](crate::SpectralInterpolation) does not know the ground: ask
+    /// [`Sky::radiance_at`](crate::Sky::radiance_at) and its like. Colours and bands are sums over spectra; so they are prepared with the albedos that the ground has in them.
     /// A [`Sky`](crate::Sky) takes three to four times as long to prepare, colours and bands as long as over a grey
     /// ground after the first, for which light is fitted.
     ///

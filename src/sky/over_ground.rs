@@ -28,8 +28,10 @@ impl Sky {
         self.over.as_deref()
     }
 
-    /// The albedo of the ground, if it depends on wavelength.
-    pub(crate) fn ground(&self) -> Option<&Albedo> {
+    /// The albedo of the ground, if it depends on wavelength: then light at [`Sky::wavelengths`] has at each the ground of
+    /// that, and does not make light between them by [`SpectralInterpolation`](crate::SpectralInterpolation). Ask
+    /// [`Sky::radiance_at`].
+    pub fn ground(&self) -> Option<&Albedo> {
         self.over.as_ref().map(|over| over.grounds.albedo())
     }
 
