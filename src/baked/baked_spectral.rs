@@ -111,7 +111,7 @@ impl BakedSky {
             baked: Baked::new(sky, channels, tolerance)?,
             wavelengths: vec![0.0; count],
             irradiance: vec![Lanes::splat(1.0); count.div_ceil(LANES)],
-            axis: WavelengthAxis::new(sky),
+            axis: WavelengthAxis::none(),
             over: None,
         })
     }

@@ -66,7 +66,7 @@ pub(super) struct TypicalLight {
 
 impl TypicalLight {
     pub fn new(model: &Model) -> Result<Self> {
-        let mut logarithms = examples(&model.over_grey())?;
+        let mut logarithms = examples(model)?;
         let step = logarithms.len().div_ceil(EXAMPLES).max(1);
         logarithms = logarithms.into_iter().step_by(step).collect();
         Ok(Self { logarithms })
