@@ -246,7 +246,8 @@ fn colours_are_sums_over_the_spectrum() {
         .into_iter()
         .filter(|row| row[0] <= longest)
         .collect();
-    for (ground, most) in [(grass(), 1e-3), (sand, 1e-3), (cliff(), 1e-2)] {
+    let leaf = Albedo::table(&[500.0, 550.0, 600.0], &[0.02, 0.5, 0.02]).unwrap();
+    for (ground, most) in [(grass(), 2e-3), (sand, 2e-3), (leaf, 1e-2)] {
         let over = MODEL.over(&ground);
         let sky = over.sky(&conditions()).unwrap();
         let colour = over.colour_sky(&conditions()).unwrap();

@@ -46,7 +46,7 @@ impl Model {
         let visibility = aerial.conditions().visibility;
         Ok(BandAerialPerspective {
             aerial,
-            projection: bands.projection().clone(),
+            projection: bands.projection(&conditions),
             air: self.band_transmittance(visibility, bands)?,
         })
     }

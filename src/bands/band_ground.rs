@@ -1,93 +1,139 @@
 //! The albedos that a ground has in bands.
 //!
-//! A node that several bands are made of has an albedo for each of them: so it is prepared once for each albedo.
+//! Bands are prepared over a black and a white ground: each node of theirs twice. What they are made of takes the share
+//! τ of the second and the rest of the first.
 
-use super::band_projection::Made;
-use super::effective_albedo::{GroundSpectrum, Sum, TypicalLight, fit};
+use super::band_projection::{Made, Projection};
+use super::effective_albedo::{GroundSpectrum, Sum, TypicalLight, fit, white_share};
 use super::powers::Power;
 use super::response::Response;
 use super::spectral_axis::{SpectralAxis, Taps};
 use crate::error::{Error, Result};
-use crate::format::MAX_ESTIMATE_WAVELENGTHS;
+use crate::format::{Head, MAX_ESTIMATE_WAVELENGTHS, visibility_node};
 use crate::ground::Albedo;
-use crate::model::Model;
+use crate::kernel::axis::linear;
+use crate::model::{Model, NodeSubset};
 use crate::sky::MOST_WAVELENGTHS;
 
-/// What bands are made of: nodes of the model with the albedos of the ground there, in their order.
-pub(super) struct Slots {
-    pub nodes: Vec<usize>,
-    pub albedos: Vec<f64>,
-}
-
-/// Numbers the nodes of bands by slots, of which as few as possible.
-pub(super) fn slots(
-    model: &Model,
-    axis: &SpectralAxis,
-    albedo: &Albedo,
-    (responses, made): (&[Response], &mut [Made]),
-) -> Result<Slots> {
-    let ground = GroundSpectrum::new(model, albedo);
-    let light = TypicalLight::new(model)?;
-    let fitter = Fitter {
-        model,
-        axis,
-        ground,
-        light,
-    };
-    let mut albedos = Vec::new();
-    for (response, made) in responses.iter().zip(&*made) {
-        albedos.push(fitter.albedos(response, made)?);
-    }
-    let pairs = made.iter().zip(&albedos);
-    let mut all: Vec<Slot> = pairs.flat_map(|(made, own)| slots_of(made, own)).collect();
-    all.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    all.dedup();
-    check(model, all.len())?;
-    for (made, own) in made.iter_mut().zip(&albedos) {
-        let mut slots = slots_of(made, own).collect::<Vec<_>>().into_iter();
-        made.renumber(|node| {
-            let slot = slots.next().filter(|slot| slot.0 == node);
-            slot.and_then(|slot| all.iter().position(|other| *other == slot))
-                .unwrap_or(0)
-        });
-    }
-    Ok(Slots {
-        nodes: all.iter().map(|slot| slot.0).collect(),
-        albedos: all.iter().map(|slot| slot.1).collect(),
-    })
-}
-
-/// A node and the albedo there.
-type Slot = (usize, f64);
-
-/// The slots of a band in the order in which it names its nodes, given the albedo of each of its pieces.
-fn slots_of<'a>(made: &'a Made, albedos: &'a PieceAlbedos) -> impl Iterator<Item = Slot> + 'a {
-    let sum = made.sum.iter().zip(&albedos.sum);
-    let sum = sum.map(|(&(node, _), &albedo)| (node, albedo));
-    let powers = made.powers.iter().zip(&albedos.powers);
-    let powers = powers.flat_map(|(power, &albedo)| power.taps.iter().map(move |t| (t.0, albedo)));
-    sum.chain(powers)
-}
-
-/// Albedos of the nodes of a sum, and of the wavelengths between nodes.
-struct PieceAlbedos {
+/// Albedos of what a band is made of: the nodes of a sum, and wavelengths between nodes.
+#[derive(Clone, Debug)]
+pub(super) struct PieceAlbedos {
     sum: Vec<f64>,
     powers: Vec<f64>,
 }
 
-fn check(model: &Model, got: usize) -> Result<()> {
-    let most = match model.head().estimated {
-        true => MAX_ESTIMATE_WAVELENGTHS,
-        false => MOST_WAVELENGTHS,
+/// The albedos in each band, of which `made` has the nodes of the model.
+pub(super) fn piece_albedos(
+    model: &Model,
+    axis: &SpectralAxis,
+    albedo: &Albedo,
+    (responses, made): (&[Response], &[Made]),
+) -> Result<Vec<PieceAlbedos>> {
+    let fitter = Fitter {
+        model,
+        axis,
+        ground: GroundSpectrum::new(model, albedo),
+        light: TypicalLight::new(model)?,
     };
-    if got <= most {
-        return Ok(());
+    let bands = responses.iter().zip(made);
+    bands
+        .map(|(response, made)| fitter.albedos(response, made))
+        .collect()
+}
+
+/// Bands over a ground whose albedo depends on wavelength.
+#[derive(Clone, Debug)]
+pub(super) struct BandGround {
+    albedo: Albedo,
+    made: Vec<Made>,
+    pieces: Vec<PieceAlbedos>,
+    floor: bool,
+}
+
+impl BandGround {
+    /// `made` has the numbers of the nodes that the bands need, of which there are `nodes`.
+    pub fn new(
+        model: &Model,
+        albedo: &Albedo,
+        (made, nodes, floor): (Vec<Made>, usize, bool),
+        pieces: Vec<PieceAlbedos>,
+    ) -> Result<Self> {
+        let most = match model.head().estimated {
+            true => MAX_ESTIMATE_WAVELENGTHS,
+            false => MOST_WAVELENGTHS,
+        };
+        if 2 * nodes > most {
+            return Err(Error::Limit {
+                what: "wavelengths of bands over two grounds",
+                most,
+                got: 2 * nodes,
+            });
+        }
+        Ok(Self {
+            albedo: albedo.clone(),
+            made,
+            pieces,
+            floor,
+        })
     }
-    Err(Error::Limit {
-        what: "wavelengths of bands over a ground whose albedo depends on wavelength",
-        most,
-        got,
-    })
+
+    pub fn albedo(&self) -> &Albedo {
+        &self.albedo
+    }
+
+    /// What makes bands of light at the nodes of [`twice`], at a visibility (m).
+    pub fn projection(&self, twice: &Head, visibility: f64) -> Projection {
+        let nodes = twice.wavelengths.len();
+        let around = linear(&twice.visibility_nodes(), visibility_node(visibility));
+        let spherical = |node: usize| -> f64 {
+            let rows = around.taps();
+            rows.map(|(v, w)| w * twice.spherical_albedo[v * nodes + 2 * node])
+                .sum()
+        };
+        let bands = self.made.iter().zip(&self.pieces);
+        let over: Vec<Made> = bands
+            .map(|(made, own)| over(made, own, spherical))
+            .collect();
+        Projection::new(nodes, &over, self.floor)
+    }
+}
+
+/// These nodes over a black ground and over a white one, one after the other, and the albedos of these.
+pub(super) fn twice(model: &Model, kept: &[usize]) -> (NodeSubset, Vec<f64>) {
+    let nodes = kept.iter().flat_map(|&node| [node, node]).collect();
+    let albedos = kept.iter().flat_map(|_| [0.0, 1.0]).collect();
+    (NodeSubset::new(model, nodes), albedos)
+}
+
+/// The same band made of both, where the nodes have these spherical albedos.
+fn over(made: &Made, albedos: &PieceAlbedos, spherical: impl Fn(usize) -> f64) -> Made {
+    let mut out = Made::default();
+    for (&(node, weight), &albedo) in made.sum.iter().zip(&albedos.sum) {
+        let white = white_share(albedo, spherical(node));
+        out.sum.push((2 * node, weight * (1.0 - white)));
+        out.sum.push((2 * node + 1, weight * white));
+    }
+    for (power, &albedo) in made.powers.iter().zip(&albedos.powers) {
+        let white = white_share(albedo, mean_over(&power.taps, &spherical));
+        for (ground, share) in [1.0 - white, white].into_iter().enumerate() {
+            let taps = power.taps.iter().map(|&(node, w)| (2 * node + ground, w));
+            out.powers.push(Power {
+                factor: power.factor * share,
+                taps: taps.collect(),
+            });
+        }
+    }
+    out
+}
+
+/// The mean at nodes that count in a wavelength between them.
+fn mean_over(taps: &Taps, value: impl Fn(usize) -> f64) -> f64 {
+    let (mut sum, mut whole) = (0.0, 0.0);
+    for &(node, weight) in taps.iter().filter(|tap| tap.1 > 0.0) {
+        sum += weight * value(node);
+        whole += weight;
+    }
+    if whole > 0.0 { sum / whole } else { 0.0 }
 }
 
 struct Fitter<'a> {
@@ -118,8 +164,13 @@ impl Fitter<'_> {
         let around = self.around(response, made, middle)?;
         let tau = fit(&[Sum { parts, mean }], &around);
         let (sum, powers) = tau.split_at(made.sum.len());
-        let at = |(&(n, _), &tau): (&(usize, f64), &f64)| self.ground.albedo(n, tau);
-        let between = |(p, &tau): (&Power, &f64)| self.ground.albedo(main_node(&p.taps), tau);
+        let at = |(&(n, _), &tau): (&(usize, f64), &f64)| {
+            self.ground.albedo_of(self.ground.spherical(n), tau)
+        };
+        let between = |(p, &tau): (&Power, &f64)| {
+            let s = mean_over(&p.taps, |node| self.ground.spherical(node));
+            self.ground.albedo_of(s, tau)
+        };
         Ok(PieceAlbedos {
             sum: made.sum.iter().zip(sum).map(at).collect(),
             powers: made.powers.iter().zip(powers).map(between).collect(),
@@ -177,10 +228,4 @@ impl Fitter<'_> {
 fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
     values.iter_mut().for_each(|v| *v *= factor);
     values
-}
-
-/// The node that counts most.
-fn main_node(taps: &Taps) -> usize {
-    let most = taps.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    most.map_or(0, |tap| tap.0)
 }

@@ -30,8 +30,8 @@ impl Made {
         self.sum.iter().chain(taps).map(|tap| tap.0)
     }
 
-    /// Numbers the nodes anew: those of the sum, then those of each power.
-    pub fn renumber(&mut self, mut number: impl FnMut(usize) -> usize) {
+    /// Numbers the nodes anew.
+    pub fn renumber(&mut self, number: impl Fn(usize) -> usize) {
         let taps = self.powers.iter_mut().flat_map(|power| &mut power.taps);
         let taps = self.sum.iter_mut().chain(taps);
         taps.for_each(|tap| tap.0 = number(tap.0));

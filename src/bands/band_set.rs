@@ -1,7 +1,7 @@
 //! The bands of a sensor on the nodes of a model.
 
 use super::band_fit::Fit;
-use super::band_ground::slots;
+use super::band_ground::{BandGround, piece_albedos, twice};
 use super::band_projection::{Made, Projection};
 use super::residual::Residual;
 use super::response::Response;
@@ -44,9 +44,8 @@ pub struct Bands {
     /// What tells the file that they are made for.
     file: Vec<u8>,
     nodes: NodeSubset,
-    /// At the nodes, where they depend on wavelength.
-    albedos: Option<Vec<f64>>,
-    ground: Option<Albedo>,
+    /// Over a ground whose albedo depends on wavelength, with the nodes that are prepared and their albedos.
+    over: Option<(BandGround, (NodeSubset, Vec<f64>))>,
     projection: Projection,
     residuals: Vec<Residual>,
     air: TransmittanceFit,
@@ -78,20 +77,25 @@ impl Model {
             residuals,
         } = Fit::new(self, &axis, responses)?;
         let ground = self.spectral_ground();
-        let (kept, albedos) = match ground {
-            None => (renumber(&mut made), None),
-            Some(ground) => {
-                let slots = slots(self, &axis, ground, (responses, &mut made))?;
-                (slots.nodes, Some(slots.albedos))
+        let pieces = ground.map(|g| piece_albedos(self, &axis, g, (responses, &made)));
+        let pieces = pieces.transpose()?;
+        let (kept, floor) = (renumber(&mut made), axis.has_cells());
+        let projection = Projection::new(kept.len(), &made, floor);
+        let over = match ground.zip(pieces) {
+            Some((ground, pieces)) => {
+                let made = (made, kept.len(), floor);
+                Some((
+                    BandGround::new(self, ground, made, pieces)?,
+                    twice(self, &kept),
+                ))
             }
+            None => None,
         };
-        let nodes = NodeSubset::new(self, kept);
         Ok(Bands {
             file: identity(self),
-            projection: Projection::new(nodes.kept().len(), &made, axis.has_cells()),
-            nodes,
-            albedos,
-            ground: ground.cloned(),
+            projection,
+            nodes: NodeSubset::new(self, kept),
+            over,
             residuals,
             air: TransmittanceFit::new(self, &axis, responses)?,
         })
@@ -120,27 +124,41 @@ impl Bands {
     /// The nodes, if the bands are those of this model.
     pub(crate) fn at(&self, model: &Model) -> Result<Nodes<'_>> {
         self.check(model)?;
-        Ok(self.nodes.nodes())
+        let nodes = self.over.as_ref().map(|(_, (twice, _))| twice);
+        Ok(nodes.unwrap_or(&self.nodes).nodes())
     }
 
     /// Albedos at the nodes under checked conditions.
     pub(crate) fn albedos(&self, conditions: &Conditions) -> Vec<f64> {
-        let grey = || vec![conditions.albedo; self.nodes.kept().len()];
-        self.albedos.clone().unwrap_or_else(grey)
+        match &self.over {
+            Some((_, (_, albedos))) => albedos.clone(),
+            None => vec![conditions.albedo; self.nodes.kept().len()],
+        }
+    }
+
+    /// The ground, if its albedo depends on wavelength.
+    fn ground(&self) -> Option<&Albedo> {
+        self.over.as_ref().map(|(ground, _)| ground.albedo())
     }
 
     /// Refuses models that the bands are not made for.
     fn check(&self, model: &Model) -> Result<()> {
         let same = self.file == identity(model);
-        match same && self.ground.as_ref() == model.spectral_ground() {
+        match same && self.ground() == model.spectral_ground() {
             true => Ok(()),
             false if same => Err(Error::invalid("bands", "were made over another ground")),
             false => Err(Error::invalid("bands", "were made for another model")),
         }
     }
 
-    pub(crate) fn projection(&self) -> &Projection {
-        &self.projection
+    /// What makes bands of light at the nodes under checked conditions.
+    pub(crate) fn projection(&self, conditions: &Conditions) -> Projection {
+        match &self.over {
+            Some((ground, (twice, _))) => {
+                ground.projection(twice.nodes().head, conditions.visibility)
+            }
+            None => self.projection.clone(),
+        }
     }
 
     /// The exponentials of the air, if the bands are those of this model.
@@ -190,7 +208,7 @@ impl Bands {
     /// What belongs to the nodes.
     fn pick<'k, T: Copy>(&self, all: &[T], bands: usize, kept: &'k mut [T]) -> Result<&'k [T]> {
         check_length(bands, self.count())?;
-        if self.ground.is_some() {
+        if self.over.is_some() {
             let detail = "over a ground whose albedo depends on wavelength are not made of light at the nodes";
             return Err(Error::invalid("bands", detail));
         }

@@ -43,7 +43,7 @@ impl Model {
                 &conditions,
                 &bands.albedos(&conditions),
             )?,
-            projection: bands.projection().clone(),
+            projection: bands.projection(&conditions),
         })
     }
 
@@ -65,7 +65,7 @@ impl Model {
                 &conditions,
                 &bands.albedos(&conditions),
             )?,
-            projection: bands.projection().clone(),
+            projection: bands.projection(&conditions),
         })
     }
 }

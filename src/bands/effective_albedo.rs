@@ -42,8 +42,7 @@ impl<'a> GroundSpectrum<'a> {
     pub fn tau(&self, wavelength: f64) -> f64 {
         let taps = linear(self.nodes, wavelength);
         let s: f64 = taps.taps().map(|(n, w)| w * self.spherical[n]).sum();
-        let a = self.albedo.at(wavelength);
-        a * (1.0 - s) / (1.0 - a * s)
+        white_share(self.albedo.at(wavelength), s)
     }
 
     /// The albedo at a wavelength.
@@ -51,11 +50,26 @@ impl<'a> GroundSpectrum<'a> {
         self.albedo.at(wavelength)
     }
 
+    /// s at a node.
+    pub fn spherical(&self, node: usize) -> f64 {
+        self.spherical[node]
+    }
+
     /// The albedo of which this is τ at a node.
     pub fn albedo(&self, node: usize, tau: f64) -> f64 {
-        let (s, tau) = (self.spherical[node], tau.clamp(0.0, 1.0));
+        self.albedo_of(self.spherical[node], tau)
+    }
+
+    /// The same where s is known.
+    pub fn albedo_of(&self, s: f64, tau: f64) -> f64 {
+        let tau = tau.clamp(0.0, 1.0);
         (tau / (1.0 - s + tau * s)).clamp(0.0, 1.0)
     }
+}
+
+/// τ, given s.
+pub(super) fn white_share(albedo: f64, s: f64) -> f64 {
+    albedo * (1.0 - s) / (1.0 - albedo * s)
 }
 
 /// Typical light at some wavelengths and at the nodes.

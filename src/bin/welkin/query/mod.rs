@@ -92,8 +92,8 @@ pub struct Summary {
 }
 
 /// Answers a table, in the bands of a sensor if there is one; returns how many rows it has and how many of them failed.
-pub fn answer(
-    shared: &Shared,
+pub fn answer<'a>(
+    shared: &'a Shared<'a>,
     sensor: Option<&Sensor>,
     threads: &rayon::ThreadPool,
     input: impl Read,
