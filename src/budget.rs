@@ -189,7 +189,8 @@ impl Model {
     /// Prepares point queries within a plan of this model, and reads what it asks for. They are not polarised.
     ///
     /// # Errors
-    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`].
+    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`]; [`Error::Invalid`] for one
+    /// with a ground of its own ([`Model::over`]): every query says its albedo, at one wavelength that of its ground there.
     pub fn point_query(&self, plan: &Plan) -> Result<PointQuery<'_>> {
         self.refuse_ground()?;
         self.load(plan)?;
