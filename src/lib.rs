@@ -129,7 +129,9 @@ cfg_if::cfg_if! {
         mod baked;
         mod bands;
         mod budget;
+        mod ground;
         mod model;
+        mod over;
         mod moon;
         pub mod output;
         mod parallel;
@@ -152,6 +154,7 @@ cfg_if::cfg_if! {
             PolarisedBandSky, Residual, Response,
         };
         pub use budget::{Budget, Channels, Plan};
+        pub use ground::Albedo;
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;
         pub use model::{Model, ReadAt, Traffic};

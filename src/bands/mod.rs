@@ -7,12 +7,17 @@
 
 mod band_air;
 mod band_fit;
+mod band_ground;
 mod band_integral;
 mod band_projection;
 mod band_set;
 mod band_sky;
 mod band_sun;
+mod colour_ground;
+mod colour_matching;
+mod colour_nodes;
 mod colour_sky;
+mod effective_albedo;
 mod examples;
 mod few_columns;
 mod least_squares;
@@ -28,7 +33,7 @@ pub(crate) use band_projection::Projection;
 pub use band_set::Bands;
 pub use band_sky::{BandSky, PolarisedBandSky};
 pub use band_sun::BandSolarDisc;
+pub(crate) use colour_ground::coloured_over;
 pub use colour_sky::ColourSky;
-pub(crate) use colour_sky::coloured;
 pub use residual::Residual;
 pub use response::Response;

@@ -780,6 +780,27 @@ WelkinStatus welkin_model_ranges(const struct WelkinModel *model,
                                  struct WelkinError *error);
 
 /**
+ * The same model over a ground whose albedo depends on wavelength, as a new handle: whatever conditions say, all that is
+ * prepared from it is in the light of that ground. `wavelengths[count]` (nm) increase, `albedos[count]` are within
+ * 0..=1; linear between them and constant beyond. The conditions of what is prepared have the albedo at 550 nm.
+ *
+ * What has conditions with each query says its albedo there: such queries refuse this model.
+ *
+ * Errors: WELKIN_STATUS_VALUE for no wavelength and such as do not increase, WELKIN_STATUS_RANGE for an albedo.
+ */
+WelkinStatus welkin_model_over(const struct WelkinModel *model,
+                               const double *wavelengths,
+                               const double *albedos,
+                               size_t count,
+                               struct WelkinModel **over,
+                               struct WelkinError *error);
+
+/**
+ * Whether the model has a ground of its own: see welkin_model_over. False for null.
+ */
+bool welkin_model_has_ground(const struct WelkinModel *model);
+
+/**
  * Whether the model has polarisation; false for null.
  */
 bool welkin_model_is_polarised(const struct WelkinModel *model);

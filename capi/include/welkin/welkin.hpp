@@ -317,6 +317,12 @@ public:
         return Model(make(welkin_model_moonlit, get(), static_cast<const WelkinMoon *>(&moon)));
     }
 
+    // The same over a ground with an albedo for each wavelength (nm), in place of that of conditions.
+    Model over(Span<const double> wavelengths, Span<const double> albedos) const {
+        const std::size_t size = detail::same(wavelengths.size(), albedos.size());
+        return Model(make(welkin_model_over, get(), wavelengths.data(), albedos.data(), size));
+    }
+
     void verify() const { detail::call(welkin_model_verify, get()); }
     std::vector<double> wavelengths() const {
         std::vector<double> nm(welkin_model_wavelength_count(get()));
@@ -328,6 +334,7 @@ public:
     }
     bool is_polarised() const noexcept { return welkin_model_is_polarised(get()); }
     bool is_moonlit() const noexcept { return welkin_model_is_moonlit(get()); }
+    bool has_ground() const noexcept { return welkin_model_has_ground(get()); }
     std::size_t file_bytes() const noexcept { return welkin_model_file_bytes(get()); }
     std::size_t touched_bytes() const noexcept { return welkin_model_touched_bytes(get()); }
 

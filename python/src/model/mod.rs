@@ -105,6 +105,12 @@ impl PyModel {
         self.model.is_moonlit()
     }
 
+    /// Whether the model has a ground of its own: see `over`.
+    #[getter]
+    fn has_ground(&self) -> bool {
+        self.model.ground().is_some()
+    }
+
     /// Length of the file, bytes.
     #[getter]
     fn file_bytes(&self) -> usize {

@@ -34,7 +34,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let (render, count) = (&options.render, options.frames as usize);
-    let model = render.source.open()?;
+    let model = render.scene.over_ground(render.source.open()?);
     let course = render.course(&model, count)?;
     let outputs = render.outputs.numbered(count)?;
     let call = options.call()?;

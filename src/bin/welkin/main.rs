@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod about;
+mod albedo;
 mod almanac;
 mod animate;
 mod camera;

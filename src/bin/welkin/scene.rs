@@ -4,6 +4,7 @@ use std::io::Write;
 
 use welkin::{Conditions, Model};
 
+use crate::albedo::Ground;
 use crate::failure::{Result, plain};
 use crate::sun::Sun;
 use crate::turbidity;
@@ -26,9 +27,10 @@ pub struct Scene {
     /// 2.1.
     #[arg(long, value_name = "RATIO")]
     turbidity: Option<f64>,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, default_value_t = Conditions::default().albedo, value_name = "SHARE")]
-    albedo: f64,
+    /// Albedo of the ground, 0 to 1: a number; by wavelength (nm) a list such as 400:0.05,690:0.06,740:0.5, or a CSV table
+    /// with the columns wavelength_nm and albedo. Linear between wavelengths and constant beyond.
+    #[arg(long, default_value = "0.2", value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
+    albedo: Ground,
     /// Altitude of the observer above the ground, m; 0 if absent.
     #[arg(long, value_name = "M")]
     pub altitude: Option<f64>,
@@ -38,6 +40,11 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The model over the ground of the scene, where that has an albedo for each wavelength.
+    pub fn over_ground(&self, model: Model) -> Model {
+        self.albedo.under(model)
+    }
+
     /// Where the sun stands still.
     pub fn conditions(&self, model: &Model) -> Result<Conditions> {
         self.sun.still()?;
@@ -107,7 +114,7 @@ impl Scene {
         };
         Ok(Conditions {
             visibility,
-            albedo: self.albedo,
+            albedo: self.albedo.share(),
             altitude: self.altitude.unwrap_or(standard.altitude),
             ..standard
         })

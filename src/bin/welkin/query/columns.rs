@@ -4,15 +4,17 @@ use csv::ByteRecord;
 use welkin::Conditions;
 
 use super::quantity::{Quantity, Question, Ray};
+use crate::albedo::Ground;
 use crate::cells;
 use crate::failure::{Failure, Result, plain};
 
 const QUANTITY: &str = "quantity";
 const ERROR: &str = "error";
 const DISTANCE: &str = "distance_m";
+const ALBEDO: &str = "albedo";
 const NUMBERS: [&str; 6] = [
     "visibility_km",
-    "albedo",
+    ALBEDO,
     "altitude_m",
     "solar_elevation_deg",
     "view_zenith_deg",
@@ -25,15 +27,23 @@ pub struct Columns {
     /// Cells of a row.
     pub count: usize,
     quantity: usize,
-    numbers: [usize; 6],
+    /// That of the albedo may be absent where it is given for all rows.
+    numbers: [Option<usize>; 6],
     /// Not in the table where bands are asked for.
     wavelength: Option<usize>,
     distance: Option<usize>,
+    /// In place of the column.
+    ground: Option<Ground>,
 }
 
 impl Columns {
     /// `values` are the columns of the answers: those of bands need no wavelength in the table.
-    pub fn find(header: &ByteRecord, values: &[String], bands: bool) -> Result<Self> {
+    pub fn find(
+        header: &ByteRecord,
+        values: &[String],
+        bands: bool,
+        ground: Option<&Ground>,
+    ) -> Result<Self> {
         if values.iter().any(|name| name == ERROR) {
             let text = format!("a band cannot be called \"{ERROR}\": that is the column of errors");
             return Err(Failure::message(text));
@@ -54,9 +64,12 @@ impl Columns {
                 ))
             })
         };
-        let mut numbers = [0; 6];
+        let mut numbers = [None; 6];
         for (index, name) in numbers.iter_mut().zip(NUMBERS) {
-            *index = wanted(name)?;
+            *index = match name == ALBEDO && ground.is_some() {
+                true => None,
+                false => Some(wanted(name)?),
+            };
         }
         Ok(Self {
             count: header.len(),
@@ -67,6 +80,7 @@ impl Columns {
                 false => Some(wanted(WAVELENGTH)?),
             },
             distance: position(header, DISTANCE)?,
+            ground: ground.cloned(),
         })
     }
 
@@ -84,7 +98,9 @@ impl Columns {
         let quantity = Quantity::parse(cell(self.quantity))?;
         let mut numbers = [0.0; 6];
         for ((number, &index), name) in numbers.iter_mut().zip(&self.numbers).zip(NUMBERS) {
-            *number = cells::number(name, cell(index))?;
+            if let Some(index) = index {
+                *number = cells::number(name, cell(index))?;
+            }
         }
         let wavelength = match self.wavelength.map(cell) {
             Some(cell) => cells::number(WAVELENGTH, cell)?,
@@ -105,6 +121,9 @@ impl Columns {
                 "distance_m must not be negative, got {}",
                 plain(distance)
             ));
+        }
+        if let Some(ground) = &self.ground {
+            numbers[1] = ground.at(wavelength);
         }
         question(quantity, numbers, wavelength, distance)
     }
