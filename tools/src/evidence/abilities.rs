@@ -149,7 +149,7 @@ pub fn write(official: Option<&Path>) -> Result<()> {
         ["red, green and blue", "–", "between any two points", "yes"],
     );
     let stated = [
-        "280 to 2500 nm",
+        "280 to 2480 nm",
         "yes",
         "from the observer to any point",
         "by a difference of two skies",
