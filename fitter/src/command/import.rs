@@ -4,8 +4,8 @@ use anyhow::{Context, Result, ensure};
 use clap::Subcommand;
 use std::io::Write;
 use std::path::PathBuf;
-use welkin::output::{Target, write};
 use welkin::Model;
+use welkin::output::{Target, write};
 use welkin_fitter::official::import::{Settings, import, left_out};
 use welkin_fitter::official::{OfficialData, Selection};
 

@@ -1,12 +1,12 @@
 //! Luminance and chromaticity next to the traced sky.
 
+use super::Result;
 use super::cases::{Case, FIRST, OTHERS};
 use super::directions::{Site, sites};
 use super::models::Entry;
 use super::quantities::{quantile, short};
 use super::table::Table;
 use super::truth::Traced;
-use super::Result;
 use crate::peers::colour::uniform_chromaticity;
 use crate::peers::sky::Observer;
 
@@ -75,7 +75,9 @@ pub fn write(models: &[Entry], real: &Traced, exponential: &Traced) -> Result<()
     };
     by_sun(&all, &cell, None).write("level.csv")?;
     colours(&all, real).write("chromaticity.csv")?;
-    let solved = models.iter().filter(|entry| entry.key.ends_with("-matched"));
+    let solved = models
+        .iter()
+        .filter(|entry| entry.key.ends_with("-matched"));
     let solved: Vec<Light> = solved.map(light).collect();
     let cell = |light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| {
         luminance(light, &exponential.xyz[sun], sites)
@@ -103,7 +105,13 @@ pub fn write_case(case: &Case, models: &[Entry], traced: &Traced) -> Result<()> 
             false => NO_COLOUR.into(),
         });
         let name = light.name.to_owned();
-        table.push([name].into_iter().chain(luminances).chain(colours).collect());
+        table.push(
+            [name]
+                .into_iter()
+                .chain(luminances)
+                .chain(colours)
+                .collect(),
+        );
     }
     table.write(&format!("case-{}.csv", case.key))
 }
@@ -143,7 +151,9 @@ type Cell<'a> = dyn Fn(&[[f32; 3]], usize, &[(Site, usize)]) -> String + 'a;
 fn by_sun(rows: &[Light], cell: &Cell, region: Option<Region>) -> Table {
     let mut table = Table::new(COMMAND, &header());
     for light in rows {
-        let row = cells(light, |xyz, sun| cell(xyz, sun, &part(region, FIRST.suns[sun])));
+        let row = cells(light, |xyz, sun| {
+            cell(xyz, sun, &part(region, FIRST.suns[sun]))
+        });
         let name = light.name.to_owned();
         table.push([name].into_iter().chain(row).collect());
     }

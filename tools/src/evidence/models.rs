@@ -149,10 +149,7 @@ fn formulas(case: &Case) -> Result<Vec<Entry>> {
             terms: format!("turbidity {turbidity:.2}, albedo {albedo}"),
             own_light: true,
             absent: NO_SKY,
-            model: Box::new(Hosek {
-                turbidity,
-                albedo,
-            }),
+            model: Box::new(Hosek { turbidity, albedo }),
         },
         Entry {
             key: "cie",

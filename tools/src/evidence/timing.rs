@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::path::Path;
 
 use cpu_time::ProcessTime;
-use welkin_fitter::official::SAFETY_ALTITUDE;
 use welkin::{BakedColourSky, BakedSky, Model};
+use welkin_fitter::official::SAFETY_ALTITUDE;
 
 use super::cases::FIRST;
 use super::models::{NOT_RUN, conditions};

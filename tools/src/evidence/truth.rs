@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::directions::{Site, sites};
 use super::Result;
 use super::cases::Case;
+use super::directions::{Site, sites};
 use crate::peers::WAVELENGTHS;
 use crate::peers::colour::ToXyz;
 use crate::peers::lanes::Lanes;
@@ -72,7 +72,11 @@ impl Traced {
                 .map(|s| site(sun, s))
                 .collect::<Result<Vec<_>>>()
         };
-        let xyz = case.suns.iter().map(|&sun| sky(sun)).collect::<Result<_>>()?;
+        let xyz = case
+            .suns
+            .iter()
+            .map(|&sun| sky(sun))
+            .collect::<Result<_>>()?;
         errors.sort_by(f64::total_cmp);
         Ok(Self {
             xyz,
