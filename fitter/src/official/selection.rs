@@ -81,12 +81,16 @@ impl Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::official::export::Plan;
-    use crate::official::layout::{Channels, RadianceBreaks};
+    use crate::official::layout::{Axes, Channels, RadianceBreaks};
 
     fn header() -> Header {
         Header {
-            axes: Plan::default().axes,
+            axes: Axes {
+                visibilities: vec![20.0, 59.4],
+                albedos: vec![0.5],
+                altitudes: vec![0.0],
+                elevations: vec![-4.0, -1.0, 3.0, 10.0, 25.0, 60.0],
+            },
             channels: Channels {
                 count: 11,
                 start: 320.0,
@@ -106,7 +110,7 @@ mod tests {
         let header = header();
         let part = |range| Selection::all(&header).within(&header, range).of(&header);
         let channels = part([380.0, 760.0]).unwrap().channels;
-        assert_eq!((channels.count, channels.start), (9, 360.0 + 40.0 * 0.0));
+        assert_eq!((channels.count, channels.start), (10, 360.0));
         assert_eq!(channels.centre(0), 380.0);
         assert!(part([381.0, 399.0]).is_err() && part([900.0, 1e3]).is_err());
     }

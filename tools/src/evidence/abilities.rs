@@ -6,7 +6,8 @@ use welkin::Model;
 use welkin_fitter::official::SAFETY_ALTITUDE;
 
 use super::cases::FIRST;
-use super::models::{NOT_RUN, conditions};
+use super::entry::NOT_RUN;
+use super::models::conditions;
 use super::official::{NAMES, Official};
 use super::table::Table;
 use super::{ALBEDO, Result, VISIBILITY};

@@ -3,7 +3,7 @@
 use super::Result;
 use super::cases::{Case, FIRST, OTHERS};
 use super::directions::{Site, sites};
-use super::models::Entry;
+use super::entry::Entry;
 use super::quantities::{quantile, short};
 use super::table::Table;
 use super::truth::Traced;
@@ -50,7 +50,7 @@ impl Light {
         Self {
             name,
             own_light: true,
-            absent: super::models::NO_SKY,
+            absent: super::entry::NO_SKY,
             xyz: traced.xyz.iter().cloned().map(Some).collect(),
         }
     }

@@ -7,6 +7,7 @@ pub mod abilities;
 pub mod air;
 pub mod cases;
 pub mod directions;
+pub mod entry;
 pub mod errors;
 pub mod haze;
 pub mod models;

@@ -7,6 +7,7 @@ use welkin::{Conditions, Model};
 use super::Result;
 use super::air::{Air, LOW_TOP};
 use super::cases::{Case, FIRST};
+use super::entry::{Entry, NO_SKY};
 use super::official;
 use crate::peers::WAVELENGTHS;
 use crate::peers::bruneton::Bruneton;
@@ -19,34 +20,6 @@ use crate::peers::nishita::Nishita;
 use crate::peers::preetham::Preetham;
 use crate::peers::published;
 use crate::peers::sky::{Coloured, LaneModel, LaneSky, Observer, SkyModel};
-
-/// A model on its terms.
-pub struct Entry {
-    /// Name of its files.
-    pub key: &'static str,
-    /// For people.
-    pub name: &'static str,
-    /// Which parameters it has.
-    pub terms: String,
-    /// Whether it has a luminance and a colour of its own.
-    pub own_light: bool,
-    /// What is said of it where it has no sky.
-    pub absent: &'static str,
-    /// The model.
-    pub model: Box<dyn SkyModel>,
-}
-
-/// Said of suns that a model does not know.
-pub const NO_SKY: &str = "no sky";
-/// Said of a model whose data were not at hand.
-pub const NOT_RUN: &str = "not run";
-
-impl Entry {
-    /// Whether its data were at hand.
-    pub fn was_run(&self) -> bool {
-        self.absent != NOT_RUN
-    }
-}
 
 /// This library at the wavelengths of the others.
 pub struct Welkin(Model, Case);

@@ -9,7 +9,7 @@ use welkin_fitter::official::{self, OfficialData, SAFETY_ALTITUDE};
 
 use super::Result;
 use super::cases::Case;
-use super::models::{Entry, NO_SKY, NOT_RUN};
+use super::entry::{Entry, NO_SKY, NOT_RUN};
 use crate::peers::WAVELENGTHS;
 use crate::peers::colour::ToXyz;
 use crate::peers::lanes::Lanes;

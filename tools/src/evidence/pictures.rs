@@ -2,7 +2,7 @@
 
 use welkin::xyz_to_linear_srgb;
 
-use super::models::Entry;
+use super::entry::Entry;
 use super::quantities::quantile;
 use super::{Result, SUNS, table};
 use crate::peers::sky::{Observer, SkyModel};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::models::Entry;
+use super::entry::Entry;
 use super::{Result, SUNS, table};
 use crate::peers::colour::chromaticity;
 use crate::peers::sky::Observer;

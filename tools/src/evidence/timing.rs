@@ -8,7 +8,8 @@ use welkin::{BakedColourSky, BakedSky, Model};
 use welkin_fitter::official::SAFETY_ALTITUDE;
 
 use super::cases::FIRST;
-use super::models::{NOT_RUN, conditions};
+use super::entry::NOT_RUN;
+use super::models::conditions;
 use super::official::{NAMES, Official};
 use super::quantities::short;
 use super::table::Table;
