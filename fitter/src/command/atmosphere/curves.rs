@@ -98,7 +98,8 @@ fn depths(recipe: &Recipe) -> Result<Panel> {
         below: "wavelength, nm",
         beside: "",
         x: (300.0, 2500.0),
-        y: (largest * 1e-5, largest * 2.0),
+        // Room for the legend.
+        y: (largest * 1e-5, largest * 20.0),
         log: (false, true),
         series,
     })

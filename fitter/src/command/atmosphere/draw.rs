@@ -91,8 +91,8 @@ where
         .y_label_area_size(62)
         .build_cartesian_2d(x, y)?;
     let short = |v: &f64| match v.abs() {
-        0.0 | 0.01..1e5 => format!("{v}"),
-        _ => format!("{v:e}"),
+        0.0 | 0.01..1e5 => format!("{}", rounded(*v)),
+        _ => format!("{:e}", rounded(*v)),
     };
     chart
         .configure_mesh()
@@ -122,4 +122,9 @@ where
         .background_style(WHITE.mix(0.8))
         .label_font(("sans-serif", 13))
         .draw()
+}
+
+/// To three digits: powers of ten are not quite what they are in binary.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
