@@ -16,6 +16,7 @@ pub mod estimate;
 pub mod finite;
 pub mod fitting;
 pub mod manifest;
+pub mod measured;
 mod non_negative;
 pub mod official;
 pub mod pack;

@@ -9,6 +9,7 @@ pub mod cross_check;
 pub mod export;
 pub mod finite;
 pub mod import;
+pub mod measure;
 pub mod official;
 pub mod picture;
 mod plan;
