@@ -121,9 +121,16 @@ fn what_a_scan_was_made_of_is_found_again() {
     let Conditions {
         visibility, albedo, ..
     } = found.conditions;
-    assert!((visibility / TRUTH.visibility).ln().abs() < 0.1, "{found:?}");
+    assert!(
+        (visibility / TRUTH.visibility).ln().abs() < 0.1,
+        "{found:?}"
+    );
     assert!((albedo - TRUTH.albedo).abs() < 0.1, "{albedo}");
-    assert!((found.scale / TRUTH.scale).ln().abs() < 0.02, "{}", found.scale);
+    assert!(
+        (found.scale / TRUTH.scale).ln().abs() < 0.02,
+        "{}",
+        found.scale
+    );
     let north = found.north.to_degrees();
     assert!((north - TRUTH.north).abs() < 0.6, "{north}");
     // The noise, and nothing else: one value per sample.
@@ -189,13 +196,21 @@ fn the_command_reports_and_draws() {
     let output = run(folder.path(), &arguments);
     assert!(output.status.success(), "{output:?}");
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("2013-05-27 09:30:00") && said.contains("rms 0.0"), "{said}");
+    assert!(
+        said.contains("2013-05-27 09:30:00") && said.contains("rms 0.0"),
+        "{said}"
+    );
     let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(
-        table.lines().filter(|line| line.contains(",wavelength_nm,")).count(),
+        table
+            .lines()
+            .filter(|line| line.contains(",wavelength_nm,"))
+            .count(),
         11
     );
-    let rings = table.lines().filter(|line| line.contains(",elevation_deg,"));
+    let rings = table
+        .lines()
+        .filter(|line| line.contains(",elevation_deg,"));
     let counts: Vec<&str> = rings.map(|line| line.split(',').nth(3).unwrap()).collect();
     // The first of the lowest ring is left out, and what is near to the sun.
     assert_eq!((counts[0], counts[3], counts[4]), ("341", "88", "11"));
@@ -216,9 +231,15 @@ fn the_command_reports_and_draws() {
     assert!(complaint(&bands).contains("no bands"));
     let albedo = run(folder.path(), &["kider", ".", "--albedo", "-1"]);
     assert!(complaint(&albedo).contains("--albedo"));
-    let beyond = run(folder.path(), &["kider", ".", "--to", "1500", "--step", "100"]);
+    let beyond = run(
+        folder.path(),
+        &["kider", ".", "--to", "1500", "--step", "100"],
+    );
     assert!(complaint(&beyond).contains("wavelength"));
-    assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), table);
+    assert_eq!(
+        fs::read_to_string(folder.path().join("out.csv")).unwrap(),
+        table
+    );
 }
 
 /// A scan that is the same everywhere.
@@ -272,10 +293,17 @@ fn hostile_scans_are_refused_by_name_and_line() {
     }
     let other = refused(b"Wavelength\tRadiance\n400\t0.1\n402\t0.1\n");
     assert!(matches!(other, MeasuredError::Incomplete { .. }), "{other}");
-    for text in [&b""[..], b"Wavelength\tRadiance\n", b"Wavelength\n400\t0.1\n"] {
+    for text in [
+        &b""[..],
+        b"Wavelength\tRadiance\n",
+        b"Wavelength\n400\t0.1\n",
+    ] {
         assert!(matches!(refused(text), MeasuredError::Incomplete { .. }));
     }
-    assert!(matches!(refused(b"\xff\xfe\x00"), MeasuredError::Read { .. }));
+    assert!(matches!(
+        refused(b"\xff\xfe\x00"),
+        MeasuredError::Read { .. }
+    ));
 }
 
 #[test]
@@ -301,7 +329,10 @@ fn scans_with_wrong_names_are_refused() {
         "2013-05-27___09.45.00_-_17____191.25___12.1151.asd.rad.txt".into(),
     ] {
         let error = moved(&name);
-        assert!(matches!(error, MeasuredError::Name { .. }), "{name}: {error}");
+        assert!(
+            matches!(error, MeasuredError::Name { .. }),
+            "{name}: {error}"
+        );
     }
     // Twice the same, and one that is missing.
     let twice = scan.join(format!("{NAME}_-_17____191.26___12.1151.asd.rad.txt"));
@@ -341,14 +372,23 @@ fn hostile_logs_are_refused_by_line() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("log.txt");
     for (text, line) in [
-        ("808.06 2013.05.27.10.30.00\nbright 2013.05.27.10.30.03\n", 2),
+        (
+            "808.06 2013.05.27.10.30.00\nbright 2013.05.27.10.30.03\n",
+            2,
+        ),
         ("808.06\n", 1),
         ("-1 2013.05.27.10.30.00\n", 1),
         ("1e9 2013.05.27.10.30.00\n", 1),
         ("NaN 2013.05.27.10.30.00\n", 1),
         ("808.06 2013.05.27.25.30.00\n", 1),
-        ("808.06 2013.05.27.10.30.00\n808.06 2013.05.27.10.29.00\n", 2),
-        ("808.06 2013.05.27.10.30.00\n808.06 2013.05.28.10.30.00\n", 2),
+        (
+            "808.06 2013.05.27.10.30.00\n808.06 2013.05.27.10.29.00\n",
+            2,
+        ),
+        (
+            "808.06 2013.05.27.10.30.00\n808.06 2013.05.28.10.30.00\n",
+            2,
+        ),
     ] {
         fs::write(&path, text).unwrap();
         let error = Log::read(&path).unwrap_err();

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, Subcommand};
+use std::io::Write;
 use std::path::PathBuf;
 use welkin::Model;
 use welkin::output::replace_file;
@@ -170,6 +171,10 @@ fn open(path: &PathBuf) -> Result<Model> {
     Model::open(path).with_context(|| format!("{}", path.display()))
 }
 
+fn say(text: &str) -> Result<()> {
+    Ok(std::io::stdout().write_all(text.as_bytes())?)
+}
+
 /// Most bands of a fit.
 const MOST_BANDS: f64 = 1000.0;
 
@@ -188,7 +193,7 @@ impl KiderArgs {
             let sun = site.sun(&scan.middle())?;
             let fitted = fit(&model, &scan, sun, &choice)
                 .with_context(|| format!("{}", folder.display()))?;
-            println!("{}", scan_report::summary(&scan, &fitted));
+            say(&(scan_report::summary(&scan, &fitted) + "\n"))?;
             table += &scan_report::csv(&scan, &choice, &fitted);
             let bands = choice.wavelengths.iter();
             let measured = bands.map(|&nm| scan.band(nm, choice.step)).collect();
@@ -265,20 +270,15 @@ impl IrradianceArgs {
         air.visibility = fit.visibility;
         if self.effects {
             let last = readings[readings.len() - 1];
-            print!(
-                "{}",
-                global_fit::effects(&broadband, &last.sun, &air, ends)?
-            );
-            return Ok(());
+            return say(&global_fit::effects(&broadband, &last.sun, &air, ends)?);
         }
-        println!(
-            "# visibility {:.1} km, measured / model {:.4}, rms {:.4}, {low} logs under too low a sun",
+        let head = format!(
+            "# visibility {:.1} km, measured / model {:.4}, rms {:.4}, {low} logs under too low a sun\n",
             1e-3 * fit.visibility,
             fit.scale,
             fit.rms,
         );
-        print!("{}", global_fit::csv(&readings, &fit, self.sky_factor));
-        Ok(())
+        say(&(head + &global_fit::csv(&readings, &fit, self.sky_factor)))
     }
 }
 
@@ -287,7 +287,6 @@ impl NearInfraredArgs {
         let (sun, visibility) = (self.sun_elevation.to_radians(), 1e3 * self.visibility);
         let store = Store::open(&self.work, format!("near-infrared 1 {sun} {visibility}"))?;
         let rows = near_infrared::rows(&store, sun, visibility)?;
-        print!("{}", near_infrared::csv(&rows));
-        Ok(())
+        say(&near_infrared::csv(&rows))
     }
 }
