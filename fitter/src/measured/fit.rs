@@ -69,6 +69,8 @@ struct Problem<'a> {
     places: Vec<[f64; 2]>,
     /// By wavelength and sample.
     measured: Vec<Vec<f64>>,
+    /// The wavelengths that a band is the mean of: the sun has lines, and the model is averaged as the scan is.
+    inside: Vec<Vec<f64>>,
 }
 
 /// A sky to be compared: ln of visibility (m), albedo, north (rad), ln of the factor.
@@ -76,7 +78,12 @@ type Point = [f64; 4];
 
 /// Fits.
 pub fn fit(model: &Model, scan: &Scan, sun: Sun, choice: &Choice) -> Result<Fitted> {
-    let bands = choice.wavelengths.iter();
+    let bands = || choice.wavelengths.iter();
+    let inside: Vec<Vec<f64>> = bands().map(|&nm| scan.inside(nm, choice.step)).collect();
+    ensure!(
+        inside.iter().all(|band| !band.is_empty()),
+        "the scan has no wavelengths in some band"
+    );
     let problem = Problem {
         model,
         choice,
@@ -86,7 +93,8 @@ pub fn fit(model: &Model, scan: &Scan, sun: Sun, choice: &Choice) -> Result<Fitt
             .iter()
             .map(|s| [s.azimuth, s.elevation])
             .collect(),
-        measured: bands.map(|&nm| scan.band(nm, choice.step)).collect(),
+        measured: bands().map(|&nm| scan.band(nm, choice.step)).collect(),
+        inside,
     };
     let mut at = problem.start()?;
     // What is too near to the sun depends on the north.
@@ -192,14 +200,26 @@ impl Problem<'_> {
     }
 
     fn model_radiance(&self, at: &Point) -> Result<Vec<Vec<f64>>> {
-        let directions = self.directions(at[2]);
-        radiance(
+        let every = self.inside.concat();
+        let rows = radiance(
             self.model,
             &self.conditions(at),
             self.sun.intensity,
-            &directions,
-            &self.choice.wavelengths,
-        )
+            &self.directions(at[2]),
+            &every,
+        )?;
+        Ok(rows.iter().map(|row| self.bands(row)).collect())
+    }
+
+    /// Means over the bands.
+    fn bands(&self, every: &[f64]) -> Vec<f64> {
+        let mut rest = every;
+        let mut mean = |band: &Vec<f64>| {
+            let (now, later) = rest.split_at(band.len());
+            rest = later;
+            now.iter().sum::<f64>() / now.len() as f64
+        };
+        self.inside.iter().map(&mut mean).collect()
     }
 
     fn residuals(&self, at: &Point, used: &[(usize, usize)]) -> Result<Vec<f64>> {

@@ -71,13 +71,23 @@ impl Scan {
 
     /// Mean radiance of every sample within half a step of a wavelength, nm; NaN where nothing was measured.
     pub fn band(&self, wavelength: f64, step: f64) -> Vec<f64> {
-        let near = |&i: &usize| (self.wavelengths[i] - wavelength).abs() <= 0.5 * step + 1e-9;
-        let within: Vec<usize> = (0..self.wavelengths.len()).filter(near).collect();
+        let within: Vec<usize> = self.within(wavelength, step).collect();
         let mean = |sample: &Sample| {
             let sum: f64 = within.iter().map(|&i| sample.radiance[i]).sum();
             sum / within.len() as f64
         };
         self.samples.iter().map(mean).collect()
+    }
+
+    /// The wavelengths that [`Scan::band`] is the mean of.
+    pub fn inside(&self, wavelength: f64, step: f64) -> Vec<f64> {
+        let within = self.within(wavelength, step);
+        within.map(|i| self.wavelengths[i]).collect()
+    }
+
+    fn within(&self, wavelength: f64, step: f64) -> impl Iterator<Item = usize> {
+        let near = move |&i: &usize| (self.wavelengths[i] - wavelength).abs() <= 0.5 * step + 1e-9;
+        (0..self.wavelengths.len()).filter(near)
     }
 
     fn add(&mut self, index: usize, angles: [f64; 2], path: &Path) -> Result<(), MeasuredError> {
