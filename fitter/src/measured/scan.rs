@@ -219,7 +219,8 @@ fn spectrum(path: &Path) -> Result<(Vec<f64>, Vec<f64>), MeasuredError> {
         let (Ok(wavelength), Ok(value)) = (wavelength, value) else {
             return Err(wrong("not two numbers"));
         };
-        if !(value.abs() < BRIGHTEST) {
+        let of_a_sky = value.abs() < BRIGHTEST;
+        if !of_a_sky {
             return Err(wrong("no radiance of a sky in W m^-2 sr^-1 nm^-1"));
         }
         let last = wavelengths.last().copied().unwrap_or(100.0);
