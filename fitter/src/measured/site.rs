@@ -5,7 +5,6 @@ use super::capture_time::CaptureTime;
 use anyhow::{Context, Result};
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, SolarPositions, delta_t};
-use std::f64::consts::PI;
 
 /// A place on the Earth and its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,14 +61,12 @@ impl Site {
     }
 }
 
-/// (1 AU / distance of the sun)², within 10⁻⁴: Spencer 1971, *Fourier series representation of the position of the
-/// sun*.
+/// (1 AU / distance of the sun)², within 10⁻⁴: *Astronomical Almanac*, low-precision formulas of the sun.
 fn intensity(julian: f64) -> f64 {
-    const FIRST_OF_JANUARY: f64 = 2_451_544.5;
-    let turn = 2.0 * PI * (julian - FIRST_OF_JANUARY) / 365.2425;
-    let (s, c) = turn.sin_cos();
-    let (s2, c2) = (2.0 * turn).sin_cos();
-    1.000_110 + 0.034_221 * c + 0.001_280 * s + 0.000_719 * c2 + 0.000_077 * s2
+    const J2000: f64 = 2_451_545.0;
+    let anomaly = (357.528 + 0.985_600_3 * (julian - J2000)).to_radians();
+    let distance = 1.000_14 - 0.016_71 * anomaly.cos() - 0.000_14 * (2.0 * anomaly).cos();
+    distance.powi(-2)
 }
 
 #[cfg(test)]
