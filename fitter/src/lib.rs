@@ -18,6 +18,7 @@ pub mod finite;
 pub mod fitting;
 pub mod make;
 pub mod manifest;
+pub mod measured;
 mod non_negative;
 pub mod official;
 pub mod pack;

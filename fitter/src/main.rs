@@ -40,6 +40,8 @@ enum Command {
     Export(command::export::Args),
     /// Turn a file of another model into a welkin file.
     Import(command::import::Args),
+    /// Compare the model with skies that were measured.
+    Measure(command::measure::Args),
     /// Look into files of the official model of Wilkie et al. 2021, or evaluate them exactly.
     Official(command::official::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
@@ -80,6 +82,7 @@ fn main() -> ExitCode {
         Command::Atmosphere(args) => command::atmosphere::run(&args),
         Command::Export(args) => command::export::run(&args),
         Command::Import(args) => command::import::run(&args),
+        Command::Measure(args) => command::measure::run(&args),
         Command::Official(args) => command::official::run(&args),
         Command::Picture(args) => command::picture::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),

@@ -10,6 +10,7 @@ pub mod export;
 pub mod finite;
 pub mod import;
 pub mod make;
+pub mod measure;
 pub mod official;
 pub mod picture;
 mod plan;
