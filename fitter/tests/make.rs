@@ -1,6 +1,7 @@
 //! From a recipe to a model: a coarse one, judged where it was fitted to nothing.
 
 use std::path::Path;
+use std::process::Command;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use welkin::output::Target;
@@ -118,6 +119,27 @@ fn colours_are_the_same_without_the_other_wavelengths() {
     for (a, b) in sky(&small).into_iter().zip(sky(&made().model)) {
         assert!((a / b - 1.0).abs() < 2e-3, "{a} {b}");
     }
+}
+
+/// So that many machines can share them.
+#[test]
+fn units_of_a_recipe_have_names() {
+    let list = |more: &[&str]| {
+        let folder = tempfile::tempdir().unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+            .args(["units", "list", "--recipe", "desert", "--altitudes", "0,3000"])
+            .args(more)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (text(output.stdout), text(output.stderr))
+    };
+    let (units, _) = list(&[]);
+    assert!(units.contains("light-26209\tmissing"), "{units}");
+    assert!(units.contains("tensor-26209-3000\tmissing"), "{units}");
+    let (_, error) = list(&["--visibilities", "40"]);
+    assert!(error.contains("cannot be used with"), "{error}");
 }
 
 #[test]
