@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
 use welkin::output::Target;
 use welkin::{Conditions, Model};
 use welkin_fitter::make::{Bands, Quality, Request, Scene, judge::judge};
@@ -25,17 +24,6 @@ struct Made {
     folder: tempfile::TempDir,
     model: Model,
     report: String,
-}
-
-impl Made {
-    fn again(&self, bands: Bands) -> (Model, Duration) {
-        let out = self.folder.path().join("again.welkin");
-        let started = Instant::now();
-        request(bands)
-            .make(&self.folder.path().join("work"), &Target::new(&out))
-            .unwrap();
-        (open(&out), started.elapsed())
-    }
 }
 
 fn open(path: &Path) -> Model {
@@ -95,22 +83,23 @@ fn the_unbiased_tracer_confirms_a_draft() {
     assert!(errors.p95 < 0.15, "{}", errors.p95);
 }
 
+/// The second time nothing is traced; only what is written differs.
 #[test]
-fn an_interrupted_run_goes_on_from_its_units() {
-    let whole = std::fs::read(made().folder.path().join("urban.welkin")).unwrap();
-    let (_, _) = made().again(Bands::All);
-    let again = std::fs::read(made().folder.path().join("again.welkin")).unwrap();
-    assert_eq!(whole, again);
-    let units = std::fs::read_dir(made().folder.path().join("work")).unwrap();
-    let names: Vec<String> = units
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect();
-    assert!(names.iter().any(|n| n.starts_with("light-")), "{names:?}");
-}
+fn a_second_run_goes_on_from_the_units_of_the_first() {
+    let work = made().folder.path().join("work");
+    let light = || {
+        let entries = std::fs::read_dir(&work).unwrap().map(Result::unwrap);
+        let mut units = entries.filter(|e| e.path().extension().is_some_and(|e| e == "unit"));
+        let light = units.find(|e| e.file_name().to_string_lossy().starts_with("light-"));
+        light.unwrap().metadata().unwrap().modified().unwrap()
+    };
+    let (before, whole) = (light(), std::fs::read(work.join("whole.welkin")).unwrap());
+    let out = made().folder.path().join("small.welkin");
+    request(Bands::Rgb).make(&work, &Target::new(&out)).unwrap();
+    assert_eq!(light(), before);
+    assert_eq!(std::fs::read(work.join("whole.welkin")).unwrap(), whole);
 
-#[test]
-fn colours_are_the_same_without_the_other_wavelengths() {
-    let (small, _) = made().again(Bands::Rgb);
+    let small = open(&out);
     assert!(small.file_bytes() < made().model.file_bytes());
     let sky = |model: &Model| {
         let sky = model.sky(&conditions()).unwrap();
@@ -127,7 +116,14 @@ fn units_of_a_recipe_have_names() {
     let list = |more: &[&str]| {
         let folder = tempfile::tempdir().unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
-            .args(["units", "list", "--recipe", "desert", "--altitudes", "0,3000"])
+            .args([
+                "units",
+                "list",
+                "--recipe",
+                "desert",
+                "--altitudes",
+                "0,3000",
+            ])
             .args(more)
             .current_dir(folder.path())
             .output()
