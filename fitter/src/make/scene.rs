@@ -28,6 +28,8 @@ pub enum Bands {
 /// The default model's, m and degrees.
 const ALTITUDES: [f64; 2] = [0.0, 99_000.0];
 const ELEVATIONS: [f64; 2] = [-12.0, 90.0];
+/// Nodes nearer to an end than this, in cube roots of a metre, are as good as the end.
+const NEAR: f64 = 0.5;
 /// Fewest intervals of the solar elevation.
 const FEWEST: usize = 8;
 
@@ -52,7 +54,7 @@ impl Scene {
         );
         let between = grid.altitudes.iter().copied();
         // Nodes beside the ends would only repeat them.
-        let apart = |h: &f64| h.cbrt() > low.cbrt() + 1.0 && h.cbrt() < high.cbrt() - 1.0;
+        let apart = |h: &f64| h.cbrt() > low.cbrt() + NEAR && h.cbrt() < high.cbrt() - NEAR;
         let inner: Vec<f64> = between.filter(apart).collect();
         let mut altitudes = [vec![low], inner, vec![high]].concat();
         altitudes.dedup();
