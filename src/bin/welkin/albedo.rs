@@ -50,6 +50,14 @@ impl Ground {
         }
     }
 
+    /// Where it is no number.
+    pub fn by_wavelength(&self) -> Option<&Albedo> {
+        match self {
+            Self::Grey(_) => None,
+            Self::ByWavelength(albedo) => Some(albedo),
+        }
+    }
+
     /// The model over this ground.
     pub fn under(&self, model: Model) -> Model {
         match self {
