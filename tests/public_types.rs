@@ -54,6 +54,7 @@ all_shared! {
     Chunk,
     ColumnTable,
     ColumnView<'static>,
+    Albedo,
     Conditions,
     Contents,
     DensityTable,

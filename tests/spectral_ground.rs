@@ -274,6 +274,7 @@ fn colours_are_sums_over_the_spectrum() {
     }
 }
 
+/// As well as the page on types says: to 0.1 % at one wavelength, to 1 % in a band that reaches over an edge.
 #[test]
 fn bands_are_integrals() {
     let wide = ([500.0, 600.0, 750.0], [0.0, 1.0, 0.0]);
@@ -305,7 +306,7 @@ fn bands_are_integrals() {
             let wanted = [sum, at(715.0), at(550.5)];
             for b in 0..3 {
                 let off = f64::from(got[b]) / wanted[b] - 1.0;
-                assert!(off.abs() < [6e-3, 2e-4, 2e-4][b], "{view:?} {b}: {off}");
+                assert!(off.abs() < [1e-2, 1e-3, 1e-3][b], "{view:?} {b}: {off}");
                 assert!(ratio(fast[b], got[b]) < 0.01 && ratio(stokes[b].i, got[b]) < 1e-5);
             }
         }

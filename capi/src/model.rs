@@ -209,9 +209,10 @@ pub unsafe extern "C" fn welkin_model_over(
 ) -> WelkinStatus {
     call!(error, {
         give(over, || {
+            let model = shared(model, "model")?;
             let wavelengths = slice(wavelengths, count, "wavelengths")?;
             let albedo = Albedo::table(wavelengths, slice(albedos, count, "albedos")?)?;
-            Ok(WelkinModel::new(shared(model, "model")?.0.over(&albedo)))
+            Ok(WelkinModel::new(model.0.over(&albedo)))
         })?;
     })
 }

@@ -273,7 +273,7 @@ void plans_and_the_moon(const Model &model, const Conditions &conditions) {
     const double black[] = {0.0, 0.0, 0.0};
     const Model coal = meadow.over(wavelengths, black);
     EXPECT(Sky(meadow, conditions).radiance_at(UP, 740.0) > Sky(coal, conditions).radiance_at(UP, 740.0));
-    EXPECT_ERROR(WELKIN_STATUS_LENGTH, model.over(wavelengths, std::vector<double>{0.1}));
+    expect_error(WELKIN_STATUS_LENGTH, [&] { model.over(wavelengths, std::vector<double>{0.1}); });
 }
 
 // A span is made of arrays of its elements, of temporary ones only to read.
@@ -348,7 +348,8 @@ void moved_from(const Model &model, const Conditions &conditions) {
 
     expect_nulls(
         [&] { no_model.verify(); }, [&] { no_model.wavelengths(); }, [&] { no_model.ranges(); },
-        [&] { no_model.moonlit(Moon()); }, [&] { no_model.over(one_number, one_number); }, [&] { no_model.plan(budget); }, [&] { no_model.load(plan); },
+        [&] { no_model.moonlit(Moon()); }, [&] { no_model.over(lengths, lengths); },
+        [&] { no_model.plan(budget); }, [&] { no_model.load(plan); },
         [&] { model.load(no_plan); }, [&] { no_plan.summary(); }, [&] { Sky(no_model, conditions); },
         [&] { ColourSky(no_model, conditions); }, [&] { PolarisedSky(no_model, conditions); },
         [&] { SolarDisc(no_model, conditions); }, [&] { SunCourse(no_model, conditions, {0.3, 0.31}); },

@@ -39,6 +39,5 @@ pub use camera_volume::CameraVolume;
 pub use colour_segments::ColourAerialPerspective;
 pub use joined::JoinedAerialPerspective;
 pub use joined_stokes::JoinedPolarisedAerialPerspective;
-pub(crate) use over_ground::OverGround;
 pub use prepared::AerialPerspective;
 pub use sky_difference::SkyDifference;

@@ -2,21 +2,11 @@
 
 use super::prepared::AerialPerspective;
 use crate::error::Result;
-use crate::ground::{Albedo, BetweenGrounds};
-
-/// The aerial perspective itself has at each node the ground of that.
-#[derive(Clone, Debug)]
-pub(crate) struct OverGround {
-    pub grounds: BetweenGrounds,
-    /// Over the other ground.
-    pub second: AerialPerspective,
-    /// For colours, over the albedos that the ground has in them.
-    pub colour: AerialPerspective,
-}
+use crate::ground::{Albedo, OverGround};
 
 impl AerialPerspective {
     /// The same, where its ground has this albedo.
-    pub(crate) fn with_ground(self, over: OverGround) -> Self {
+    pub(crate) fn with_ground(self, over: OverGround<Self>) -> Self {
         Self {
             over: Some(Box::new(over)),
             ..self
@@ -35,7 +25,7 @@ impl AerialPerspective {
     }
 }
 
-impl OverGround {
+impl OverGround<AerialPerspective> {
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
         self.second.set_solar_azimuth(azimuth)?;
         self.colour.set_solar_azimuth(azimuth)

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::file_tables::FileTables;
-use super::over_ground::OverGround;
 use super::reach::Reach;
 use super::scatterers::Scatterers;
 use super::source_expansion::Expansion;
@@ -13,6 +12,7 @@ use super::sun_transmittance::Beam;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::{Head, Kind, visibility_node};
+use crate::ground::OverGround;
 use crate::kernel::axis::{Stencil, hermite, linear};
 use crate::kernel::math::LANES;
 use crate::model::{Model, Nodes};
@@ -65,7 +65,7 @@ pub struct AerialPerspective {
     pub(super) xyz: Vec<[[f32; LANES]; 3]>,
     /// XYZ of the unattenuated sun, for the transmittance of colours.
     pub(super) white: [f32; 3],
-    pub(super) over: Option<Box<OverGround>>,
+    pub(super) over: Option<Box<OverGround<AerialPerspective>>>,
 }
 
 impl AerialPerspective {

@@ -2,8 +2,9 @@
 //!
 //! `response` holds curves, `spectral_axis` knows what light and air are between nodes, `examples` typical spectra.
 //! `band_fit` finds weights of nodes for the light and `transmittance_fit` exponentials for the air, both with
-//! `few_columns` and `least_squares`; `band_projection` (with `powers`) and `mixture` apply them, and
-//! the rest are the public faces.
+//! `few_columns` and `least_squares`; `band_projection` (with `powers`) and `mixture` apply them.
+//! `effective_albedo` finds what a ground by wavelength is to sums over nodes: to those of `colour_ground` (with
+//! `colour_nodes` and `colour_matching`) and of `band_ground`. The rest are the public faces.
 
 mod band_air;
 mod band_fit;

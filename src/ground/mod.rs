@@ -2,9 +2,11 @@
 
 mod albedo;
 mod between_grounds;
+mod over_ground;
 
 pub use albedo::Albedo;
 pub(crate) use between_grounds::{BetweenGrounds, reflected};
+pub(crate) use over_ground::OverGround;
 
 /// The ground of a model.
 #[derive(Debug)]

@@ -1,9 +1,10 @@
 //! Aerial perspective over the ground of a model.
 
-use crate::aerial_perspective::{AerialPerspective, OverGround};
+use crate::aerial_perspective::AerialPerspective;
 use crate::bands::coloured_over;
 use crate::conditions::Conditions;
 use crate::error::Result;
+use crate::ground::OverGround;
 use crate::model::Model;
 
 impl Model {

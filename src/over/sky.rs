@@ -3,11 +3,11 @@
 use crate::bands::coloured_over;
 use crate::conditions::Conditions;
 use crate::error::Result;
-use crate::ground::BetweenGrounds;
+use crate::ground::{BetweenGrounds, OverGround};
 use crate::model::Model;
 use crate::polarisation::PolarisedSky;
+use crate::sky::Sky;
 use crate::sky::prepare::NodeWeights;
-use crate::sky::{OverGround, Sky};
 
 impl Model {
     /// Prepares a sky: after this, queries cost no allocation and no system call.

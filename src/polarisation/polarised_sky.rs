@@ -8,12 +8,12 @@ use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
-use crate::ground::BetweenGrounds;
+use crate::ground::{BetweenGrounds, OverGround};
 use crate::kernel::math::{LANES, finite};
 use crate::model::{Model, Nodes};
 use crate::phase_function::SunAngle;
 use crate::sky::prepare::NodeWeights;
-use crate::sky::{MOST_WAVELENGTHS, OverGround, Sky, check_length};
+use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 
 /// A clear sky whose light is polarised, at one set of conditions.
 ///

@@ -12,12 +12,12 @@ use crate::error::{Error, Result};
 use crate::estimate::Sightline;
 use crate::format::Head;
 use crate::geometry::{Planet, Ray, Side};
+use crate::ground::OverGround;
 use crate::kernel::math::{LANES, finite};
 use crate::phase_function::SunAngle;
 pub(crate) use crate::spectrum::MOST_WAVELENGTHS;
 use crate::spectrum::SpectralInterpolation;
 pub use colour_space::{ColourSpace, xyz_to_linear_srgb};
-pub(crate) use over_ground::OverGround;
 use tables::{Lookup, Row, Tables, azimuth};
 
 /// The clear sky at one set of conditions.
@@ -53,7 +53,7 @@ pub struct Sky {
     solar_axis: [f64; 2],
     interpolation: Arc<SpectralInterpolation>,
     tables: Tables,
-    over: Option<Box<OverGround>>,
+    over: Option<Box<OverGround<Sky>>>,
 }
 
 impl Sky {

@@ -2,21 +2,11 @@
 
 use super::{MOST_WAVELENGTHS, Sky};
 use crate::error::Result;
-use crate::ground::{Albedo, BetweenGrounds};
-
-/// The sky itself has at each node the ground of that.
-#[derive(Clone, Debug)]
-pub(crate) struct OverGround {
-    pub grounds: BetweenGrounds,
-    /// Over the other ground.
-    pub second: Sky,
-    /// For colours, over the albedos that the ground has in them.
-    pub colour: Sky,
-}
+use crate::ground::{Albedo, OverGround};
 
 impl Sky {
     /// The same sky, where its ground has this albedo.
-    pub(crate) fn with_ground(self, over: OverGround) -> Self {
+    pub(crate) fn with_ground(self, over: OverGround<Self>) -> Self {
         Self {
             over: Some(Box::new(over)),
             ..self
@@ -24,7 +14,7 @@ impl Sky {
     }
 
     /// What there is besides.
-    pub(crate) fn over_ground(&self) -> Option<&OverGround> {
+    pub(crate) fn over_ground(&self) -> Option<&OverGround<Self>> {
         self.over.as_deref()
     }
 
@@ -42,7 +32,7 @@ impl Sky {
     }
 }
 
-impl OverGround {
+impl OverGround<Sky> {
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
         self.second.set_solar_azimuth(azimuth)?;
         self.colour.set_solar_azimuth(azimuth)

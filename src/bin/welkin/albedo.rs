@@ -50,6 +50,14 @@ impl Ground {
         }
     }
 
+    /// Where it is no number.
+    pub fn by_wavelength(&self) -> Option<&Albedo> {
+        match self {
+            Self::Grey(_) => None,
+            Self::ByWavelength(albedo) => Some(albedo),
+        }
+    }
+
     /// The model over this ground.
     pub fn under(&self, model: Model) -> Model {
         match self {
@@ -140,7 +148,7 @@ mod tests {
         assert!(refused("400,0.1\n500,\n").starts_with("line 3: albedo is empty"));
         assert!(refused("400,0.1\n500,1.5\n").starts_with("line 3: albedo"));
         assert!(refused("400,0.1\n500,NaN\n").starts_with("line 3: albedo"));
-        assert!(refused("500,0.1\n400,0.1\n").starts_with("line 3: albedo: wavelengths"));
+        assert!(refused("500,0.1\n400,0.1\n").starts_with("line 3: invalid albedo: wavelengths"));
         assert!(refused("-4,0.1\n").starts_with("line 2: "));
         assert!(refused("400,0.1\n500\n").contains("line: 3"));
         assert!(refused("").contains("at least one"));

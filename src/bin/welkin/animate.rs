@@ -94,6 +94,10 @@ impl Options {
             let unreadable = |e| Failure::message(format!("{}: {e}", path.display()));
             hasher.update(&std::fs::read(path).map_err(unreadable)?);
         }
+        if let Some(ground) = self.render.scene.ground() {
+            // What its table holds, which may change under the same name.
+            hasher.update(format!("{ground:?}").as_bytes());
+        }
         Ok(hasher.finalize())
     }
 }

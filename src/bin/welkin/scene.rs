@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use welkin::{Conditions, Model};
+use welkin::{Albedo, Conditions, Model};
 
 use crate::albedo::Ground;
 use crate::failure::{Result, plain};
@@ -43,6 +43,11 @@ impl Scene {
     /// The model over the ground of the scene, where that has an albedo for each wavelength.
     pub fn over_ground(&self, model: Model) -> Model {
         self.albedo.under(model)
+    }
+
+    /// The albedo of the ground, where that has one for each wavelength.
+    pub fn ground(&self) -> Option<&Albedo> {
+        self.albedo.by_wavelength()
     }
 
     /// Where the sun stands still.
