@@ -3,6 +3,7 @@
 //! `WELKIN_BLESS=1 cargo test --release --features cli --test conformance` writes it anew.
 #![cfg(feature = "zstd")]
 
+mod axis;
 #[path = "../common/mod.rs"]
 mod common;
 mod files;

@@ -4,8 +4,9 @@
 //! that scatters most; what their own adds to it must be stored with the multiply scattered light, which is meant to be
 //! smooth. So the kinds are chosen for small differences.
 
-use super::spectral_medium::{Aerosol, NW, Part, Spectrum};
+use super::spectral_medium::{Aerosol, NW, Part, Spectrum, parts};
 use crate::atmosphere::{Atmosphere, column};
+use anyhow::Result;
 
 /// Wavelength that decides, nm.
 const GREEN: f64 = 550.0;
@@ -19,32 +20,46 @@ struct Member {
     spectrum: Spectrum,
 }
 
-/// Assigns the particles of all `parts` to kinds; returns the asymmetry parameters of these.
-pub fn assign(atmosphere: &Atmosphere, parts: &mut [Part]) -> [Spectrum; 2] {
-    let distances = atmosphere.wavelengths.iter().map(|w| (w - GREEN).abs());
-    let green = distances
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map_or(0, |(w, _)| w);
-    let members = members(atmosphere, parts, green);
-    let [fine, coarse] = split(&members);
-    let [a, b] = [&fine, &coarse].map(|kind| dominant(kind).map_or([0.0; NW], |m| m.spectrum));
-    for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
-        aerosol.kind = usize::from(coarse.iter().any(|m| m.spectrum == aerosol.g));
-    }
-    [a, b]
+/// Two kinds of particles, and which belong to the second.
+pub struct Kinds {
+    /// Asymmetry parameters that they count with.
+    pub main: [Spectrum; 2],
+    coarse: Vec<Spectrum>,
 }
 
-/// Different phase functions by increasing asymmetry parameter.
-fn members(atmosphere: &Atmosphere, parts: &[Part], green: usize) -> Vec<Member> {
-    let mut out: Vec<Member> = vec![];
+impl Kinds {
+    /// Those of the particles of all these airs together: a file has one phase function per kind.
+    pub fn of<'a>(airs: impl IntoIterator<Item = &'a Atmosphere>) -> Result<Self> {
+        let mut members = vec![];
+        for air in airs {
+            note_members(air, &parts(air)?.0, &mut members);
+        }
+        members.sort_by(|a, b| a.g.total_cmp(&b.g));
+        let [fine, coarse] = split(&members);
+        Ok(Self {
+            main: [&fine, &coarse].map(|kind| dominant(kind).map_or([0.0; NW], |m| m.spectrum)),
+            coarse: coarse.iter().map(|m| m.spectrum).collect(),
+        })
+    }
+
+    /// Assigns the particles of `parts`, which are among those that the kinds are of.
+    pub fn assign(&self, parts: &mut [Part]) {
+        for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
+            aerosol.kind = usize::from(self.coarse.contains(&aerosol.g));
+        }
+    }
+}
+
+/// Adds to `members` what an air has of each phase function.
+fn note_members(atmosphere: &Atmosphere, parts: &[Part], members: &mut Vec<Member>) {
+    let green = green(atmosphere);
     for (part, constituent) in parts.iter().zip(&atmosphere.constituents) {
         let height = column(&atmosphere.altitudes, &constituent.profile);
         for Aerosol { scattering, g, .. } in &part.aerosols {
             let depth = height * f64::from(scattering[green]);
-            match out.iter_mut().find(|m| m.spectrum == *g) {
+            match members.iter_mut().find(|m| m.spectrum == *g) {
                 Some(known) => known.depth += depth,
-                None => out.push(Member {
+                None => members.push(Member {
                     g: f64::from(g[green]),
                     depth,
                     spectrum: *g,
@@ -52,8 +67,13 @@ fn members(atmosphere: &Atmosphere, parts: &[Part], green: usize) -> Vec<Member>
             }
         }
     }
-    out.sort_by(|a, b| a.g.total_cmp(&b.g));
-    out
+}
+
+/// The wavelength nearest to green.
+fn green(atmosphere: &Atmosphere) -> usize {
+    let distances = atmosphere.wavelengths.iter().map(|w| (w - GREEN).abs());
+    let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or(0, |(w, _)| w)
 }
 
 /// The division that costs least; the second kind is that of the sharper peaks.

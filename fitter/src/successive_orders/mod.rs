@@ -19,6 +19,7 @@ pub mod view_rays;
 
 /// The grid of the moments.
 pub use self::moments as grid;
+pub use kinds::Kinds;
 pub use moments::Moments;
 pub use ray_points::Path;
 pub use solve::{LightField, Settings, solve};

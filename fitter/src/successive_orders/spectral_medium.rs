@@ -1,6 +1,6 @@
 //! An atmosphere prepared for spectral loops: coefficients as fixed-length arrays over wavelength.
 
-use super::kinds;
+use super::kinds::Kinds;
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
 use anyhow::{Result, bail, ensure};
@@ -75,61 +75,20 @@ impl Medium {
     /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is
     /// a point).
     pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {
-        ensure!(
-            atmosphere.wavelengths.len() == NW,
-            "the solver needs {NW} wavelengths"
-        );
-        ensure!(
-            atmosphere.constituents.len() <= MAX_CONSTITUENTS,
-            "too many constituents"
-        );
-        let mut polarising = [1.0; NW];
-        let mut parts = vec![];
-        for constituent in &atmosphere.constituents {
-            let mut part = Part {
-                extinction: spectrum(&constituent.extinction),
-                rayleigh: [0.0; NW],
-                aerosols: vec![],
-                legendre: vec![[0.0; NW]; DEGREE + 1],
-            };
-            for scatterer in &constituent.scatterers {
-                let scattering = spectrum(&scatterer.scattering);
-                match &scatterer.phase {
-                    Phase::Rayleigh { depolarisation } => {
-                        part.rayleigh = scattering;
-                        for (d, rho) in polarising.iter_mut().zip(depolarisation) {
-                            *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
-                        }
-                    }
-                    Phase::HenyeyGreenstein { g } => {
-                        let g = spectrum(g);
-                        for (l, sum) in part.legendre.iter_mut().enumerate() {
-                            for w in 0..NW {
-                                sum[w] += scattering[w] * g[w].powi(l as i32);
-                            }
-                        }
-                        part.aerosols.push(Aerosol {
-                            scattering,
-                            g,
-                            kind: 0,
-                        });
-                    }
-                    Phase::Tabulated(_) => bail!(
-                        "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
-                        scatterer.name
-                    ),
-                }
-            }
-            parts.push(part);
-        }
-        let sun = SunColumns::new(&atmosphere);
-        let kinds = kinds::assign(&atmosphere, &mut parts);
+        let kinds = Kinds::of([&atmosphere])?;
+        Self::in_kinds(atmosphere, sun_radius, &kinds)
+    }
+
+    /// The same with kinds of particles that it shares with other air.
+    pub fn in_kinds(atmosphere: Atmosphere, sun_radius: f64, kinds: &Kinds) -> Result<Self> {
+        let (mut parts, polarising) = parts(&atmosphere)?;
+        kinds.assign(&mut parts);
         Ok(Self {
+            sun: SunColumns::new(&atmosphere),
             atmosphere,
             parts,
             polarising,
-            kinds,
-            sun,
+            kinds: kinds.main,
             sun_radius,
         })
     }
@@ -194,6 +153,59 @@ impl Medium {
         }
         sums
     }
+}
+
+/// What an atmosphere of [`NW`] wavelengths is made of, all particles of the first kind, and the polarising share of
+/// Rayleigh scattering.
+pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
+    ensure!(
+        atmosphere.wavelengths.len() == NW,
+        "the solver needs {NW} wavelengths"
+    );
+    ensure!(
+        atmosphere.constituents.len() <= MAX_CONSTITUENTS,
+        "too many constituents"
+    );
+    let mut polarising = [1.0; NW];
+    let mut parts = vec![];
+    for constituent in &atmosphere.constituents {
+        let mut part = Part {
+            extinction: spectrum(&constituent.extinction),
+            rayleigh: [0.0; NW],
+            aerosols: vec![],
+            legendre: vec![[0.0; NW]; DEGREE + 1],
+        };
+        for scatterer in &constituent.scatterers {
+            let scattering = spectrum(&scatterer.scattering);
+            match &scatterer.phase {
+                Phase::Rayleigh { depolarisation } => {
+                    part.rayleigh = scattering;
+                    for (d, rho) in polarising.iter_mut().zip(depolarisation) {
+                        *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
+                    }
+                }
+                Phase::HenyeyGreenstein { g } => {
+                    let g = spectrum(g);
+                    for (l, sum) in part.legendre.iter_mut().enumerate() {
+                        for w in 0..NW {
+                            sum[w] += scattering[w] * g[w].powi(l as i32);
+                        }
+                    }
+                    part.aerosols.push(Aerosol {
+                        scattering,
+                        g,
+                        kind: 0,
+                    });
+                }
+                Phase::Tabulated(_) => bail!(
+                    "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
+                    scatterer.name
+                ),
+            }
+        }
+        parts.push(part);
+    }
+    Ok((parts, polarising))
 }
 
 /// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's
