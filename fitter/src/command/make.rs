@@ -31,6 +31,9 @@ pub struct Args {
     /// How finely the air is traced and fitted.
     #[arg(long, value_enum, default_value = "good")]
     quality: QualityArg,
+    /// Phase functions of OPAC's particles: as the recipe says, or of spheres, by Lorenz-Mie theory.
+    #[arg(long, value_enum, default_value = "recipe")]
+    phase: PhaseArg,
     /// Folder for finished work units, from which an interrupted run goes on; without it one named after the recipe, in
     /// `work`.
     #[arg(long)]
@@ -41,6 +44,12 @@ pub struct Args {
 enum BandsArg {
     All,
     Rgb,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum PhaseArg {
+    Recipe,
+    Mie,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -69,6 +78,10 @@ fn range(text: &str) -> Result<[f64; 2]> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let recipe = find(&args.recipe)?;
+    let recipe = match args.phase {
+        PhaseArg::Recipe => recipe,
+        PhaseArg::Mie => recipe.with_mie()?,
+    };
     let work = match &args.work {
         Some(work) => work.clone(),
         None => Path::new("work").join(args.recipe.file_stem().unwrap_or("recipe".as_ref())),

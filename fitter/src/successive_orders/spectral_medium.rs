@@ -1,9 +1,11 @@
 //! An atmosphere prepared for spectral loops: coefficients as fixed-length arrays over wavelength.
 
 use super::kinds::Kinds;
+use super::lobes::Lobes;
+use super::phase_table::{AngleFunction, PhaseTable, beside};
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 
 /// Wavelengths that are treated together.
 pub const NW: usize = 24;
@@ -22,12 +24,19 @@ const BLACK: f32 = 25.0;
 /// Isotropic share of a phase function, per steradian.
 pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
 
-/// A Henyey-Greenstein part of a constituent.
+/// Most lobes that stand for a tabulated phase function.
+pub const LOBES: usize = 5;
+
+/// Particles of a constituent.
 pub struct Aerosol {
     /// Scattering coefficient where the profile is 1, m⁻¹.
     pub scattering: Spectrum,
-    /// Asymmetry parameter.
-    pub g: Spectrum,
+    /// Their phase function, or what is nearest to it.
+    pub lobes: Lobes,
+    /// Their phase function if it is tabulated.
+    pub table: Option<PhaseTable>,
+    /// What it is beside that of its kind, as far as it is smooth; none where both are one lobe.
+    pub beside: Option<AngleFunction>,
     /// The kind that it counts among, an index into [`Medium::kinds`].
     pub kind: usize,
 }
@@ -38,9 +47,9 @@ pub struct Part {
     pub extinction: Spectrum,
     /// Rayleigh scattering coefficient, m⁻¹ where the profile is 1; zero if there is none.
     pub rayleigh: Spectrum,
-    /// Its Henyey-Greenstein parts.
+    /// Its particles.
     pub aerosols: Vec<Aerosol>,
-    /// Σ scattering · g^l for each degree l.
+    /// Σ scattering · moment of the phase function, which is g^l, for each degree l.
     pub legendre: Vec<Spectrum>,
 }
 
@@ -52,8 +61,8 @@ pub struct Medium {
     pub parts: Vec<Part>,
     /// Polarising share Δ = (1−ρ)/(1+ρ/2) of Rayleigh scattering.
     pub polarising: Spectrum,
-    /// Asymmetry parameters of the two kinds of particles that the model tells apart in single scattering.
-    pub kinds: [Spectrum; 2],
+    /// Phase functions of the two kinds of particles that the model tells apart in single scattering.
+    pub kinds: [Lobes; 2],
     sun: SunColumns,
     sun_radius: f64,
 }
@@ -83,12 +92,18 @@ impl Medium {
     pub fn in_kinds(atmosphere: Atmosphere, sun_radius: f64, kinds: &Kinds) -> Result<Self> {
         let (mut parts, polarising) = parts(&atmosphere)?;
         kinds.assign(&mut parts);
+        for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
+            let (own, kind) = (&aerosol.lobes, &kinds.main[aerosol.kind]);
+            if aerosol.table.is_some() || own.count().max(kind.count()) > 1 {
+                aerosol.beside = Some(beside(aerosol.table.as_ref(), own, kind));
+            }
+        }
         Ok(Self {
             sun: SunColumns::new(&atmosphere),
             atmosphere,
             parts,
             polarising,
-            kinds: kinds.main,
+            kinds: kinds.main.clone(),
             sun_radius,
         })
     }
@@ -185,27 +200,48 @@ pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
                     }
                 }
                 Phase::HenyeyGreenstein { g } => {
-                    let g = spectrum(g);
-                    for (l, sum) in part.legendre.iter_mut().enumerate() {
+                    part.aerosols.push(henyey_greenstein_part(
+                        scattering,
+                        spectrum(g),
+                        &mut part.legendre,
+                    ));
+                }
+                Phase::Tabulated(matrix) => {
+                    let table = PhaseTable::new(matrix.clone());
+                    for (sum, moment) in part.legendre.iter_mut().zip(table.moments()) {
                         for w in 0..NW {
-                            sum[w] += scattering[w] * g[w].powi(l as i32);
+                            sum[w] += scattering[w] * moment[w];
                         }
                     }
                     part.aerosols.push(Aerosol {
                         scattering,
-                        g,
+                        lobes: table.lobes(LOBES),
+                        table: Some(table),
+                        beside: None,
                         kind: 0,
                     });
                 }
-                Phase::Tabulated(_) => bail!(
-                    "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
-                    scatterer.name
-                ),
             }
         }
         parts.push(part);
     }
     Ok((parts, polarising))
+}
+
+/// Adds its moments to `legendre`.
+fn henyey_greenstein_part(scattering: Spectrum, g: Spectrum, legendre: &mut [Spectrum]) -> Aerosol {
+    for (l, sum) in legendre.iter_mut().enumerate() {
+        for w in 0..NW {
+            sum[w] += scattering[w] * g[w].powi(l as i32);
+        }
+    }
+    Aerosol {
+        scattering,
+        lobes: Lobes::one(g),
+        table: None,
+        beside: None,
+        kind: 0,
+    }
 }
 
 /// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's
