@@ -974,15 +974,27 @@ fn grounds_by_wavelength() {
         &mut light
     ));
     let expected = wanted.sky(&own).unwrap();
-    same(&[light], &[expected.radiance_at(DIRECTIONS[1], 715.0).unwrap()]);
-    good!(welkin_sky_xyz(sky, DIRECTIONS[1].as_ptr(), rgb.as_mut_ptr()));
+    same(
+        &[light],
+        &[expected.radiance_at(DIRECTIONS[1], 715.0).unwrap()],
+    );
+    good!(welkin_sky_xyz(
+        sky,
+        DIRECTIONS[1].as_ptr(),
+        rgb.as_mut_ptr()
+    ));
     same(&rgb, &expected.xyz(DIRECTIONS[1]).unwrap());
     let green = rgb;
-    good!(welkin_sky_xyz(plain, DIRECTIONS[1].as_ptr(), rgb.as_mut_ptr()));
+    good!(welkin_sky_xyz(
+        plain,
+        DIRECTIONS[1].as_ptr(),
+        rgb.as_mut_ptr()
+    ));
     assert_ne!(rgb, green);
     let mut none = null_mut();
     let falling = [500.0, 400.0];
-    let text = bad!(Value: welkin_model_over(model, falling.as_ptr(), albedos.as_ptr(), 2, &mut none));
+    let text =
+        bad!(Value: welkin_model_over(model, falling.as_ptr(), albedos.as_ptr(), 2, &mut none));
     assert!(text.contains("increase"), "{text}");
     let bright = [0.1, 1.2];
     bad!(Range: welkin_model_over(model, wavelengths.as_ptr(), bright.as_ptr(), 2, &mut none));
