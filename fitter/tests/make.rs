@@ -11,6 +11,7 @@ use welkin_fitter::recipe::Recipe;
 fn request(bands: Bands) -> Request {
     Request {
         recipe: Recipe::named("urban").unwrap(),
+        axis: None,
         scene: Scene {
             altitudes: [0.0, 0.0],
             elevations: [5.0, 40.0].map(f64::to_radians),
