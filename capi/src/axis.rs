@@ -41,7 +41,9 @@ unsafe fn axis(model: *const WelkinModel) -> Outcome<ModelAxis> {
 fn characters<const N: usize>(text: &str) -> [c_char; N] {
     let mut out = [0; N];
     let bytes = text.bytes().take(N - 1);
-    out.iter_mut().zip(bytes).for_each(|(c, byte)| *c = byte as c_char);
+    out.iter_mut()
+        .zip(bytes)
+        .for_each(|(c, byte)| *c = byte as c_char);
     out
 }
 

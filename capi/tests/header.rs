@@ -5,9 +5,9 @@ use std::path::Path;
 
 use cbindgen::{Builder, Config, EnumConfig, ExportConfig, Language, RenameRule, Style};
 use welkin::{
-    WelkinAbi, WelkinAxis, WelkinBakeError, WelkinBudget, WelkinCameraVolume, WelkinConditions, WelkinError,
-    WelkinMoon, WelkinPlanSummary, WelkinPolarisationFrame, WelkinRanges, WelkinSample,
-    WelkinStokes,
+    WelkinAbi, WelkinAxis, WelkinBakeError, WelkinBudget, WelkinCameraVolume, WelkinConditions,
+    WelkinError, WelkinMoon, WelkinPlanSummary, WelkinPolarisationFrame, WelkinRanges,
+    WelkinSample, WelkinStokes,
 };
 
 const INTRODUCTION: &str = include_str!("introduction.h");

@@ -52,12 +52,16 @@ impl PyModelAxis {
 
     /// The visibility, m, that stands for a value: what conditions take. Raises RangeError beyond `range`.
     fn visibility(&self, py: Python<'_>, value: f64) -> PyResult<f64> {
-        self.axis.visibility(value).map_err(|error| raise(py, error))
+        self.axis
+            .visibility(value)
+            .map_err(|error| raise(py, error))
     }
 
     /// The value that a visibility in m stands for.
     fn value(&self, py: Python<'_>, visibility: f64) -> PyResult<f64> {
-        self.axis.value(visibility).map_err(|error| raise(py, error))
+        self.axis
+            .value(visibility)
+            .map_err(|error| raise(py, error))
     }
 
     fn __repr__(&self) -> String {
