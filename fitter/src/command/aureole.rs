@@ -4,7 +4,7 @@ use super::atmosphere::draw::{Panel, Series, svg};
 use super::make::find;
 use anyhow::{Context, Result, ensure};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use welkin::Model;
 use welkin::output::{Target, write};
 use welkin_fitter::aureole::cost::Cost;
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<()> {
         let panels = panels(&models, &traced, (&nodes, &args.wavelengths))?;
         let title = format!("{}, sun at {sun}°, along its vertical", recipe.name());
         let text = svg(&title, &panels)?;
-        write(&[(&Target::new(path.as_ref()), text.as_bytes())])?;
+        write(&[(&Target::new(Path::new(path)), text.as_bytes())])?;
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 pub type Lobes = Vec<[f64; 2]>;
 
 /// Sharper lobes would lose digits in single precision: at the centre, 1 + g² − 2g cos θ is (1 − g)².
-const SHARPEST: f64 = 0.985;
+const SHARPEST: f64 = 0.992;
 /// Errors count relative to the phase function, evenly over the logarithm of the angle from here (rad) on.
 const INNERMOST: f64 = 0.02;
 /// How much the sum of the weights counts, and their size: large ones that cancel lose digits.

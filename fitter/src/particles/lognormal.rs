@@ -36,7 +36,8 @@ impl Lognormal {
         let cosines: Vec<f64> = angles.iter().map(|a| a.cos()).collect();
         let wave_number = 2.0 * PI / wavelength;
         let radii = self.radii();
-        let total: f64 = radii.iter().map(|r| self.density(*r)).sum::<f64>() + self.left_out();
+        // Of all radii, as OPAC counts: its limits cut off without making the rest more.
+        let total = (2.0 * PI).sqrt() * self.sigma.ln() / STEP;
         let nothing = || ([0.0; 2], vec![[0.0; 3]; angles.len()]);
         let one = |mut sum: ([f64; 2], Vec<Elements>), r: &f64| {
             let sphere = Sphere::new(wave_number * r, index);
@@ -77,14 +78,6 @@ impl Lognormal {
         let weight = |r: f64| self.density(r) * r.powi(4);
         let most = self.grid().map(weight).fold(0.0, f64::max);
         self.grid().filter(|&r| weight(r) > FEWEST * most).collect()
-    }
-
-    /// Number of those that do not.
-    fn left_out(&self) -> f64 {
-        let weight = |r: f64| self.density(r) * r.powi(4);
-        let most = self.grid().map(weight).fold(0.0, f64::max);
-        let out = self.grid().filter(|&r| weight(r) <= FEWEST * most);
-        out.map(|r| self.density(r)).sum()
     }
 
     /// Relative number per logarithm of the radius.
