@@ -205,7 +205,7 @@ mod tests {
             let Phase::Tabulated(own) = spheres.phase(&wavelengths).unwrap() else {
                 panic!("no matrix");
             };
-            for w in 0..wavelengths.len() {
+            for (w, wavelength) in wavelengths.iter().enumerate() {
                 let mut worst = [0.0f64; 2];
                 for i in 0..NODES {
                     let (a, b) = (own.at(w, i), committed.at(w, i));
@@ -213,7 +213,7 @@ mod tests {
                     let degree = (a[1] / a[0] - b[1] / b[0]).abs();
                     worst[1] = worst[1].max(degree);
                 }
-                println!("{name} {} {worst:?}", wavelengths[w]);
+                println!("{name} {wavelength} {worst:?}");
                 assert!(worst[0] < 0.01 && worst[1] < 0.01, "{name}: {worst:?}");
             }
         }

@@ -154,9 +154,9 @@ fn moment(polynomial: &[f64], f11: &AngleFunction) -> Spectrum {
     for i in 1..NODES {
         let width = COSINES[i - 1] - COSINES[i];
         let [a, b] = [polynomial[i - 1], polynomial[i]].map(|p| width * p / 12.0);
-        for w in 0..NW {
+        for (w, sum) in sum.iter_mut().enumerate() {
             let [p, q] = [f11.0[i - 1][w], f11.0[i][w]].map(f64::from);
-            sum[w] += a * (2.0 * p + q) + b * (p + 2.0 * q);
+            *sum += a * (2.0 * p + q) + b * (p + 2.0 * q);
         }
     }
     sum.map(|s| s as f32)
