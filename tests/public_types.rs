@@ -24,6 +24,8 @@ macro_rules! all_shared {
 all_shared! {
     Transmittance,
     AlphaAxis,
+    AxisTable,
+    ModelAxis,
     BakeError,
     Moon,
     SkySum,
@@ -62,6 +64,7 @@ all_shared! {
     Chunk,
     ColumnTable,
     ColumnView<'static>,
+    Albedo,
     Conditions,
     Contents,
     DensityTable,
