@@ -1,7 +1,7 @@
 // The form: what can be set, as numbers, sliders and lists.
 
 import type { Limits } from "./protocol";
-import { BALANCES, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
+import { BALANCES, GROUNDS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
 
 export type Change = (change: Partial<View>, isMoving: boolean) => void;
 
@@ -37,6 +37,7 @@ const CHOICES: Choice[] = [
   },
   { key: "quantity", label: "Shows", names: { radiance: "Light", dolp: "Degree of polarisation" } },
   { key: "tone", label: "Tone curve", names: { linear: "Linear", filmic: "Filmic", aces: "ACES" } },
+  { key: "ground", label: "Ground", names: { lit: "In sun and skylight", black: "Black" } },
   { key: "balance", label: "White balance", names: { daylight: "Daylight film", d65: "As measured" } },
 ];
 const KNOWN: Record<Words, readonly string[]> = {
@@ -44,6 +45,7 @@ const KNOWN: Record<Words, readonly string[]> = {
   quantity: QUANTITIES,
   tone: TONES,
   balance: BALANCES,
+  ground: GROUNDS,
 };
 
 function sliders({ altitudes, visibilities, elevations }: Limits): Slider[] {

@@ -81,13 +81,15 @@ class Page {
   }
 
   #scene(): Scene {
-    const { sunElevation, visibility, altitude, albedo, quantity, polariser } = this.#view;
+    const { sunElevation, visibility, altitude, albedo, ground, quantity, polariser } = this.#view;
     return {
       altitude,
       visibility: 1e3 * visibility,
       albedo,
       elevation: (sunElevation * Math.PI) / 180,
       polarised: quantity === "dolp" || polariser !== null,
+      // The degree of polarisation is that of the sky's light alone.
+      grounded: ground === "lit" && quantity !== "dolp",
       resolution: this.#isMoving ? COARSE : FINE,
     };
   }

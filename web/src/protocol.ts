@@ -13,6 +13,8 @@ export interface Scene {
   /** rad */
   elevation: number;
   polarised: boolean;
+  /** Whether the ground is seen; it is black if not. */
+  grounded: boolean;
   resolution: Resolution;
 }
 

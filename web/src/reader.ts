@@ -11,7 +11,14 @@ interface Exports {
   count_of(index: number, what: number): number;
   node_of(index: number, what: number, node: number): number;
   elevation_limit(index: number, highest: number): number;
-  plan(index: number, altitude: number, visibility: number, polarised: number, spectral: number): number;
+  plan(
+    index: number,
+    altitude: number,
+    visibility: number,
+    polarised: number,
+    grounded: number,
+    spectral: number,
+  ): number;
   range_total(): number;
   range_list(): number;
   prepare(
@@ -22,7 +29,7 @@ interface Exports {
     elevation: number,
     polarised: number,
   ): number;
-  bake(index: number, up: number, down: number, azimuths: number, polarised: number): number;
+  bake(index: number, up: number, down: number, azimuths: number, polarised: number, grounded: number): number;
   table_at(): number;
   header_at(): number;
   mean_of(index: number): number;
@@ -99,8 +106,9 @@ export class ReaderFile implements Destination {
 
   /** What a sky needs of the file. */
   plan(scene: Scene, spectral: boolean): Range[] {
-    const { altitude, visibility, polarised } = scene;
-    this.#check(this.wasm.plan(this.index, altitude, visibility, Number(polarised), Number(spectral)));
+    const { altitude, visibility } = scene;
+    const [polarised, grounded] = [Number(scene.polarised), Number(scene.grounded)];
+    this.#check(this.wasm.plan(this.index, altitude, visibility, polarised, grounded, Number(spectral)));
     const total = this.wasm.range_total();
     const list = new Float64Array(this.wasm.memory.buffer, this.wasm.range_list(), 2 * total);
     return Array.from({ length: total }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
@@ -110,9 +118,9 @@ export class ReaderFile implements Destination {
     this.#check(this.wasm.prepare(this.index, altitude, visibility, albedo, elevation, Number(polarised)));
   }
 
-  bake({ resolution, polarised }: Scene): Omit<SkyTables, "prepared" | "baked"> {
+  bake({ resolution, polarised, grounded }: Scene): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, azimuths] = resolution;
-    this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised)));
+    this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised), Number(grounded)));
     const nodes = (up + down + 2) * (azimuths + 1);
     const floats = (at: number, length: number) => new Float32Array(this.wasm.memory.buffer, at, length).slice();
     const table = this.wasm.table_at();

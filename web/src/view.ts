@@ -3,6 +3,7 @@
 export const PROJECTIONS = ["up", "side", "lat-long", "perspective"] as const;
 export const QUANTITIES = ["radiance", "dolp"] as const;
 export const TONES = ["linear", "filmic", "aces"] as const;
+export const GROUNDS = ["lit", "black"] as const;
 export const BALANCES = ["daylight", "d65"] as const;
 
 export type Projection = (typeof PROJECTIONS)[number];
@@ -16,6 +17,7 @@ export interface View {
   /** m */
   altitude: number;
   albedo: number;
+  ground: (typeof GROUNDS)[number];
   /** EV at ISO 100; automatic if null. */
   exposure: number | null;
   projection: Projection;
@@ -37,6 +39,7 @@ export const START: View = {
   visibility: 59.4,
   altitude: 0,
   albedo: 0.2,
+  ground: "lit",
   exposure: null,
   projection: "up",
   viewAzimuth: 0,
@@ -66,7 +69,7 @@ export const BOUNDS: Record<NumberKey, readonly [low: number, high: number]> = {
   size: [16, 2048],
 };
 
-const WORDS = { projection: PROJECTIONS, quantity: QUANTITIES, tone: TONES, balance: BALANCES } as const;
+const WORDS = { projection: PROJECTIONS, quantity: QUANTITIES, tone: TONES, balance: BALANCES, ground: GROUNDS } as const;
 
 /** The part of an address after #, with what differs from the start. */
 export function toHash(view: View): string {

@@ -86,7 +86,7 @@ async function sky(scene: Scene): Promise<SkyTables> {
 
 async function look(question: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
   const model = opened(question.spectral ? spectra : colours);
-  await model.prepare({ ...question.scene, polarised: true }, question.spectral);
+  await model.prepare({ ...question.scene, polarised: true, grounded: false }, question.spectral);
   return model.file.look(question.direction, question.spectral);
 }
 

@@ -9,7 +9,7 @@
 #define WELKIN_IMPLEMENTATION
 #include "welkin.h"
 
-#include <stdlib.h>
+#include "ground.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
@@ -23,6 +23,7 @@ typedef struct slot {
     unsigned char *bytes;
     size_t length, capacity;
     double mean_luminance;
+    welkin_conditions conditions;
 } slot;
 
 static slot slots[FILES];
@@ -86,9 +87,22 @@ static welkin_error want_kind(const welkin_file *f, uint32_t kind)
     return error;
 }
 
-/* Offsets and lengths of the chunks that a sky under these conditions needs; `spectral` adds what lies between the
- * nodes. */
-EXPORT(plan) welkin_error plan(uint32_t index, double altitude, double visibility, int polarised, int spectral)
+/* What the ground needs besides: the air, and skies where it lies. */
+static welkin_error want_ground(const welkin_file *f, double visibility)
+{
+    welkin__scene scene;
+    welkin_error error = want_kind(f, WELKIN__TRANSMITTANCE);
+    uint32_t i;
+    if (!error) error = welkin__find_scene(f, welkin_altitude(f, 0), visibility, 0, &scene);
+    for (i = 0; !error && i < scene.columns; i++) want(&scene.column[i].entry);
+    for (i = 0; !error && i < scene.radiances; i++) want(&scene.radiance[i].entry);
+    return error;
+}
+
+/* Offsets and lengths of the chunks that a sky under these conditions needs, and a ground if it is to have one;
+ * `spectral` adds what lies between the nodes. */
+EXPORT(plan)
+welkin_error plan(uint32_t index, double altitude, double visibility, int polarised, int grounded, int spectral)
 {
     const welkin_file *f = &slots[index].file;
     welkin_conditions c = {altitude, visibility, 0, 0, 0};
@@ -101,6 +115,7 @@ EXPORT(plan) welkin_error plan(uint32_t index, double altitude, double visibilit
     error = welkin__find_scene(f, c.altitude, c.visibility, polarised ? WELKIN_POLARISED : 0, &scene);
     if (!error && welkin__has_estimates(f)) error = want_kind(f, WELKIN__ESTIMATE);
     if (!error && spectral) error = want_kind(f, WELKIN__SPECTRUM);
+    if (!error && grounded) error = want_ground(f, c.visibility);
     if (error) return error;
     want(&scene.basis);
     for (i = 0; i < scene.columns; i++) want(&scene.column[i].entry);
@@ -133,6 +148,7 @@ welkin_error prepare(uint32_t index, double altitude, double visibility, double 
     welkin_error error = s->file.bytes ? WELKIN_OK : WELKIN_ERROR_STATE;
     memset(&s->sky, 0, sizeof s->sky);
     if (!error) error = make_room(s, floats);
+    s->conditions = c;
     return error ? error : welkin_prepare(&s->sky, &s->file, &c, flags, s->scratch, floats);
 }
 
@@ -193,6 +209,32 @@ static double mean_luminance(const welkin_baked *b)
     return exp(sum / 512);
 }
 
+/* Adds what is seen of the ground to the rows below the horizon; its light is not polarised. */
+static welkin_error add_ground(const slot *s, const welkin_baked *b, int polarised)
+{
+    static ground under;
+    uint32_t row, column, up = b->resolution.up, columns = b->resolution.azimuths + 1;
+    uint32_t rows = up + b->resolution.down + 2;
+    welkin_error error = ground_prepare(&under, &s->file, &s->conditions, b->dip);
+    for (row = up + 1; row < rows && !error; row++)
+        for (column = 0; column < columns && !error; column++) {
+            size_t node = (size_t)row * columns + column, c;
+            double elevation = welkin__row_elevation(b, row), direction[3], xyz[3];
+            float radiance[WELKIN_MAX_WAVELENGTHS], *root = table + 4 * node;
+            float *degrees = table + 4 * (size_t)rows * columns + 8 * node;
+            if (row == up + 1) elevation -= WELKIN__BESIDE_HORIZON;
+            welkin__point(b, sin(elevation), cos(elevation), welkin__column_azimuth(b, column), direction);
+            error = ground_seen(&under, direction, radiance);
+            welkin_xyz(&s->file, radiance, xyz);
+            for (c = 0; c < 3 && !error; c++) {
+                double sky = (double)root[c] * (double)root[c], both = sky + fmax(xyz[c], 0);
+                root[c] = (float)sqrt(both);
+                if (polarised && both > 0) degrees[c] *= (float)(sky / both), degrees[4 + c] *= (float)(sky / both);
+            }
+        }
+    return error;
+}
+
 static void describe(const welkin_baked *b, double elevation)
 {
     const float values[HEADER] = {(float)b->dip,       (float)b->sun_height,          (float)b->sun_at,
@@ -203,7 +245,8 @@ static void describe(const welkin_baked *b, double elevation)
 }
 
 /* Fills the table with the prepared sky. */
-EXPORT(bake) welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths, int polarised)
+EXPORT(bake)
+welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths, int polarised, int grounded)
 {
     slot *s = &slots[index];
     welkin_resolution resolution = {up, down, azimuths, 0};
@@ -219,6 +262,7 @@ EXPORT(bake) welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint3
     }
     error = welkin_bake(&baked, &s->sky, &resolution, table + 12 * nodes, baked_floats);
     if (!error) error = spread(s, &baked, polarised);
+    if (!error && grounded) error = add_ground(s, &baked, polarised);
     if (error) return error;
     describe(&baked, asin(s->sky.sun[2]));
     s->mean_luminance = mean_luminance(&baked);
