@@ -84,6 +84,7 @@ class NumberControl {
   readonly #number: HTMLInputElement;
   readonly #range: HTMLInputElement;
   readonly #none: HTMLInputElement | null = null;
+  #shown = "";
 
   constructor(
     private readonly slider: Slider,
@@ -97,7 +98,9 @@ class NumberControl {
     const set = (value: number, isMoving: boolean) => change({ [key]: value }, isMoving);
     this.#number.addEventListener("change", () => {
       const value = this.#number.valueAsNumber;
+      this.#shown = "";
       if (Number.isFinite(value)) set(Math.min(Math.max(value, low), high), false);
+      else change({}, false);
     });
     this.#range.addEventListener("input", () => set(this.#value(this.#range.valueAsNumber), true));
     this.#range.addEventListener("change", () => set(this.#value(this.#range.valueAsNumber), false));
@@ -122,10 +125,14 @@ class NumberControl {
   show(view: View, automatic: number): void {
     const value = view[this.slider.key];
     const shown = value ?? automatic;
+    // What stays is not touched: a frame has little time.
+    const state = `${value === null} ${shown.toFixed(3)}`;
+    if (state === this.#shown) return;
+    this.#shown = state;
     if (this.#none) this.#none.checked = value === null;
     this.#number.disabled = this.#range.disabled = value === null;
     const text = `${Number(shown.toFixed(3))}`;
-    if (document.activeElement !== this.#number) this.#number.value = text;
+    this.#number.value = text;
     const { low, high, power = 1 } = this.slider;
     const share = Math.min(Math.max((shown - low) / (high - low), 0), 1);
     this.#range.value = `${share ** (1 / power)}`;
@@ -165,7 +172,7 @@ export class Controls {
 
   /** With the exposure that is automatic now. */
   show(view: View, exposure: number): void {
-    for (const [key, list] of this.#choices) list.value = view[key];
+    for (const [key, list] of this.#choices) if (list.value !== view[key]) list.value = view[key];
     for (const number of this.#numbers) number.show(view, number.isExposure ? exposure : 0);
   }
 }

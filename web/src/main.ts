@@ -21,7 +21,12 @@ const REST = 150;
 const MOST_MEASURES = 2000;
 
 const canvas = byId("sky", HTMLCanvasElement);
+const scene = byId("scene", HTMLElement);
 const root = document.documentElement;
+
+function setState(state: "loading" | "ready" | "failed"): void {
+  if (root.dataset["state"] !== state) root.dataset["state"] = state;
+}
 
 class Page {
   #view: View;
@@ -36,6 +41,7 @@ class Page {
   #rest = 0;
   #frame = 0;
   #measures = 0;
+  #ratio = 1;
   #place: [number, number] | null = null;
 
   constructor() {
@@ -72,7 +78,7 @@ class Page {
     clearTimeout(this.#rest);
     if (isMoving) this.#rest = window.setTimeout(() => this.#settle(), REST);
     else history.replaceState(null, "", `#${toHash(this.#view)}`);
-    root.dataset["state"] = "loading";
+    setState("loading");
     this.#update();
   }
 
@@ -114,6 +120,10 @@ class Page {
       .catch(fail);
   }
 
+  redraw(): void {
+    this.#draw();
+  }
+
   /** With the next frame. */
   #draw(): void {
     if (this.#frame !== 0) return;
@@ -125,16 +135,23 @@ class Page {
 
   #paint(): void {
     const start = performance.now();
-    canvas.style.setProperty("--aspect", `${aspect(this.#view.projection)}`);
+    this.#frameOf(aspect(this.#view.projection));
     this.#renderer.draw(this.#view);
     const exposure = this.#renderer.exposure(this.#view);
     this.#controls?.show(this.#view, exposure);
-    byId("scene", HTMLElement).textContent = sentence(this.#view, exposure);
+    const text = sentence(this.#view, exposure);
+    if (scene.textContent !== text) scene.textContent = text;
     this.#measure("draw", performance.now() - start);
     if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
     if (!this.#isMoving && this.#sky.isIdle && this.#shown === JSON.stringify(this.#scene())) {
-      root.dataset["state"] = "ready";
+      setState("ready");
     }
+  }
+
+  #frameOf(ratio: number): void {
+    if (ratio === this.#ratio) return;
+    this.#ratio = ratio;
+    canvas.style.setProperty("--aspect", `${ratio}`);
   }
 
   #measure(name: string, duration: number): void {
@@ -236,7 +253,7 @@ function save(blob: Blob, name: string): void {
 function fail(error: unknown): void {
   byId("failure-text", HTMLElement).textContent = message(error);
   byId("failure", HTMLElement).hidden = false;
-  root.dataset["state"] = "failed";
+  setState("failed");
 }
 
 function hideFailure(): void {
@@ -271,11 +288,10 @@ function listen(page: Page): void {
   byId("controls", HTMLFormElement).addEventListener("submit", (event) => event.preventDefault());
   byId("full-spectrum", HTMLInputElement).addEventListener("change", () => page.point(page.place));
   canvas.addEventListener("keydown", (event) => onKey(page, event));
-  canvas.addEventListener("redraw", () => page.change({}, false));
+  canvas.addEventListener("redraw", () => page.redraw());
   canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
     page.point([(2 * offsetX) / canvas.clientWidth - 1, 1 - (2 * offsetY) / canvas.clientHeight]);
   });
-  addEventListener("resize", () => page.change({}, false));
   addEventListener("hashchange", () => {
     const { view, wrong } = fromHash(location.hash);
     if (wrong.length > 0) note(`Not understood in the link: ${wrong.join(", ")}`);

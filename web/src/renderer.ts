@@ -31,12 +31,19 @@ export class Renderer {
   #places!: Places;
   #textures: WebGLTexture[] = [];
   #tables: SkyTables | null = null;
+  /** Of the canvas on the page; to ask it in each frame would lay the page out each time. */
+  #cssHeight: number;
 
   constructor(canvas: HTMLCanvasElement) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Failure("This browser does not give the page WebGL2, with which the sky is drawn.");
     this.#gl = gl;
     this.#canvas = canvas;
+    this.#cssHeight = canvas.clientHeight;
+    new ResizeObserver(() => {
+      this.#cssHeight = canvas.clientHeight;
+      canvas.dispatchEvent(new Event("redraw"));
+    }).observe(canvas);
     this.#build();
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => {
@@ -63,7 +70,7 @@ export class Renderer {
   }
 
   draw(view: View): void {
-    const height = view.size ?? Math.max(1, Math.round(this.#canvas.clientHeight * Math.min(devicePixelRatio, 2)));
+    const height = view.size ?? Math.max(1, Math.round(this.#cssHeight * Math.min(devicePixelRatio, 2)));
     const width = Math.round(height * aspect(view.projection));
     if (this.#canvas.width !== width) this.#canvas.width = width;
     if (this.#canvas.height !== height) this.#canvas.height = height;

@@ -192,7 +192,6 @@ test("the pointer and the keyboard read light and polarisation", async () => {
   await page.waitForFunction(() => document.getElementById("reading").textContent.includes("Elevation 45"));
   const [, shown] = /At 550 nm: (\S+) W/.exec(await reading.innerText());
   const [, degree] = /polarisation (\S+) %/.exec(await reading.innerText());
-  // The pointer rests on a whole pixel.
   const look = /Elevation (\S+)°, azimuth (\S+)°/.exec(await reading.innerText());
   console.log(`  ${look[0]}: ${shown} W m⁻² sr⁻¹ nm⁻¹, ${degree} %`);
   const size = ["--size", "180", "--projection", "lat-long"];
@@ -263,6 +262,47 @@ test("the first picture needs little, and a walk through the sliders only what i
   const lines = walk.map(([what, requests, model]) => `${what},${requests},${model}`);
   writeFileSync(`${OUT}walk.csv`, `what,requests,model_bytes\n${lines.join("\n")}\n`);
   console.log(`  code ${start.code} bytes, first picture after ${first.toFixed(0)} ms\n  ${lines.join("\n  ")}`);
+  await page.context().close();
+});
+
+/** CPU milliseconds of the page's main thread for each of `count` changes, all drawn. */
+async function frames(page, count, change) {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const seconds = async () => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return metrics.find(({ name }) => name === "TaskDuration").value;
+  };
+  const draws = () => page.evaluate(() => performance.getEntriesByName("draw").length);
+  const before = [await seconds(), await draws()];
+  await page.evaluate(
+    async ({ count, text }) => {
+      const field = document.getElementById("sunAzimuth-slider");
+      const move = new Function("i", `return ${text}`);
+      for (let i = 0; i < count; i++) {
+        const [id, share] = move(i);
+        const slider = document.getElementById(id) ?? field;
+        slider.value = `${share}`;
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      }
+    },
+    { count, text: change },
+  );
+  await ready(page);
+  const after = [await seconds(), await draws()];
+  return { drawn: after[1] - before[1], milliseconds: (1e3 * (after[0] - before[0])) / (after[1] - before[1]) };
+}
+
+test("a frame takes little of the page's thread", async () => {
+  const { page } = await newPage(browser);
+  await open(page, server.url, `size=${SIZE}`);
+  const turning = await frames(page, 60, '["sunAzimuth-slider", 0.3 + 0.005 * i]');
+  const rising = await frames(page, 60, '["sunElevation-slider", 0.3 + 0.005 * i]');
+  const lines = Object.entries({ turning, rising }).map(([name, f]) => `${name},${f.drawn},${f.milliseconds.toFixed(2)}`);
+  writeFileSync(`${OUT}frames.csv`, `what,frames,cpu_ms_a_frame\n${lines.join("\n")}\n`);
+  console.log(`  ${lines.join("\n  ")}`);
+  assert.ok(turning.drawn >= 60 && turning.milliseconds <= 4 && rising.milliseconds <= 4, lines.join("; "));
   await page.context().close();
 });
 

@@ -73,12 +73,27 @@ export function readExr(bytes) {
   if (attributes.get("compression")[0] !== 0) throw new Error("compressed");
   const box = attributes.get("dataWindow");
   const [width, height] = [box.readInt32LE(8) + 1, box.readInt32LE(12) + 1];
-  const names = attributes.get("channels").toString("latin1").split("\0").filter((part) => /^[A-Z]$/.test(part));
+  const names = [];
+  const list = attributes.get("channels");
+  for (let from = 0; list[from] !== 0; ) {
+    const end = list.indexOf(0, from);
+    names.push(list.toString("latin1", from, end));
+    from = end + 17;
+  }
   const planes = Object.fromEntries(names.map((name) => [name, new Float32Array(width * height)]));
-  for (let y = 0; y < height; y++) {
-    let from = Number(bytes.readBigUInt64LE(at + 8 * y)) + 8;
-    for (const name of names) {
-      for (let x = 0; x < width; x++, from += 4) planes[name][y * width + x] = bytes.readFloatLE(from);
+  // Lines of the width, or tiles: the library writes these.
+  const tile = attributes.get("tiles");
+  const [across, down] = tile ? [tile.readUInt32LE(0), tile.readUInt32LE(4)] : [width, 1];
+  const [columns, rows] = [Math.ceil(width / across), Math.ceil(height / down)];
+  for (let i = 0; i < columns * rows; i++) {
+    let from = Number(bytes.readBigUInt64LE(at + 8 * i)) + (tile ? 20 : 8);
+    const [left, top] = [(i % columns) * across, Math.floor(i / columns) * down];
+    for (let y = top; y < Math.min(top + down, height); y++) {
+      for (const name of names) {
+        for (let x = left; x < Math.min(left + across, width); x++, from += 4) {
+          planes[name][y * width + x] = bytes.readFloatLE(from);
+        }
+      }
     }
   }
   return { width, height, planes };
