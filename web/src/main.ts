@@ -42,6 +42,7 @@ class Page {
   #frame = 0;
   #measures = 0;
   #ratio = 1;
+  #exposure = 0;
   #place: [number, number] | null = null;
 
   constructor() {
@@ -137,10 +138,11 @@ class Page {
     const start = performance.now();
     this.#frameOf(aspect(this.#view.projection));
     this.#renderer.draw(this.#view);
-    const exposure = this.#renderer.exposure(this.#view);
-    this.#controls?.show(this.#view, exposure);
-    const text = sentence(this.#view, exposure);
-    if (scene.textContent !== text) scene.textContent = text;
+    // What is read, not seen, waits for the rest.
+    if (!this.#isMoving) this.#exposure = this.#renderer.exposure(this.#view);
+    this.#controls?.show(this.#view, this.#exposure);
+    const text = sentence(this.#view, this.#exposure);
+    if (!this.#isMoving && scene.textContent !== text) scene.textContent = text;
     this.#measure("draw", performance.now() - start);
     if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
     if (!this.#isMoving && this.#sky.isIdle && this.#shown === JSON.stringify(this.#scene())) {

@@ -238,6 +238,34 @@ test("what is wrong is said, and can be tried again", async (t) => {
   }
 });
 
+test("a connection that is lost later leaves the picture, and comes back", async () => {
+  const { page } = await newPage(browser);
+  await open(page, server.url, `size=${SIZE}`);
+  spoil = (name) => name.endsWith(".welkin") && { destroy: true };
+  const altitude = page.locator("#altitude");
+  await altitude.fill("3000");
+  await altitude.press("Enter");
+  await ready(page, "failed");
+  assert.match(await page.locator("#failure-text").innerText(), /no connection to the server/);
+  await compare(page, []);
+  spoil = () => null;
+  await page.locator("#retry").click();
+  await ready(page);
+  await compare(page, ["--altitude", "3000"]);
+  await page.context().close();
+});
+
+test("a server without ranges sends whole files, and the picture is the same", async () => {
+  const { page, complaints } = await newPage(browser);
+  spoil = (name) => name.endsWith(".welkin") && { whole: true };
+  await open(page, server.url, `size=${SIZE}&altitude=700`);
+  spoil = () => null;
+  await compare(page, ["--altitude", "700"]);
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.requests), "1");
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
 test("the first picture needs little, and a walk through the sliders only what is new", async () => {
   const { page, complaints } = await newPage(browser);
   server.log.length = 0;
@@ -265,44 +293,43 @@ test("the first picture needs little, and a walk through the sliders only what i
   await page.context().close();
 });
 
-/** CPU milliseconds of the page's main thread for each of `count` changes, all drawn. */
-async function frames(page, count, change) {
+/** CPU milliseconds of the page's main thread for each frame while a slider moves, the least of three runs: what else
+ * the machine does only adds to it. */
+async function frames(page, id) {
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
-  const seconds = async () => {
+  const state = async () => {
     const { metrics } = await session.send("Performance.getMetrics");
-    return metrics.find(({ name }) => name === "TaskDuration").value;
+    const draws = await page.evaluate(() => performance.getEntriesByName("draw").length);
+    return [metrics.find(({ name }) => name === "TaskDuration").value, draws];
   };
-  const draws = () => page.evaluate(() => performance.getEntriesByName("draw").length);
-  const before = [await seconds(), await draws()];
-  await page.evaluate(
-    async ({ count, text }) => {
-      const field = document.getElementById("sunAzimuth-slider");
-      const move = new Function("i", `return ${text}`);
-      for (let i = 0; i < count; i++) {
-        const [id, share] = move(i);
-        const slider = document.getElementById(id) ?? field;
-        slider.value = `${share}`;
+  const runs = [];
+  for (let run = 0; run < 3; run++) {
+    const before = await state();
+    await page.evaluate(async (id) => {
+      const slider = document.getElementById(id);
+      for (let i = 0; i < 60; i++) {
+        slider.value = `${0.3 + 0.005 * i}`;
         slider.dispatchEvent(new Event("input"));
         await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       }
-    },
-    { count, text: change },
-  );
-  await ready(page);
-  const after = [await seconds(), await draws()];
-  return { drawn: after[1] - before[1], milliseconds: (1e3 * (after[0] - before[0])) / (after[1] - before[1]) };
+    }, id);
+    await ready(page);
+    const after = await state();
+    const drawn = after[1] - before[1];
+    runs.push({ drawn, milliseconds: (1e3 * (after[0] - before[0])) / drawn });
+  }
+  return runs.reduce((a, b) => (b.milliseconds < a.milliseconds ? b : a));
 }
 
 test("a frame takes little of the page's thread", async () => {
   const { page } = await newPage(browser);
   await open(page, server.url, `size=${SIZE}`);
-  const turning = await frames(page, 60, '["sunAzimuth-slider", 0.3 + 0.005 * i]');
-  const rising = await frames(page, 60, '["sunElevation-slider", 0.3 + 0.005 * i]');
-  const lines = Object.entries({ turning, rising }).map(([name, f]) => `${name},${f.drawn},${f.milliseconds.toFixed(2)}`);
+  const found = { turning: await frames(page, "sunAzimuth-slider"), rising: await frames(page, "sunElevation-slider") };
+  const lines = Object.entries(found).map(([name, f]) => `${name},${f.drawn},${f.milliseconds.toFixed(2)}`);
   writeFileSync(`${OUT}frames.csv`, `what,frames,cpu_ms_a_frame\n${lines.join("\n")}\n`);
   console.log(`  ${lines.join("\n  ")}`);
-  assert.ok(turning.drawn >= 60 && turning.milliseconds <= 4 && rising.milliseconds <= 4, lines.join("; "));
+  assert.ok(Object.values(found).every((f) => f.drawn >= 60 && f.milliseconds <= 4), lines.join("; "));
   await page.context().close();
 });
 

@@ -7,13 +7,14 @@ import { join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
 
-/** Replies of `answer(name, range)` take the place of the file's: { status } or { body }; null for the file. */
+/** Replies of `answer(name)` take the place of the file's: { status }, { body }, { destroy } the connection, or { whole }, the
+ * file whatever range was asked; null for the file. */
 export async function serve(folder, answer = () => null) {
   const log = [];
   const server = createServer(async (request, response) => {
     const name = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname)).replace(/^\/$/, "/index.html");
-    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
-    const instead = answer(name, range);
+    const instead = answer(name);
+    const range = instead?.whole ? null : /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
     const path = join(folder, name);
     const type = TYPES[/\.\w+$/.exec(name)?.[0]] ?? "application/octet-stream";
     if (instead?.destroy) return response.destroy();
