@@ -189,8 +189,10 @@ impl Model {
     /// Prepares point queries within a plan of this model, and reads what it asks for. They are not polarised.
     ///
     /// # Errors
-    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`].
+    /// As [`Model::load`]; [`Error::Limit`] for models that are too large for [`PointQuery`]; [`Error::Invalid`] for one
+    /// with a ground of its own ([`Model::over`]): every query says its albedo, at one wavelength that of its ground there.
     pub fn point_query(&self, plan: &Plan) -> Result<PointQuery<'_>> {
+        self.refuse_ground()?;
         self.load(plan)?;
         let head = checked_head(self.front())?;
         let mut chunks = Chunks::new(&head)?;
@@ -222,6 +224,7 @@ impl Model {
     /// # Errors
     /// As [`Model::point_query`]; [`Error::MissingChunk`] for a plan without polarisation.
     pub fn polarised_point_query(&self, plan: &Plan) -> Result<PolarisedPointQuery<'_>> {
+        self.refuse_ground()?;
         let query = self.point_query(plan)?;
         let head = self.head();
         let visibilities = head.visibilities.len();

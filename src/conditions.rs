@@ -29,7 +29,8 @@ pub struct Conditions {
     pub solar_azimuth: f64,
     /// Horizontal meteorological range at the ground, m.
     pub visibility: f64,
-    /// Albedo of the ground, 0..=1, the same at all wavelengths.
+    /// Albedo of the ground, 0..=1, the same at all wavelengths. A ground with a spectrum is one of the model's:
+    /// `Model::over`.
     pub albedo: f64,
     /// Altitude of the observer above the ground, m. Down to [`Conditions::LOWEST_ALTITUDE`] an observer under the
     /// sphere, in a polder or by rounding, stands on the ground: the altitude counts as 0, and so does that of the

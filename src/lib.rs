@@ -129,7 +129,9 @@ cfg_if::cfg_if! {
         mod baked;
         mod bands;
         mod budget;
+        mod ground;
         mod model;
+        mod over;
         mod moon;
         pub mod output;
         mod parallel;
@@ -152,9 +154,10 @@ cfg_if::cfg_if! {
             PolarisedBandSky, Residual, Response,
         };
         pub use budget::{Budget, Channels, Plan};
+        pub use ground::Albedo;
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;
-        pub use model::{Model, ReadAt, Traffic};
+        pub use model::{Model, ModelAxis, ReadAt, Traffic};
         pub use moon::{Moon, SkySum};
         pub use polarisation::{
             PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,

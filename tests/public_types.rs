@@ -24,6 +24,8 @@ macro_rules! all_shared {
 all_shared! {
     Transmittance,
     AlphaAxis,
+    AxisTable,
+    ModelAxis,
     BakeError,
     Moon,
     SkySum,
@@ -54,6 +56,7 @@ all_shared! {
     Chunk,
     ColumnTable,
     ColumnView<'static>,
+    Albedo,
     Conditions,
     Contents,
     DensityTable,

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use library::Model;
+use library::{Albedo, Model};
 
 use crate::guard::{Outcome, ask, call, free};
 use crate::raw::{copy, give, put, shared, slice};
@@ -189,6 +189,38 @@ pub unsafe extern "C" fn welkin_model_ranges(
         };
         put(ranges, got, "ranges")?;
     })
+}
+
+/// The same model over a ground whose albedo depends on wavelength, as a new handle: whatever conditions say, all that is
+/// prepared from it is in the light of that ground. `wavelengths[count]` (nm) increase, `albedos[count]` are within
+/// 0..=1; linear between them and constant beyond. The conditions of what is prepared have the albedo at 550 nm.
+///
+/// What has conditions with each query says its albedo there: such queries refuse this model.
+///
+/// Errors: WELKIN_STATUS_VALUE for no wavelength and such as do not increase, WELKIN_STATUS_RANGE for an albedo.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn welkin_model_over(
+    model: *const WelkinModel,
+    wavelengths: *const f64,
+    albedos: *const f64,
+    count: usize,
+    over: *mut *mut WelkinModel,
+    error: *mut WelkinError,
+) -> WelkinStatus {
+    call!(error, {
+        give(over, || {
+            let model = shared(model, "model")?;
+            let wavelengths = slice(wavelengths, count, "wavelengths")?;
+            let albedo = Albedo::table(wavelengths, slice(albedos, count, "albedos")?)?;
+            Ok(WelkinModel::new(model.0.over(&albedo)))
+        })?;
+    })
+}
+
+/// Whether the model has a ground of its own: see welkin_model_over. False for null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn welkin_model_has_ground(model: *const WelkinModel) -> bool {
+    ask!(model, |model| model.0.ground().is_some())
 }
 
 /// Whether the model has polarisation; false for null.

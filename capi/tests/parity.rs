@@ -11,7 +11,7 @@ use std::ptr::{null, null_mut};
 
 use common::{DIRECTIONS, conditions, default_model};
 use library::{
-    BakedSky, Budget, CameraVolume, Channels, ColourSpace, Directions, Model, Moon,
+    Albedo, BakedSky, Budget, CameraVolume, Channels, ColourSpace, Directions, Model, Moon,
     PolarisationFrame, Stokes, StokesSpectra,
 };
 use welkin::*;
@@ -952,6 +952,64 @@ fn suns_that_move_and_the_moon() {
     }
 }
 
+/// Over a ground whose albedo depends on wavelength: of skies, colours, bands and segments.
+#[test]
+fn grounds_by_wavelength() {
+    let (given, own) = conditions();
+    let (model, library) = (default_model(), model());
+    let (wavelengths, albedos) = ([450.0, 680.0, 750.0], [0.04, 0.05, 0.45]);
+    let over = make!(welkin_model_over(
+        model,
+        wavelengths.as_ptr(),
+        albedos.as_ptr(),
+        3
+    ));
+    let wanted = library.over(&Albedo::table(&wavelengths, &albedos).unwrap());
+    let [sky, plain] = [over, model].map(|model| make!(welkin_sky_new(model, &given)));
+    let (mut light, mut rgb) = (0.0, [0.0; 3]);
+    good!(welkin_sky_radiance_at(
+        sky,
+        DIRECTIONS[1].as_ptr(),
+        715.0,
+        &mut light
+    ));
+    let expected = wanted.sky(&own).unwrap();
+    same(
+        &[light],
+        &[expected.radiance_at(DIRECTIONS[1], 715.0).unwrap()],
+    );
+    good!(welkin_sky_xyz(
+        sky,
+        DIRECTIONS[1].as_ptr(),
+        rgb.as_mut_ptr()
+    ));
+    same(&rgb, &expected.xyz(DIRECTIONS[1]).unwrap());
+    let green = rgb;
+    good!(welkin_sky_xyz(
+        plain,
+        DIRECTIONS[1].as_ptr(),
+        rgb.as_mut_ptr()
+    ));
+    assert_ne!(rgb, green);
+    let mut none = null_mut();
+    let falling = [500.0, 400.0];
+    let text =
+        bad!(Value: welkin_model_over(model, falling.as_ptr(), albedos.as_ptr(), 2, &mut none));
+    assert!(text.contains("increase"), "{text}");
+    let bright = [0.1, 1.2];
+    bad!(Range: welkin_model_over(model, wavelengths.as_ptr(), bright.as_ptr(), 2, &mut none));
+    bad!(Value: welkin_model_over(model, null(), null(), 0, &mut none));
+    assert!(none.is_null());
+    // SAFETY: each is freed once.
+    unsafe {
+        assert!(welkin_model_has_ground(over) && !welkin_model_has_ground(model));
+        welkin_sky_free(sky);
+        welkin_sky_free(plain);
+        welkin_model_free(over);
+        welkin_model_free(model);
+    }
+}
+
 #[test]
 fn plans_and_point_queries() {
     let (given, own) = conditions();
@@ -1080,5 +1138,41 @@ fn models() {
             );
             welkin_model_free(model);
         }
+    }
+}
+
+#[test]
+fn axes() {
+    let file = include_bytes!("../../format-spec/conformance/files/axis.welkin");
+    let library = library::Model::from_bytes(file.to_vec()).unwrap();
+    let own = library.axis().unwrap().unwrap();
+    let model = make!(welkin_model_from_bytes(file.as_ptr(), file.len()));
+    let mut axis = std::mem::MaybeUninit::<WelkinAxis>::uninit();
+    good!(welkin_model_axis(model, axis.as_mut_ptr()));
+    // SAFETY: the call filled it.
+    let axis = unsafe { axis.assume_init() };
+    assert_eq!((axis.range, axis.nodes), (own.range(), 4));
+    let text = |characters: &[std::ffi::c_char]| {
+        let bytes = characters.iter().map(|c| *c as u8);
+        String::from_utf8(bytes.take_while(|b| *b != 0).collect()).unwrap()
+    };
+    assert_eq!(text(&axis.name), own.name());
+    assert_eq!(text(&axis.unit), own.unit());
+    let mut values = [0.0; 4];
+    good!(welkin_model_axis_values(model, values.as_mut_ptr(), 4));
+    assert_eq!(values, own.values());
+    let (mut visibility, mut value) = (0.0, 0.0);
+    good!(welkin_model_axis_visibility(model, 315.0, &mut visibility));
+    assert_eq!(visibility, own.visibility(315.0).unwrap());
+    good!(welkin_model_axis_value(model, visibility, &mut value));
+    assert_eq!(value, own.value(visibility).unwrap());
+    let text = bad!(Range: welkin_model_axis_visibility(model, 501.0, &mut visibility));
+    assert!(text.contains("ozone"), "{text}");
+    let plain = default_model();
+    bad!(Missing: welkin_model_axis_visibility(plain, 315.0, &mut visibility));
+    // SAFETY: each is freed once.
+    unsafe {
+        welkin_model_free(model);
+        welkin_model_free(plain);
     }
 }

@@ -266,6 +266,14 @@ void plans_and_the_moon(const Model &model, const Conditions &conditions) {
     sum.radiance(UP, radiance);
     EXPECT(from_xyz(Space::srgb, sum.xyz(UP)) == sum.rgb(UP) && sum.rgb(UP)[1] > 0.0f);
     EXPECT(model.moonlit(moon).is_moonlit());
+
+    const std::vector<double> wavelengths{450.0, 680.0, 750.0}, albedos{0.04, 0.05, 0.45};
+    const Model meadow = model.over(wavelengths, albedos);
+    EXPECT(meadow.has_ground() && !model.has_ground());
+    const double black[] = {0.0, 0.0, 0.0};
+    const Model coal = meadow.over(wavelengths, black);
+    EXPECT(Sky(meadow, conditions).radiance_at(UP, 740.0) > Sky(coal, conditions).radiance_at(UP, 740.0));
+    expect_error(WELKIN_STATUS_LENGTH, [&] { model.over(wavelengths, std::vector<double>{0.1}); });
 }
 
 // A span is made of arrays of its elements, of temporary ones only to read.
@@ -340,7 +348,8 @@ void moved_from(const Model &model, const Conditions &conditions) {
 
     expect_nulls(
         [&] { no_model.verify(); }, [&] { no_model.wavelengths(); }, [&] { no_model.ranges(); },
-        [&] { no_model.moonlit(Moon()); }, [&] { no_model.plan(budget); }, [&] { no_model.load(plan); },
+        [&] { no_model.moonlit(Moon()); }, [&] { no_model.over(lengths, lengths); },
+        [&] { no_model.plan(budget); }, [&] { no_model.load(plan); },
         [&] { model.load(no_plan); }, [&] { no_plan.summary(); }, [&] { Sky(no_model, conditions); },
         [&] { ColourSky(no_model, conditions); }, [&] { PolarisedSky(no_model, conditions); },
         [&] { SolarDisc(no_model, conditions); }, [&] { SunCourse(no_model, conditions, {0.3, 0.31}); },

@@ -46,8 +46,7 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let polarisation = fit_polarisation(plan, fitting, &store, media, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
     let (mut head, mut file) = radiance_file(plan, &solved, tables, &places, &fit)?;
-    if !plan.training.visibilities.is_empty() {
-        let spectrum = spectrum::pack(plan, work, &solved)?;
+    if let Some(spectrum) = spectrum::pack(plan, work, &solved)? {
         head.xyz = spectrum.xyz;
         let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
         file.insert(1, spectrum);
@@ -281,11 +280,8 @@ fn check_rounding(
     fit: &Fit,
     file: &[format::Chunk],
 ) -> Result<()> {
-    let shared = file.iter().find_map(|c| match &c.payload {
-        Payload::RadianceBasis(basis) => Some(basis),
-        _ => None,
-    });
-    let shared = shared.context("a file without a basis")?;
+    // As the fit has it: the file says each kind of particles by its lobes.
+    let shared = PackedBasis::new(&plan.grid, &fit.basis).radiance();
     let radiance: Vec<_> = file
         .iter()
         .filter_map(|c| match &c.payload {
@@ -295,7 +291,7 @@ fn check_rounding(
         .collect();
     radiance.par_iter().enumerate().try_for_each(|(k, packed)| {
         let fitted = (&fit.own[k], &fit.basis);
-        let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, shared));
+        let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, &shared));
         let [altitude, visibility] = [
             plan.grid.altitudes[places[k].altitude],
             plan.grid.visibilities[places[k].visibility],
@@ -314,14 +310,10 @@ pub(crate) fn radiance_file(
 ) -> Result<(Head, Vec<format::Chunk>)> {
     let air = |s: &Solved| AirTables::new(&s.medium, s.light.spherical_albedo);
     let airs: Vec<AirTables> = solved.iter().map(air).collect();
-    let head = pack::head(
-        (&plan.grid, &plan.coverage),
-        &airs,
-        &solved[0].gatherer(),
-        "{}".into(),
-    )?;
+    let head = pack::head(plan, &airs, &solved[0].gatherer(), "{}".into())?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
-    let shared = Payload::RadianceBasis(basis.radiance());
+    let kinds = &solved[0].medium.kinds;
+    let shared = Payload::RadianceBasis(pack::by_lobes(basis.radiance(), kinds));
     let mut out = vec![
         format::Chunk::new(None, None, shared),
         format::Chunk::new(None, None, Payload::Estimate(tables)),

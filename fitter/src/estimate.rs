@@ -67,20 +67,17 @@ pub fn prepare(tables: &Estimate, medium: &Medium) -> Estimates {
 
 /// What a part scatters in an estimate.
 fn scattering(part: &Part, q: usize) -> Spectrum {
-    let aerosol = |species: &[usize]| -> Spectrum {
-        let kinds = species.iter().filter_map(|&s| part.aerosols.get(s));
-        kinds.fold([0.0; NW], |sum, a| {
+    let particles = |belongs: &dyn Fn(usize) -> bool, first: Spectrum| -> Spectrum {
+        let all = part.aerosols.iter().filter(|a| belongs(a.kind));
+        all.fold(first, |sum, a| {
             std::array::from_fn(|w| sum[w] + a.scattering[w])
         })
     };
     match q {
         0 => part.rayleigh,
-        1 => aerosol(&[0, 2]),
-        2 => aerosol(&[1]),
-        _ => {
-            let particles = aerosol(&[0, 1, 2]);
-            std::array::from_fn(|w| part.rayleigh[w] + particles[w])
-        }
+        1 => particles(&|kind| kind == 0, [0.0; NW]),
+        2 => particles(&|kind| kind == 1, [0.0; NW]),
+        _ => particles(&|_| true, part.rayleigh),
     }
 }
 

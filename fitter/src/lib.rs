@@ -4,8 +4,10 @@
 
 #![forbid(unsafe_code)]
 
+pub mod air;
 pub mod assess;
 pub mod atmosphere;
+pub mod aureole;
 pub mod build;
 pub mod chart;
 pub mod column;
@@ -15,14 +17,18 @@ pub mod decompose;
 pub mod estimate;
 pub mod finite;
 pub mod fitting;
+pub mod make;
 pub mod manifest;
+pub mod measured;
 mod non_negative;
 pub mod official;
 pub mod pack;
+pub mod particles;
 pub mod picture;
 pub mod polarimetry;
 pub mod polarise;
 pub mod progress;
+pub mod recipe;
 pub mod reference;
 pub mod report;
 pub mod round_trip;

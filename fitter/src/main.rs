@@ -18,6 +18,8 @@ struct Cli {
 enum Command {
     /// Trace the atmospheres of a grid and fit a model file to them.
     Build(command::build::Args),
+    /// Make a model file from a recipe of the air.
+    Make(command::make::Args),
     /// Compare a model file with freshly traced radiance between its nodes.
     Assess(command::assess::Args),
     /// Chart ways to represent a sky: bytes and time against held-out error.
@@ -38,10 +40,16 @@ enum Command {
     Export(command::export::Args),
     /// Turn a file of another model into a welkin file.
     Import(command::import::Args),
+    /// Compare the model with skies that were measured.
+    Measure(command::measure::Args),
     /// Look into files of the official model of Wilkie et al. 2021, or evaluate them exactly.
     Official(command::official::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
     Picture(command::picture::Args),
+    /// Compare models with the tracer about the sun, with full scattering matrices.
+    Aureole(command::aureole::Args),
+    /// Say how well a few Henyey-Greenstein functions make the phase functions of a recipe's particles.
+    Lobes(command::lobes::Args),
     /// Measure how fast the tracer is.
     TraceBench(command::bench::Args),
     /// Compare the tracer with outside references.
@@ -67,6 +75,7 @@ fn main() -> ExitCode {
     let _ = welkin::output::abandon_on_signals();
     let result = match parse().command {
         Command::Build(args) => command::build::run(&args),
+        Command::Make(args) => command::make::run(&args),
         Command::Assess(args) => command::assess::run(&args),
         Command::Chart(args) => command::chart::run(&args),
         Command::Finite(args) => command::finite::run(&args),
@@ -77,8 +86,11 @@ fn main() -> ExitCode {
         Command::Atmosphere(args) => command::atmosphere::run(&args),
         Command::Export(args) => command::export::run(&args),
         Command::Import(args) => command::import::run(&args),
+        Command::Measure(args) => command::measure::run(&args),
         Command::Official(args) => command::official::run(&args),
         Command::Picture(args) => command::picture::run(&args),
+        Command::Aureole(args) => command::aureole::run(&args),
+        Command::Lobes(args) => command::lobes::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),
     };

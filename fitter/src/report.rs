@@ -60,16 +60,12 @@ pub fn metadata(
     let degree = Quantiles::of(polarimetry.iter().map(|e| e.degree));
     let angle = Quantiles::of(polarimetry.iter().filter_map(|e| e.angle));
     let options = fitting.options;
+    let (title, mut atmosphere) = plan.air.provenance();
+    atmosphere["planet_radius_m"] = head.planet.radius.into();
     serde_json::json!({
-        "title": "Clear sky of the US standard atmosphere with OPAC continental aerosol",
+        "title": title,
         "generator": concat!("welkin-fit ", env!("CARGO_PKG_VERSION")),
-        "atmosphere": {
-            "air": "AFGL US standard 1986; Rayleigh scattering: Bodhaine et al. 1999; ozone: Gorshelev et al. 2014, 223 to 293 K; absorption bands: Bird & Riordan 1984",
-            "aerosol": "OPAC water-soluble (50 % humidity), insoluble, soot (Hess et al. 1998), Henyey-Greenstein",
-            "precipitable_water_cm": 1.42,
-            "sun": "ASTM G173-03 extraterrestrial",
-            "planet_radius_m": head.planet.radius,
-        },
+        "atmosphere": atmosphere,
         "method": "single scattering by quadrature, multiple scattering by successive orders with polarised Rayleigh scattering",
         "solver": format!("{:?}", plan.settings),
         "fit": {

@@ -116,6 +116,26 @@ fn an_import_that_fails_leaves_the_target() {
 }
 
 #[test]
+fn a_part_that_a_file_lacks_is_refused() {
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("sky.dat"), file()).unwrap();
+    let import = |options: &[&str]| {
+        let fixed = ["import", "prague", "sky.dat", "--out", "sky.welkin"];
+        run(folder.path(), &[&fixed, options].concat())
+    };
+    let text = complaint(&import(&["--wavelengths", "600..700"]));
+    assert!(text.contains("from 525 to 525 nm"), "{text}");
+    for wrong in ["600", "700..600", "a..b", "500..inf"] {
+        let text = complaint(&import(&["--wavelengths", wrong]));
+        assert!(text.contains("expected LOW..HIGH"), "{text}");
+    }
+    let text = complaint(&import(&["--leave-out-elevations"]));
+    assert!(text.contains("the file has 1 of them"), "{text}");
+    assert!(!complaint(&import(&["--visible", "--wavelengths", "500..600"])).is_empty());
+    assert!(!folder.path().join("sky.welkin").exists());
+}
+
+#[test]
 fn an_export_needs_a_model() {
     let folder = TempDir::new().unwrap();
     std::fs::write(folder.path().join("bad.welkin"), "no model").unwrap();

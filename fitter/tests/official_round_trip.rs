@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use tempfile::TempDir;
 use welkin::{Conditions, Model, PolarisationFrame, Response, Stokes};
 use welkin_fitter::official::export::{Plan, export};
-use welkin_fitter::official::import::{Settings, import};
+use welkin_fitter::official::import::{Settings, import, left_out};
 use welkin_fitter::official::layout::{Axes, Channels, Node};
-use welkin_fitter::official::{Observer, OfficialData};
+use welkin_fitter::official::{Observer, OfficialData, Selection};
 
 fn plan() -> Plan {
     Plan {
@@ -195,6 +195,40 @@ fn import_is_the_file(files: &Files) {
             assert!((want - got).abs() < 0.01, "transmittance {want} {got}");
         }
     }
+}
+
+/// Of a file with suns between those that are imported: the model follows the sky where the official interpolation cuts
+/// corners.
+#[test]
+fn an_import_holds_between_its_suns() {
+    let plan = Plan {
+        axes: Axes {
+            visibilities: vec![59.4],
+            albedos: vec![0.3],
+            altitudes: vec![0.0],
+            elevations: vec![
+                -4.0, -3.0, -2.0, -1.0, 0.5, 3.0, 5.0, 8.0, 12.0, 17.0, 24.0, 32.0, 40.0,
+            ],
+        },
+        polarisation_rank: 0,
+        ..plan()
+    };
+    let files = exported(&plan);
+    let again = OfficialData::open(&files.path).unwrap();
+    let part = Selection::all(again.header()).every_second_elevation();
+    let part = again.select(part).unwrap();
+    assert_eq!(part.header().axes.elevations.len(), 7);
+    let mut settings = Settings::default();
+    settings.options.rank = 96;
+    settings.refinements = 15;
+    let imported = import(&part, &settings).unwrap();
+    let model = Model::from_bytes(imported.bytes).unwrap();
+    let found = left_out::compare(&files.data, &part, &model, 100).unwrap();
+    println!("{}{}", imported.report, found.report);
+    assert!(found.imported.median < 0.5 * found.interpolated.median);
+    assert!(found.imported.p95 < found.interpolated.p95);
+    // Nothing was left out.
+    assert!(left_out::compare(&files.data, &files.data, &model, 100).is_err());
 }
 
 /// What the reader raises observers by is taken off again: the tables hold what it will then look up.

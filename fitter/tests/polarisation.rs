@@ -12,10 +12,9 @@ use welkin_fitter::dataset::{Axis, Grid};
 use welkin_fitter::decompose::Options;
 use welkin_fitter::fitting::Fitting;
 use welkin_fitter::polarimetry;
-use welkin_fitter::spectrum::training::Training;
 use welkin_fitter::successive_orders::scattered_source::Sun;
 use welkin_fitter::successive_orders::{NW, Settings};
-use welkin_fitter::units::{HeldOut, Plan};
+use welkin_fitter::units::{Between, HeldOut, Plan};
 
 const CLEAR: f64 = 131_800.0;
 const HAZY: f64 = 20_000.0;
@@ -53,7 +52,7 @@ fn plan() -> Plan {
             views: 60,
             suns: 12,
         },
-        training: Training::none(),
+        between: Between::Nothing,
         ..Plan::default()
     }
 }

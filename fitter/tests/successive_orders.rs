@@ -11,6 +11,7 @@ use welkin_fitter::atmosphere::{Particles, real_at};
 use welkin_fitter::cross_check::cross_check;
 use welkin_fitter::dataset::{Sample, VISIBLE, truth};
 use welkin_fitter::reference::{sky, successive_orders};
+use welkin_fitter::spectrum::training::SUNS;
 use welkin_fitter::successive_orders::{
     Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
 };
@@ -40,7 +41,7 @@ fn samples(altitude: f64, counts: [usize; 2], seed: u64) -> Vec<Sample> {
     truth(
         &Gatherer::new(medium, light, 1.5),
         light,
-        altitude,
+        (altitude, SUNS),
         counts,
         seed,
     )

@@ -200,6 +200,12 @@ impl PySky {
             let mut values = vec![0.0; nodes];
             let rows = out.chunks_exact_mut(width.max(1));
             for (&direction, row) in directions.iter().zip(rows) {
+                if self.sky.ground().is_some() {
+                    // Over the ground of each wavelength nodes have other light than over their own.
+                    let light = |l| self.sky.relative_radiance_at(direction, l);
+                    spectrum.write_each(row, light)?;
+                    continue;
+                }
                 self.sky.relative_radiance(direction, &mut values)?;
                 spectrum.write(&values, row)?;
             }

@@ -34,6 +34,15 @@ impl<'a> Spectrum<'a> {
         self.asked.len()
     }
 
+    /// One row, from relative radiance (sr⁻¹) at each wavelength.
+    pub fn write_each(&self, out: &mut [f32], light: impl Fn(f64) -> Result<f32>) -> Result<()> {
+        for (out, &(wavelength, unit)) in out.iter_mut().zip(&self.asked) {
+            let value = f64::from(light(wavelength)?) * unit;
+            *out = value.min(f64::from(f32::MAX)) as f32;
+        }
+        Ok(())
+    }
+
     /// One row, from relative radiance (sr⁻¹) at the nodes.
     pub fn write(&self, nodes: &[f32], out: &mut [f32]) -> Result<()> {
         for (out, &(wavelength, unit)) in out.iter_mut().zip(&self.asked) {

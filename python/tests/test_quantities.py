@@ -1,10 +1,12 @@
 """What the quantities are to each other."""
 
+import pickle
+
 import numpy as np
 import pytest
 
 import welkin_sky
-from conftest import SCENE
+from conftest import MODEL_FILE, SCENE
 
 trapezoid = getattr(np, "trapezoid", None) or np.trapz
 
@@ -385,3 +387,43 @@ def test_names_of_colour_spaces_may_have_any_case(sky):
         assert np.allclose(matrix @ sky.xyz(up), sky.rgb(up, name), rtol=1e-5, atol=1e-3)
     with pytest.raises(welkin_sky.InvalidValueError, match="Adobe"):
         sky.rgb(up, "Adobe")
+
+
+def test_grounds_by_wavelength(model, directions):
+    wavelengths, albedos = [450.0, 680.0, 750.0], np.array([0.04, 0.05, 0.45])
+    meadow = model.over(wavelengths, albedos)
+    assert meadow.has_ground and not model.has_ground
+    sky = meadow.sky(**SCENE)
+    assert sky.conditions.albedo == pytest.approx(0.04 + 0.01 * 100 / 230)
+    for at, albedo in ((600.0, 0.04 + 0.01 * 150 / 230), (740.0, 0.05 + 0.4 * 60 / 70)):
+        grey = model.sky(**{**SCENE, "albedo": albedo})
+        assert np.allclose(sky.radiance_at(directions, at), grey.radiance_at(directions, at), rtol=1e-5)
+    heroes = sky.bake().hero(directions, np.full((len(directions), 4), 740.0, np.float32))
+    assert np.allclose(heroes[:, :1], sky.radiance_at(directions, [740.0]), rtol=2e-2)
+    assert not np.array_equal(sky.xyz(directions), model.sky(**SCENE).xyz(directions))
+    assert np.array_equal(sky.xyz(directions), meadow.colour_sky(**SCENE).xyz(directions))
+    again = pickle.loads(pickle.dumps(meadow)).sky(**SCENE)
+    assert np.array_equal(again.xyz(directions), sky.xyz(directions))
+    with pytest.raises(welkin_sky.InvalidValueError, match="ground of its own"):
+        meadow.radiance(directions)
+    for bad in (([500.0, 400.0], [0.1, 0.2]), ([], [])):
+        with pytest.raises(welkin_sky.InvalidValueError):
+            model.over(*bad)
+    with pytest.raises(welkin_sky.RangeError):
+        model.over([400.0, 500.0], [0.1, 1.2])
+    with pytest.raises(welkin_sky.LengthError):
+        model.over([400.0, 500.0], [0.1])
+
+
+def test_the_axis_of_a_file(model):
+    assert model.axis is None
+    file = MODEL_FILE.parents[1] / "format-spec" / "conformance" / "files" / "axis.welkin"
+    axis = welkin_sky.open(file).axis
+    assert (axis.name, axis.unit, axis.range) == ("ozone", "DU", (100.0, 500.0))
+    assert axis.values.tolist() == [500.0, 380.0, 250.0, 100.0]
+    middle = axis.visibility(315.0)
+    assert np.isclose(1 / middle, 0.5 / 30e3 + 0.5 / 59.4e3, rtol=1e-12)
+    assert np.isclose(axis.value(middle), 315.0, rtol=1e-12)
+    with pytest.raises(welkin_sky.RangeError, match="ozone must be in 100..=500 DU, got 600 DU") as caught:
+        axis.visibility(600.0)
+    assert (caught.value.parameter, caught.value.unit) == ("ozone", "DU")

@@ -62,8 +62,10 @@ impl Model {
     /// visibilities.
     ///
     /// # Errors
-    /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged.
+    /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged; [`Error::Invalid`] for a model with
+    /// a ground of its own ([`Model::over`]): here every query says its albedo.
     pub fn aerial_perspective_query(&self) -> Result<AerialPerspectiveQuery<'_>> {
+        self.refuse_ground()?;
         let nodes = self.nodes();
         let expansion = Arc::new(Expansion::new(
             self,
@@ -71,13 +73,15 @@ impl Model {
             0..nodes.head.visibilities.len(),
         )?);
         let [visibility, _] = self.visibility_range();
-        let aerial = self.aerial_perspective(&Conditions {
+        let lowest = Conditions {
             visibility,
             altitude: self.altitude_range()[0],
             solar_elevation: self.solar_elevation_range()[1],
             albedo: 0.0,
             solar_azimuth: 0.0,
-        })?;
+        };
+        let black = vec![0.0; nodes.head.wavelengths.len()];
+        let aerial = AerialPerspective::prepare(self, nodes, &lowest, &black)?;
         let mut query = AerialPerspectiveQuery {
             model: self,
             expansion,
@@ -201,7 +205,7 @@ impl AerialPerspectiveQuery<'_> {
         } = *conditions;
         let (nodes, x) = (head.visibility_nodes(), visibility_node(visibility));
         self.visibilities = hermite(&nodes, x);
-        self.ground = ground_factor(head, visibility, conditions.albedo);
+        self.ground = ground_factor(head, visibility, core::iter::repeat(conditions.albedo));
         let around: Vec<_> = (linear(&nodes, x).taps())
             .map(|(v, weight)| (self.expansion.source(v), weight))
             .collect();

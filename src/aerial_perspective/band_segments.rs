@@ -40,11 +40,13 @@ impl Model {
         conditions: &Conditions,
         bands: &Bands,
     ) -> Result<BandAerialPerspective> {
-        let aerial = AerialPerspective::prepare(self, bands.at(self)?, conditions)?;
+        let conditions = conditions.checked(self)?;
+        let albedos = bands.albedos(&conditions);
+        let aerial = AerialPerspective::prepare(self, bands.at(self)?, &conditions, &albedos)?;
         let visibility = aerial.conditions().visibility;
         Ok(BandAerialPerspective {
             aerial,
-            projection: bands.projection().clone(),
+            projection: bands.projection(&conditions),
             air: self.band_transmittance(visibility, bands)?,
         })
     }

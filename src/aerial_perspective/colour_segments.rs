@@ -1,7 +1,7 @@
 //! Segments in colour alone.
 
 use super::prepared::AerialPerspective;
-use crate::bands::coloured;
+use crate::bands::coloured_over;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::model::Model;
@@ -39,8 +39,9 @@ impl Model {
         &self,
         conditions: &Conditions,
     ) -> Result<ColourAerialPerspective> {
-        let nodes = coloured(self);
-        let aerial = AerialPerspective::prepare(self, nodes.nodes(), conditions)?;
+        let conditions = conditions.checked(self)?;
+        let (nodes, albedos) = coloured_over(self, &conditions)?;
+        let aerial = AerialPerspective::prepare(self, nodes.nodes(), &conditions, &albedos)?;
         Ok(ColourAerialPerspective { aerial })
     }
 }

@@ -55,8 +55,8 @@ impl AerialPerspective {
     /// What is seen before a sky of the same conditions, but for the altitude, which the sky says.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the sky has another sun, visibility or albedo; [`Error::Length`] if it has other
-    /// wavelengths.
+    /// [`Error::OutOfRange`] if the sky has another sun, visibility or albedo, [`Error::Invalid`] if its ground is that
+    /// of another [`Model::over`](crate::Model::over); [`Error::Length`] if it has other wavelengths.
     pub fn joined_to<'a>(&'a self, sky: &'a Sky) -> Result<JoinedAerialPerspective<'a>> {
         let (own, other) = (self.conditions(), sky.conditions());
         type Parameter = (&'static str, &'static str, fn(&Conditions) -> f64);
@@ -77,6 +77,9 @@ impl AerialPerspective {
                     unit,
                 });
             }
+        }
+        if self.ground() != sky.ground() {
+            return Err(Error::invalid("sky", "is over another ground"));
         }
         let [own, other] = [self.wavelengths(), sky.wavelengths()];
         if own != other {
@@ -139,11 +142,15 @@ impl JoinedAerialPerspective<'_> {
     /// # Errors
     /// As [`AerialPerspective::xyz`].
     pub fn xyz(&self, to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
+        let own = JoinedAerialPerspective {
+            aerial: self.aerial.coloured(),
+            sky: self.sky.coloured(),
+        };
         let mut colours = XyzSum::default();
-        self.integrate(to, |block, result| {
-            colours.add(&self.aerial.xyz[block], &result);
+        own.integrate(to, |block, result| {
+            colours.add(&own.aerial.xyz[block], &result);
         })?;
-        Ok(colours.finish(&self.aerial.white))
+        Ok(colours.finish(&own.aerial.white))
     }
 
     /// As [`AerialPerspective::linear_srgb`] from the observer.

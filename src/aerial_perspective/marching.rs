@@ -178,16 +178,17 @@ impl AerialPerspective {
         for got in [light.len(), factors.len()] {
             crate::sky::check_length(got, distances.len())?;
         }
-        let last = self.xyz.len() - 1;
+        let own = self.coloured();
+        let last = own.xyz.len() - 1;
         // Of the slices of a group, which are no more than its panels.
         let mut sums: [XyzSum; MOST_PANELS] = Default::default();
-        self.march((from, direction, distances), |k, block, result| {
+        own.march((from, direction, distances), |k, block, result| {
             let sum = &mut sums[k % MOST_PANELS];
-            sum.add(&self.xyz[block], result);
+            sum.add(&own.xyz[block], result);
             if block == last {
-                let (xyz, through) = core::mem::take(sum).finish(&self.white);
+                let (xyz, through) = core::mem::take(sum).finish(&own.white);
                 light[k] = space.from_xyz(xyz);
-                factors[k] = self.factors(through, space);
+                factors[k] = own.factors(through, space);
             }
         })
     }

@@ -13,6 +13,7 @@ mod joined_stokes;
 mod light_estimate;
 mod local_scattering;
 mod marching;
+mod over_ground;
 mod path_points;
 mod prepared;
 mod quadrature_limits;

@@ -12,6 +12,7 @@ use super::sun_transmittance::Beam;
 use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::{Head, Kind, visibility_node};
+use crate::ground::OverGround;
 use crate::kernel::axis::{Stencil, hermite, linear};
 use crate::kernel::math::LANES;
 use crate::model::{Model, Nodes};
@@ -64,24 +65,18 @@ pub struct AerialPerspective {
     pub(super) xyz: Vec<[[f32; LANES]; 3]>,
     /// XYZ of the unattenuated sun, for the transmittance of colours.
     pub(super) white: [f32; 3],
-}
-
-impl Model {
-    /// Prepares transmittance and in-scattering for a scene.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) for conditions outside the model;
-    /// [`Error::MissingChunk`](crate::Error::MissingChunk) if the file has no transmittance or no source;
-    /// [`Error::Checksum`](crate::Error::Checksum), [`Error::Encoding`](crate::Error::Encoding),
-    /// [`Error::Length`](crate::Error::Length) or [`Error::Invalid`](crate::Error::Invalid) if one is damaged.
-    pub fn aerial_perspective(&self, conditions: &Conditions) -> Result<AerialPerspective> {
-        AerialPerspective::prepare(self, self.nodes(), conditions)
-    }
+    pub(super) over: Option<Box<OverGround<AerialPerspective>>>,
 }
 
 impl AerialPerspective {
     /// At some of the wavelength nodes of the file, or at all.
-    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
+    /// `albedos` are those of the ground at the nodes.
+    pub(crate) fn prepare(
+        model: &Model,
+        nodes: Nodes,
+        conditions: &Conditions,
+        albedos: &[f64],
+    ) -> Result<Self> {
         let conditions = conditions.checked(model)?;
         let head = nodes.head;
         let visibilities = head.visibility_nodes();
@@ -99,7 +94,7 @@ impl AerialPerspective {
             .collect();
         let suns = sun_nodes(conditions.solar_elevation, reach(&head.planet));
         let mut source = SourceTable::empty(model, nodes, &suns)?;
-        let ground = ground_factor(head, conditions.visibility, conditions.albedo);
+        let ground = ground_factor(head, conditions.visibility, albedos.iter().copied());
         fill(&mut source, &suns, &expansion, (&cubic, &ground))?;
         Ok(Self {
             source,
@@ -113,6 +108,7 @@ impl AerialPerspective {
             white: core::array::from_fn(|c| head.xyz.iter().map(|row| row[c] as f32).sum()),
             air,
             conditions,
+            over: None,
         })
     }
 
@@ -140,7 +136,13 @@ impl AerialPerspective {
     /// of four wavelengths × components.
     pub fn bytes(&self) -> usize {
         let own = size_of_val(self.irradiance.as_slice()) + size_of_val(self.xyz.as_slice());
-        self.air.bytes() + self.beam.bytes() + self.source.bytes() + self.species.bytes() + own
+        let over = self.over.as_ref().map_or(0, |over| over.bytes());
+        self.air.bytes()
+            + self.beam.bytes()
+            + self.source.bytes()
+            + self.species.bytes()
+            + own
+            + over
     }
 
     /// The same aerial perspective with the sun at another azimuth (rad). Costs no preparation.
@@ -150,7 +152,10 @@ impl AerialPerspective {
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
         self.conditions = self.conditions.with_solar_azimuth(azimuth)?;
         self.sun = self.conditions.sun_direction();
-        Ok(())
+        match &mut self.over {
+            Some(over) => over.set_solar_azimuth(azimuth),
+            None => Ok(()),
+        }
     }
 
     /// How far the air of segments may be from the origin, as an angle at the planet's centre, rad: twice that of the

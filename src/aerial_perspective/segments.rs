@@ -82,12 +82,13 @@ impl AerialPerspective {
     /// [`Error::Point`] for coordinates that are not finite or beyond 10⁹ m; [`Error::Reach`] for air beyond
     /// [`AerialPerspective::reach`].
     pub fn xyz(&self, from: [f64; 3], to: [f64; 3]) -> Result<([f32; 3], [f32; 3])> {
-        let segment = self.segment(from, to)?;
+        let own = self.coloured();
+        let segment = own.segment(from, to)?;
         let mut colours = XyzSum::default();
-        self.integrate(&segment, |block, result| {
-            colours.add(&self.xyz[block], &result);
+        own.integrate(&segment, |block, result| {
+            colours.add(&own.xyz[block], &result);
         });
-        Ok(colours.finish(&self.white))
+        Ok(colours.finish(&own.white))
     }
 
     /// In-scattered light in linear sRGB (cd m⁻², not clipped), and the factors by which the air changes red, green and

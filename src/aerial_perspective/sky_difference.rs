@@ -60,6 +60,7 @@ impl Model {
     /// # Errors
     /// As [`Model::transmittance`], [`Model::plan`] and [`Model::point_query`]; [`Error::OutOfRange`].
     pub fn sky_difference(&self, conditions: &Conditions) -> Result<SkyDifference<'_>> {
+        self.refuse_ground()?;
         let conditions = conditions.checked(self)?;
         let plan = self.plan(&Budget {
             altitude: self.altitude_range(),

@@ -8,6 +8,7 @@ use super::file_tables::FileTables;
 use crate::error::{Error, Result};
 use crate::format::{Head, SourceBasisView, visibility_node};
 use crate::geometry::Planet;
+use crate::ground::reflected;
 use crate::kernel::axis::linear;
 use crate::kernel::lanes::Lanes;
 use crate::kernel::math::LANES;
@@ -233,8 +234,19 @@ pub(crate) fn blocks(spectrum: &[f64]) -> impl Iterator<Item = [f32; LANES]> + '
         .map(move |block| core::array::from_fn(|i| lane(block, i)))
 }
 
-/// Factor of the light that the ground reflected, per wavelength: A / (1 − A s).
-pub(crate) fn ground_factor(head: &Head, visibility: f64, albedo: f64) -> Vec<f64> {
+/// Factor of the light that the ground reflected, per wavelength, given the albedos there: A / (1 − A s).
+pub(crate) fn ground_factor(
+    head: &Head,
+    visibility: f64,
+    albedos: impl IntoIterator<Item = f64>,
+) -> Vec<f64> {
+    let spherical = spherical_albedo(head, visibility).into_iter();
+    let pairs = albedos.into_iter().zip(spherical);
+    pairs.map(|(a, s)| reflected(a, s)).collect()
+}
+
+/// s, per wavelength.
+pub(crate) fn spherical_albedo(head: &Head, visibility: f64) -> Vec<f64> {
     let nw = head.wavelengths.len();
     let nodes = linear(&head.visibility_nodes(), visibility_node(visibility));
     let spherical = |w: usize| -> f64 {
@@ -243,7 +255,5 @@ pub(crate) fn ground_factor(head: &Head, visibility: f64, albedo: f64) -> Vec<f6
             .map(|(v, t)| t * head.spherical_albedo[v * nw + w])
             .sum()
     };
-    (0..nw)
-        .map(|w| albedo / (1.0 - albedo * spherical(w)))
-        .collect()
+    (0..nw).map(spherical).collect()
 }

@@ -4,6 +4,7 @@ use super::prepared::AerialPerspective;
 use crate::error::Result;
 use crate::kernel::math::{LANES, bound};
 use crate::sky::MOST_WAVELENGTHS;
+use crate::transmittance::Segment;
 
 impl AerialPerspective {
     /// Light that the air between `from` and `to` scatters to `from` at any wavelength (nm) within the range of the
@@ -32,13 +33,23 @@ impl AerialPerspective {
         let segment = self.segment(from, to)?;
         let mut values = [0.0; MOST_WAVELENGTHS];
         let values = &mut values[..self.wavelengths().len()];
-        self.integrate(&segment, |block, result| {
+        self.relative_at_nodes(&segment, values);
+        if let Some(over) = &self.over {
+            let mut second = [0.0; MOST_WAVELENGTHS];
+            let second = &mut second[..values.len()];
+            over.second.relative_at_nodes(&segment, second);
+            over.grounds.blend(wavelength, values, second);
+        }
+        Ok(self.relative_at(values, wavelength))
+    }
+
+    fn relative_at_nodes(&self, segment: &Segment, values: &mut [f32]) {
+        self.integrate(segment, |block, result| {
             let out = values[block * LANES..].iter_mut();
             for (out, light) in out.zip(result.scattered) {
                 *out = bound(light, 0.0, f32::MAX);
             }
         });
-        Ok(self.relative_at(values, wavelength))
     }
 
     /// Relative radiance at a wavelength in range from that at the nodes.

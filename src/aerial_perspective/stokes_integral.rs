@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::kernel::math::{LANES, bound, finite};
 use crate::kernel::simd::dispatch;
 use crate::polarisation::{
-    Plane, PolarisationFrame, PolarisedSky, Stokes, StokesSpectra, between, limit,
+    Plane, PolarisationFrame, PolarisedLight, PolarisedSky, Stokes, StokesSpectra, between, limit,
 };
 use crate::sky::{ColourSpace, xyz_to_linear_srgb};
 use crate::sky::{MOST_WAVELENGTHS, check_length};
@@ -65,6 +65,7 @@ impl AerialPerspective {
         in_scattering.check(points.len().saturating_mul(n))?;
         check_length(transmittance.len(), points.len().saturating_mul(n))?;
         for (k, &point) in points.iter().enumerate() {
+            let sky = sky.map(PolarisedSky::light);
             self.stokes(sky, camera, point, frame, |block, light, through| {
                 let first = k * n + block * LANES;
                 let sun = &self.irradiance[block];
@@ -94,21 +95,42 @@ impl AerialPerspective {
         wavelength: f64,
     ) -> Result<Stokes> {
         self.air.interpolation().check(wavelength)?;
-        let nodes = self.wavelengths();
         let mut lights = [Stokes::default(); MOST_WAVELENGTHS];
         let mut relative = [0.0; MOST_WAVELENGTHS];
+        let nodes = self.wavelengths().len();
+        let (lights, relative) = (&mut lights[..nodes], &mut relative[..nodes]);
+        self.stokes_at_nodes(from, to, frame, lights)?;
+        if let Some(over) = &self.over {
+            let mut second = [Stokes::default(); MOST_WAVELENGTHS];
+            let second = &mut second[..nodes];
+            over.second.stokes_at_nodes(from, to, frame, second)?;
+            let shares = over.grounds.shares(wavelength);
+            let pairs = lights.iter_mut().zip(&*second);
+            pairs.zip(shares).for_each(|((first, second), share)| {
+                *first = first.towards(second, share);
+            });
+        }
+        let pairs = relative.iter_mut().zip(&*lights);
+        pairs.for_each(|(relative, light)| *relative = light.i);
+        let total = self.relative_at(relative, wavelength);
+        let shares = self.air.interpolation().shares(relative, wavelength);
+        Ok(between(&shares, lights, total))
+    }
+
+    fn stokes_at_nodes(
+        &self,
+        from: [f64; 3],
+        to: [f64; 3],
+        frame: PolarisationFrame,
+        lights: &mut [Stokes],
+    ) -> Result<()> {
         self.stokes(None, from, to, frame, |block, [i, q, u], _| {
-            for lane in 0..LANES.min(nodes.len() - block * LANES) {
+            for lane in 0..LANES.min(lights.len() - block * LANES) {
                 let i = bound(i[lane], 0.0, f32::MAX);
                 let (q, u) = (i * q[lane], i * u[lane]);
                 lights[block * LANES + lane] = Stokes { i, q, u };
-                relative[block * LANES + lane] = i;
             }
-        })?;
-        let relative = &relative[..nodes.len()];
-        let total = self.relative_at(relative, wavelength);
-        let shares = self.air.interpolation().shares(relative, wavelength);
-        Ok(between(&shares, &lights[..nodes.len()], total))
+        })
     }
 
     /// As [`AerialPerspective::xyz`], with Stokes vectors of X, Y and Z: what a polariser leaves of the aerial
@@ -135,8 +157,10 @@ impl AerialPerspective {
     ) -> Result<([Stokes; 3], [f32; 3])> {
         let mut light = [[0f32; 3]; 3];
         let mut seen = [0f32; 3];
-        self.stokes(sky, from, to, frame, |block, parts, through| {
-            for (c, weight) in self.xyz[block].iter().enumerate() {
+        let own = self.coloured();
+        let sky = sky.map(PolarisedSky::colour_light);
+        own.stokes(sky, from, to, frame, |block, parts, through| {
+            for (c, weight) in own.xyz[block].iter().enumerate() {
                 for i in 0..LANES {
                     let total = weight[i] * parts[0][i];
                     light[c][0] += total;
@@ -150,7 +174,7 @@ impl AerialPerspective {
             let [i, q, u] = parts.map(finite);
             Stokes { i, q, u }
         });
-        let factor = |c: usize| bound(seen[c] / self.white[c], 0.0, 1.0);
+        let factor = |c: usize| bound(seen[c] / own.white[c], 0.0, 1.0);
         Ok((stokes, core::array::from_fn(factor)))
     }
 
@@ -193,7 +217,7 @@ impl AerialPerspective {
     /// transmittance to `emit`; before a sky if there is one.
     fn stokes(
         &self,
-        sky: Option<&PolarisedSky>,
+        sky: Option<PolarisedLight>,
         from: [f64; 3],
         to: [f64; 3],
         frame: PolarisationFrame,
@@ -216,8 +240,8 @@ impl AerialPerspective {
                     core::array::from_fn(|i| c * q[i] + s * u[i]),
                     core::array::from_fn(|i| c * u[i] - s * q[i]),
                 ];
-                let weights = sky.map_or([0.0; LANES], |_| sky_weights(&result));
-                if let Some(sky) = sky.filter(|_| weights != [0.0; LANES]) {
+                let weights = sky.as_ref().map_or([0.0; LANES], |_| sky_weights(&result));
+                if let Some(sky) = sky.as_ref().filter(|_| weights != [0.0; LANES]) {
                     let whole = whole.get_or_insert_with(|| {
                         let mut out = [Stokes::default(); MOST_WAVELENGTHS];
                         let used = &mut out[..self.wavelengths().len()];

@@ -97,7 +97,7 @@ impl PolarisedBandSky {
         let (sky, projection) = self.parts();
         let bands = projection.bands();
         let radiance = BakedSky::relative(sky.sky(), &OfBands(projection), bands, tolerance)?;
-        let sky = BakedPolarisedSky::over(radiance, sky, Some(projection), tolerance)?;
+        let sky = BakedPolarisedSky::of(radiance, sky, Some(projection), tolerance)?;
         Ok(BakedPolarisedBandSky { sky })
     }
 }

@@ -57,7 +57,8 @@ impl Sky {
     /// # Errors
     /// As [`Sky::bake`].
     pub fn bake_colour(&self, tolerance: f64) -> Result<BakedColourSky> {
-        let baked = Baked::new(self, &Xyz(self), tolerance)?;
+        let sky = self.coloured();
+        let baked = Baked::new(sky, &Xyz(sky), tolerance)?;
         Ok(BakedColourSky { baked })
     }
 }

@@ -6,6 +6,7 @@ use super::baked_spectral::{BakedSky, LANES, write};
 use super::batch::{Directions, Group, Sink};
 use super::frame_rotation::Axes;
 use super::grid_choice::BakeError;
+use super::over_ground::OverGround;
 use super::polarisation_table::{self, PolarisationTable, turned};
 use crate::bands::Projection;
 use crate::error::Result;
@@ -35,6 +36,8 @@ pub struct BakedPolarisedSky {
     sky: BakedSky,
     pub(super) degrees: PolarisationTable,
     error: BakeError,
+    /// Over the other ground, where the albedo depends on wavelength.
+    second: Option<Box<BakedPolarisedSky>>,
 }
 
 impl PolarisedSky {
@@ -44,13 +47,17 @@ impl PolarisedSky {
     /// # Errors
     /// As [`Sky::bake`](crate::Sky::bake).
     pub fn bake(&self, tolerance: f64) -> Result<BakedPolarisedSky> {
-        BakedPolarisedSky::over(self.sky().bake(tolerance)?, self, None, tolerance)
+        let mut baked = BakedPolarisedSky::of(self.sky().bake(tolerance)?, self, None, tolerance)?;
+        if let Some(second) = self.second() {
+            baked.second = Some(Box::new(second.bake(tolerance)?));
+        }
+        Ok(baked)
     }
 }
 
 impl BakedPolarisedSky {
     /// From its radiance, which may be in bands.
-    pub(super) fn over(
+    pub(super) fn of(
         mut radiance: BakedSky,
         sky: &PolarisedSky,
         bands: Option<&Projection>,
@@ -63,7 +70,14 @@ impl BakedPolarisedSky {
             sky: radiance,
             degrees,
             error,
+            second: None,
         })
+    }
+
+    /// What light over the ground of a wavelength is made of, where the albedo depends on that.
+    pub(super) fn over(&self) -> Option<(&OverGround, &Self)> {
+        let over = self.sky.over.as_deref();
+        over.zip(self.second.as_deref())
     }
 
     /// The sky without its polarisation.
@@ -76,7 +90,11 @@ impl BakedPolarisedSky {
     /// # Errors
     /// [`crate::Error::OutOfRange`] if the azimuth is not finite.
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
-        self.sky.set_solar_azimuth(azimuth)
+        self.sky.set_solar_azimuth(azimuth)?;
+        match &mut self.second {
+            Some(second) => second.set_solar_azimuth(azimuth),
+            None => Ok(()),
+        }
     }
 
     /// What baking added to the error of (Q, U) over I, as a distance: directions as in [`BakedSky::bake_error`], which
@@ -87,7 +105,8 @@ impl BakedPolarisedSky {
 
     /// Memory on the heap, bytes: less than three times that of [`BakedPolarisedSky::sky`].
     pub fn bytes(&self) -> usize {
-        self.sky.bytes() + self.degrees.bytes()
+        let second = self.second.as_ref().map_or(0, |second| second.bytes());
+        self.sky.bytes() + self.degrees.bytes() + second
     }
 
     /// Stokes vectors at each of [`BakedSky::wavelengths`], as [`PolarisedSky::stokes`].

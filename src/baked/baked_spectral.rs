@@ -1,11 +1,12 @@
 //! A baked sky with all wavelengths.
 
 use super::baked_tables::Baked;
-use super::batch::{Directions, Group, Sink, check_length};
+use super::batch::{Directions, Group, Sink, alone, check_length};
 use super::coordinates::LocalFrame;
 use super::fill::Channels;
 use super::grid_choice::{BakeError, PEAK, TAIL};
 use super::hero_wavelengths::{Heroes, WavelengthAxis};
+use super::over_ground::OverGround;
 use crate::conditions::Conditions;
 use crate::error::{Error, Result};
 use crate::format::Head;
@@ -42,6 +43,7 @@ pub struct BakedSky {
     /// Solar irradiance at the wavelengths, padded.
     pub(super) irradiance: Vec<Lanes<LANES>>,
     pub(super) axis: WavelengthAxis,
+    pub(super) over: Option<Box<OverGround>>,
 }
 
 struct Spectrum {
@@ -86,11 +88,13 @@ impl Sky {
     /// [`Error::OutOfRange`] for a tolerance below 3e-4, [`Error::Tolerance`] if the largest table misses it.
     pub fn bake(&self, tolerance: f64) -> Result<BakedSky> {
         let wavelengths = self.wavelengths().len();
+        let bake = |sky: &Sky| Baked::new(sky, &Spectrum { wavelengths }, tolerance);
         Ok(BakedSky {
-            baked: Baked::new(self, &Spectrum { wavelengths }, tolerance)?,
+            baked: bake(self)?,
             wavelengths: self.wavelengths().to_vec(),
             irradiance: self.irradiance().map(Lanes).collect(),
             axis: WavelengthAxis::new(self),
+            over: OverGround::new(self, bake)?.map(Box::new),
         })
     }
 }
@@ -107,7 +111,8 @@ impl BakedSky {
             baked: Baked::new(sky, channels, tolerance)?,
             wavelengths: vec![0.0; count],
             irradiance: vec![Lanes::splat(1.0); count.div_ceil(LANES)],
-            axis: WavelengthAxis::new(sky),
+            axis: WavelengthAxis::none(),
+            over: None,
         })
     }
 
@@ -130,7 +135,11 @@ impl BakedSky {
     /// # Errors
     /// [`Error::OutOfRange`] if the azimuth is not finite.
     pub fn set_solar_azimuth(&mut self, azimuth: f64) -> Result<()> {
-        self.baked.set_solar_azimuth(azimuth)
+        self.baked.set_solar_azimuth(azimuth)?;
+        match &mut self.over {
+            Some(over) => over.set_solar_azimuth(azimuth),
+            None => Ok(()),
+        }
     }
 
     /// Wavelengths of [`BakedSky::radiance`], nm.
@@ -153,6 +162,7 @@ impl BakedSky {
             + size_of_val(self.wavelengths.as_slice())
             + size_of_val(self.irradiance.as_slice())
             + self.axis.bytes()
+            + self.over.as_ref().map_or(0, |over| over.bytes())
     }
 
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at each of [`BakedSky::wavelengths`].
@@ -189,6 +199,10 @@ impl BakedSky {
     pub fn hero(&self, direction: [f32; 3], wavelengths: [f32; 4]) -> Result<[f32; 4]> {
         self.check_wavelengths(&[wavelengths])?;
         let mut out = [[0.0; 4]];
+        if let Some(over) = &self.over {
+            over.heroes(&self.baked, &alone(&direction), &[wavelengths], &mut out)?;
+            return Ok(out[0]);
+        }
         self.baked.one(
             direction,
             Heroes {
@@ -211,6 +225,9 @@ impl BakedSky {
         out: &mut [[f32; 4]],
     ) -> Result<()> {
         self.check_heroes(directions, wavelengths, out.len())?;
+        if let Some(over) = &self.over {
+            return over.heroes(&self.baked, directions, wavelengths, out);
+        }
         self.baked.each(
             directions,
             Heroes {

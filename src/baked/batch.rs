@@ -46,6 +46,12 @@ impl Directions<'_> {
     }
 }
 
+/// A direction that is the only one.
+pub(super) fn alone(direction: &[f32; 3]) -> Directions<'_> {
+    let [x, y, z] = direction.each_ref().map(core::slice::from_ref);
+    Directions { x, y, z }
+}
+
 pub(super) fn check_length(what: &'static str, got: usize, expected: usize) -> Result<()> {
     if got == expected {
         return Ok(());

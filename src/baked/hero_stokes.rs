@@ -3,7 +3,7 @@
 
 use super::baked_polarised::{ALMOST_WHOLE, BakedPolarisedSky};
 use super::baked_spectral::LANES;
-use super::batch::{Directions, Group, Sink};
+use super::batch::{Directions, Group, Sink, alone};
 use super::frame_rotation::{Axes, FrameRotation};
 use super::polarisation_table::{self, turned};
 use super::spline_table::Spots;
@@ -36,6 +36,10 @@ impl BakedPolarisedSky {
     ) -> Result<[Stokes; 4]> {
         self.sky().check_wavelengths(&[wavelengths])?;
         let mut out = [[Stokes::default(); 4]];
+        if let Some(over) = self.over() {
+            self.heroes_over(over, &alone(&direction), frame, &[wavelengths], &mut out)?;
+            return Ok(out[0]);
+        }
         self.sky().baked.one(
             direction,
             Heroes {
@@ -62,6 +66,9 @@ impl BakedPolarisedSky {
     ) -> Result<()> {
         self.sky()
             .check_heroes(directions, wavelengths, out.len())?;
+        if let Some(over) = self.over() {
+            return self.heroes_over(over, directions, frame, wavelengths, out);
+        }
         let axes = Axes::new(frame)?;
         self.sky().baked.each(
             directions,

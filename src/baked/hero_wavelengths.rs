@@ -41,6 +41,18 @@ struct Interval {
 }
 
 impl WavelengthAxis {
+    /// Of what has no wavelengths, and gives no heroes.
+    pub fn none() -> Self {
+        Self {
+            nodes: Vec::new(),
+            intervals: Vec::new(),
+            solar: Vec::new(),
+            solar_axis: [0.0; 2],
+            range: [0.0; 2],
+            cells: None,
+        }
+    }
+
     pub fn new(sky: &Sky) -> Self {
         let wavelengths = sky.wavelengths();
         let inner = &wavelengths[..wavelengths.len() - 1];

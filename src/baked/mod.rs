@@ -4,6 +4,7 @@
 //! the tables, a `hemisphere_spline` for each side of the horizon, and `grid_choice` their sizes, by the loops of
 //! `refinement`, which compare at `comparison_sites`; `polarisation_table` and `frame_rotation` add polarisation.
 //! `luminance_lattice` sums for samplers, `sun_course` blends baked skies under a sun that moves.
+//! `over_ground` and `hero_stokes_over` give hero wavelengths over a ground by wavelength.
 //! `batch` has the one loop over directions, and `baked_spectral`, `baked_colour`, `baked_polarised` and the two of
 //! `hero` are the public faces.
 #![allow(clippy::needless_range_loop)] // As in `lanes`.
@@ -23,9 +24,11 @@ mod grid_choice;
 mod grid_nodes;
 mod hemisphere_spline;
 mod hero_stokes;
+mod hero_stokes_over;
 mod hero_wavelengths;
 mod irradiance;
 mod luminance_lattice;
+mod over_ground;
 mod polarisation_table;
 mod refinement;
 mod sampler;

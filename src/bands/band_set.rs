@@ -1,12 +1,15 @@
 //! The bands of a sensor on the nodes of a model.
 
 use super::band_fit::Fit;
+use super::band_ground::{BandGround, piece_albedos, twice};
 use super::band_projection::{Made, Projection};
 use super::residual::Residual;
 use super::response::Response;
 use super::spectral_axis::SpectralAxis;
 use super::transmittance_fit::TransmittanceFit;
+use crate::conditions::Conditions;
 use crate::error::{Error, Result};
+use crate::ground::Albedo;
 use crate::model::{Model, NodeSubset, Nodes};
 use crate::polarisation::Stokes;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
@@ -41,6 +44,8 @@ pub struct Bands {
     /// What tells the file that they are made for.
     file: Vec<u8>,
     nodes: NodeSubset,
+    /// Over a ground whose albedo depends on wavelength, with the nodes that are prepared and their albedos.
+    over: Option<(BandGround, (NodeSubset, Vec<f64>))>,
     projection: Projection,
     residuals: Vec<Residual>,
     air: TransmittanceFit,
@@ -71,12 +76,26 @@ impl Model {
             mut made,
             residuals,
         } = Fit::new(self, &axis, responses)?;
-        let kept = renumber(&mut made);
-        let nodes = NodeSubset::new(self, kept);
+        let ground = self.spectral_ground();
+        let pieces = ground.map(|g| piece_albedos(self, &axis, g, (responses, &made)));
+        let pieces = pieces.transpose()?;
+        let (kept, floor) = (renumber(&mut made), axis.has_cells());
+        let projection = Projection::new(kept.len(), &made, floor);
+        let over = match ground.zip(pieces) {
+            Some((ground, pieces)) => {
+                let made = (made, kept.len(), floor);
+                Some((
+                    BandGround::new(self, ground, made, pieces)?,
+                    twice(self, &kept),
+                ))
+            }
+            None => None,
+        };
         Ok(Bands {
             file: identity(self),
-            projection: Projection::new(nodes.kept().len(), &made, axis.has_cells()),
-            nodes,
+            projection,
+            nodes: NodeSubset::new(self, kept),
+            over,
             residuals,
             air: TransmittanceFit::new(self, &axis, responses)?,
         })
@@ -105,19 +124,41 @@ impl Bands {
     /// The nodes, if the bands are those of this model.
     pub(crate) fn at(&self, model: &Model) -> Result<Nodes<'_>> {
         self.check(model)?;
-        Ok(self.nodes.nodes())
+        let nodes = self.over.as_ref().map(|(_, (twice, _))| twice);
+        Ok(nodes.unwrap_or(&self.nodes).nodes())
+    }
+
+    /// Albedos at the nodes under checked conditions.
+    pub(crate) fn albedos(&self, conditions: &Conditions) -> Vec<f64> {
+        match &self.over {
+            Some((_, (_, albedos))) => albedos.clone(),
+            None => vec![conditions.albedo; self.nodes.kept().len()],
+        }
+    }
+
+    /// The ground, if its albedo depends on wavelength.
+    fn ground(&self) -> Option<&Albedo> {
+        self.over.as_ref().map(|(ground, _)| ground.albedo())
     }
 
     /// Refuses models that the bands are not made for.
     fn check(&self, model: &Model) -> Result<()> {
-        match self.file == identity(model) {
+        let same = self.file == identity(model);
+        match same && self.ground() == model.spectral_ground() {
             true => Ok(()),
+            false if same => Err(Error::invalid("bands", "were made over another ground")),
             false => Err(Error::invalid("bands", "were made for another model")),
         }
     }
 
-    pub(crate) fn projection(&self) -> &Projection {
-        &self.projection
+    /// What makes bands of light at the nodes under checked conditions.
+    pub(crate) fn projection(&self, conditions: &Conditions) -> Projection {
+        match &self.over {
+            Some((ground, (twice, _))) => {
+                ground.projection(twice.nodes().head, conditions.visibility)
+            }
+            None => self.projection.clone(),
+        }
     }
 
     /// The exponentials of the air, if the bands are those of this model.
@@ -143,7 +184,9 @@ impl Bands {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Length`] unless there is one number per wavelength of the model and `out` has one per band.
+    /// [`Error::Length`] unless there is one number per wavelength of the model and `out` has one per band;
+    /// [`Error::Invalid`] for bands over a ground whose albedo depends on wavelength ([`Model::over`]): they see it with
+    /// other albedos than a node does.
     pub fn project(&self, relative: &[f32], out: &mut [f32]) -> Result<()> {
         let mut kept = [0.0; MOST_WAVELENGTHS];
         let kept = self.pick(relative, out.len(), &mut kept)?;
@@ -165,6 +208,10 @@ impl Bands {
     /// What belongs to the nodes.
     fn pick<'k, T: Copy>(&self, all: &[T], bands: usize, kept: &'k mut [T]) -> Result<&'k [T]> {
         check_length(bands, self.count())?;
+        if self.over.is_some() {
+            let detail = "over a ground whose albedo depends on wavelength are not made of light at the nodes";
+            return Err(Error::invalid("bands", detail));
+        }
         if all.len() != self.nodes.stored() {
             return Err(Error::Length {
                 what: "wavelengths of the model",

@@ -35,9 +35,15 @@ impl Model {
     /// # Errors
     /// As [`Model::sky`]; [`Error::Invalid`](crate::Error::Invalid) for bands of another model.
     pub fn band_sky(&self, conditions: &Conditions, bands: &Bands) -> Result<BandSky> {
+        let conditions = conditions.checked(self)?;
         Ok(BandSky {
-            sky: Sky::prepare(self, bands.at(self)?, conditions)?,
-            projection: bands.projection().clone(),
+            sky: Sky::prepare(
+                self,
+                bands.at(self)?,
+                &conditions,
+                &bands.albedos(&conditions),
+            )?,
+            projection: bands.projection(&conditions),
         })
     }
 
@@ -51,9 +57,15 @@ impl Model {
         conditions: &Conditions,
         bands: &Bands,
     ) -> Result<PolarisedBandSky> {
+        let conditions = conditions.checked(self)?;
         Ok(PolarisedBandSky {
-            sky: PolarisedSky::prepare(self, bands.at(self)?, conditions)?,
-            projection: bands.projection().clone(),
+            sky: PolarisedSky::prepare(
+                self,
+                bands.at(self)?,
+                &conditions,
+                &bands.albedos(&conditions),
+            )?,
+            projection: bands.projection(&conditions),
         })
     }
 }

@@ -1,13 +1,10 @@
 //! A prepared sky for colour alone.
 
+use super::colour_ground::coloured_over;
 use crate::conditions::Conditions;
 use crate::error::Result;
-use crate::format::Head;
-use crate::model::{Model, NodeSubset};
+use crate::model::Model;
 use crate::sky::Sky;
-
-/// Wavelengths that make less than this of X, Y and Z in a sky that is as bright at all of them are left out.
-const NEGLIGIBLE: f64 = 1e-5;
 
 /// A [`Sky`] for colour alone: only the wavelengths that X, Y and Z are made of are prepared and asked, so that neither
 /// takes longer where a model reaches beyond what eyes see.
@@ -28,32 +25,17 @@ pub struct ColourSky {
 }
 
 impl Model {
-    /// Prepares a sky for colour alone, which does not need the spectrum chunk of a file that has one.
+    /// Prepares a sky for colour alone, which does not need the spectrum chunk of a file that has one, but over a ground
+    /// whose albedo depends on wavelength ([`Model::over`]).
     ///
     /// # Errors
     /// As [`Model::sky`].
     pub fn colour_sky(&self, conditions: &Conditions) -> Result<ColourSky> {
-        let nodes = coloured(self);
-        let sky = Sky::prepare(self, nodes.nodes(), conditions)?;
+        let conditions = conditions.checked(self)?;
+        let (nodes, albedos) = coloured_over(self, &conditions)?;
+        let sky = Sky::prepare(self, nodes.nodes(), &conditions, &albedos)?;
         Ok(ColourSky { sky })
     }
-}
-
-/// The wavelengths that count.
-pub(crate) fn coloured(model: &Model) -> NodeSubset {
-    NodeSubset::new(model, counting(model.head()))
-}
-
-fn counting(head: &Head) -> Vec<usize> {
-    let sums: [f64; 3] = std::array::from_fn(|c| head.xyz.iter().map(|row| row[c].abs()).sum());
-    let counts = |row: &[f64; 3]| (0..3).any(|c| row[c].abs() > NEGLIGIBLE * sums[c]);
-    let mut kept: Vec<usize> = (0..head.xyz.len())
-        .filter(|&i| counts(&head.xyz[i]))
-        .collect();
-    if kept.is_empty() {
-        kept.push(0);
-    }
-    kept
 }
 
 impl ColourSky {

@@ -71,6 +71,7 @@ fn floored(row: Vec<f64>) -> Vec<f64> {
 
 /// Skies at nodes of the model, each of which costs one chunk. What the file lacks is left out.
 fn made(model: &Model) -> Result<Vec<Vec<f64>>> {
+    let model = &model.over_grey();
     let mut out = Vec::new();
     let mut missing = None;
     for conditions in scenes(model) {

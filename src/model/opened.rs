@@ -1,6 +1,7 @@
 //! A model file, opened: its head in memory, its chunks checked when they are first touched.
 
 use std::any::Any;
+use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -12,6 +13,7 @@ use crate::format::{
     BasisView, ColumnView, Contents, DensityView, Entry, EstimateView, FactorsView, Head, Key,
     Kind, SourceBasisView, SourceView, SpectrumView, spectrum_view,
 };
+use crate::ground::{Albedo, Ground};
 use crate::spectrum::SpectralInterpolation;
 
 /// A clear-sky model over a mapped file, bytes in memory or a source that is read in pieces. `Send + Sync`.
@@ -33,6 +35,8 @@ pub struct Model {
     contents: Contents,
     /// The head in the light of the sun, where that of `contents` is in the light of the moon.
     sunlit: Option<Arc<Head>>,
+    /// In place of the albedo of conditions.
+    ground: Option<Arc<Ground>>,
     interpolation: OnceLock<Arc<SpectralInterpolation>>,
 }
 
@@ -117,7 +121,81 @@ impl Model {
             store: Arc::new(store),
             contents,
             sunlit: None,
+            ground: None,
             interpolation: OnceLock::new(),
+        }
+    }
+
+    /// The same model over a ground of this albedo, whatever [`Conditions::albedo`](crate::Conditions::albedo) says:
+    /// everything that is prepared from it is in the light of that ground, wavelength by wavelength. The conditions of
+    /// what is prepared have its albedo at 550 nm. Shares the chunks of this model; a grey albedo costs nothing.
+    ///
+    /// Over a ground whose albedo depends on wavelength light at a node is that over the albedo there, and light at
+    /// any other wavelength that over the albedo of that: the model's own for a grey ground of the same albedo.
+    /// [`SpectralInterpolation`](crate::SpectralInterpolation) does not know the ground: ask
+    /// [`Sky::radiance_at`](crate::Sky::radiance_at) and its like. Colours and bands are sums over spectra; so they are prepared with the albedos that the ground has in them.
+    /// A [`Sky`](crate::Sky) takes three to four times as long to prepare, colours and bands as long as over a grey
+    /// ground after the first, for which light is fitted.
+    ///
+    /// ```
+    /// use welkin::{Albedo, Conditions, Model};
+    ///
+    /// let model = Model::default_model()?;
+    /// let sand = Albedo::table(&[400.0, 550.0, 700.0], &[0.15, 0.30, 0.40])?;
+    /// let desert = model.over(&sand);
+    /// let sky = desert.colour_sky(&Conditions::default())?;
+    /// assert_eq!(sky.conditions().albedo, 0.30);
+    /// // Sand sends more red light up than a grey ground of 0.3, and less blue.
+    /// let grey = model.colour_sky(&Conditions { albedo: 0.30, ..Conditions::default() })?;
+    /// let [brown, plain] = [&sky, &grey].map(|sky| sky.linear_srgb([0.0, 0.0, 1.0]));
+    /// let ([r, _, b], [red, _, blue]) = (brown?, plain?);
+    /// assert!(r > red && b < blue);
+    /// # Ok::<(), welkin::Error>(())
+    /// ```
+    pub fn over(&self, albedo: &Albedo) -> Self {
+        Self {
+            ground: Some(Arc::new(Ground::new(albedo.clone()))),
+            ..self.shared()
+        }
+    }
+
+    /// The albedo of the ground, if it is not that of the conditions: see [`Model::over`].
+    pub fn ground(&self) -> Option<&Albedo> {
+        self.ground.as_ref().map(|ground| &ground.albedo)
+    }
+
+    /// The albedos that the ground has in colours, at the nodes that these are made of: once made, they stay.
+    pub(crate) fn colour_albedos(
+        &self,
+        make: impl FnOnce() -> Result<Vec<f64>>,
+    ) -> Result<Cow<'_, [f64]>> {
+        let Some(ground) = self.ground.as_deref() else {
+            return make().map(Cow::Owned);
+        };
+        if let Some(known) = ground.in_colours.get() {
+            return Ok(Cow::Borrowed(known));
+        }
+        let made = make()?;
+        Ok(Cow::Borrowed(ground.in_colours.get_or_init(|| made)))
+    }
+
+    /// The same model over the ground of the conditions.
+    pub(crate) fn over_grey(&self) -> Self {
+        Self {
+            ground: None,
+            ..self.shared()
+        }
+    }
+
+    /// The same chunks in the same light.
+    fn shared(&self) -> Self {
+        let known = self.interpolation.get().cloned();
+        Self {
+            store: Arc::clone(&self.store),
+            contents: self.contents.clone(),
+            sunlit: self.sunlit.clone(),
+            ground: self.ground.clone(),
+            interpolation: known.map_or_else(OnceLock::new, OnceLock::from),
         }
     }
 
@@ -136,6 +214,7 @@ impl Model {
                 ..self.contents.clone()
             },
             sunlit: Some(sunlit),
+            ground: (self.ground()).map(|albedo| Arc::new(Ground::new(albedo.clone()))),
             interpolation: OnceLock::new(),
         }
     }

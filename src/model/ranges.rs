@@ -3,6 +3,7 @@
 use super::opened::Model;
 use crate::conditions::{Conditions, grounded};
 use crate::error::{Error, Result};
+use crate::ground::Albedo;
 
 impl Conditions {
     /// Moves every parameter into the range of `model`. What that means beyond the ends: a sun that is lower stands for
@@ -13,7 +14,10 @@ impl Conditions {
     /// # Errors
     /// [`Error::OutOfRange`] if a parameter is not finite.
     pub fn clamped(&self, model: &Model) -> Result<Self> {
-        let mut moved = *self;
+        let mut moved = Self {
+            albedo: over(model, self.albedo),
+            ..*self
+        };
         for (parameter, value, [min, max]) in moved.ranges(model) {
             if !value.is_finite() {
                 return Err(parameter.error(*value, min, max));
@@ -24,12 +28,14 @@ impl Conditions {
     }
 
     /// Checks every parameter against the range of `model`; a relative excess of 1e-9 is rounding and gets clamped.
+    /// Where the model has a ground of its own ([`Model::over`]), its albedo at 550 nm takes the place of that given.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the first parameter that the model does not reach.
     pub fn checked(&self, model: &Model) -> Result<Self> {
         let mut checked = Self {
             altitude: grounded(self.altitude),
+            albedo: over(model, self.albedo),
             ..*self
         };
         for (parameter, value, range) in checked.ranges(model) {
@@ -63,6 +69,41 @@ impl Conditions {
                 model.altitude_range(),
             ),
         ]
+    }
+}
+
+/// Where albedos are said that depend on wavelength, nm.
+const TYPICAL: f64 = 550.0;
+
+/// The albedo that conditions have over the ground of a model.
+fn over(model: &Model, albedo: f64) -> f64 {
+    model.ground().map_or(albedo, |ground| ground.at(TYPICAL))
+}
+
+impl Model {
+    /// The ground, where its albedo depends on wavelength.
+    pub(crate) fn spectral_ground(&self) -> Option<&Albedo> {
+        self.ground().filter(|ground| ground.as_grey().is_none())
+    }
+
+    /// What is asked under conditions that differ from query to query has the albedo that these say.
+    pub(crate) fn refuse_ground(&self) -> Result<()> {
+        match self.ground() {
+            None => Ok(()),
+            Some(_) => Err(Error::invalid(
+                "model",
+                "has a ground of its own: where each query has conditions, they say the albedo",
+            )),
+        }
+    }
+
+    /// The albedos at all nodes under checked conditions.
+    pub(crate) fn albedos_at_nodes(&self, conditions: &Conditions) -> Vec<f64> {
+        let at = |&l: &f64| match self.spectral_ground() {
+            Some(ground) => ground.at(l),
+            None => conditions.albedo,
+        };
+        self.wavelengths().iter().map(at).collect()
     }
 }
 

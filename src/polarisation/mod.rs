@@ -10,6 +10,7 @@ mod stokes_tables;
 pub use frame::PolarisationFrame;
 pub(crate) use frame::{PARALLEL, Plane, cross};
 pub use polarised_point_query::PolarisedPointQuery;
+pub(crate) use polarised_sky::PolarisedLight;
 pub use polarised_sky::PolarisedSky;
 pub(crate) use stokes::between;
 pub use stokes::{Stokes, StokesSpectra};

@@ -8,6 +8,7 @@ use crate::conditions::Conditions;
 use crate::error::Result;
 use crate::format::Kind;
 use crate::geometry::Ray;
+use crate::ground::{BetweenGrounds, OverGround};
 use crate::kernel::math::{LANES, finite};
 use crate::model::{Model, Nodes};
 use crate::phase_function::SunAngle;
@@ -35,6 +36,14 @@ use crate::sky::{MOST_WAVELENGTHS, Sky, check_length};
 pub struct PolarisedSky {
     sky: Sky,
     polarisation: Polarisation,
+    over: Option<Box<OverPolarised>>,
+}
+
+/// Where the albedo of the ground depends on wavelength: what belongs to the other skies of [`Sky::over_ground`].
+#[derive(Clone, Debug)]
+struct OverPolarised {
+    second: Polarisation,
+    colour: Polarisation,
 }
 
 impl Model {
@@ -43,28 +52,56 @@ impl Model {
         let mut kinds = self.directory().iter().map(|entry| entry.kind);
         kinds.any(|kind| kind == Kind::PolarisationBasis)
     }
-
-    /// Prepares a sky with its polarisation: after this, queries cost no allocation and no system call.
-    ///
-    /// # Errors
-    /// As [`Model::sky`]; [`Error::MissingChunk`](crate::Error::MissingChunk) for a file without polarisation.
-    pub fn polarised_sky(&self, conditions: &Conditions) -> Result<PolarisedSky> {
-        PolarisedSky::prepare(self, self.nodes(), conditions)
-    }
 }
 
 impl PolarisedSky {
     /// As [`Sky::prepare`].
-    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
+    pub(crate) fn prepare(
+        model: &Model,
+        nodes: Nodes,
+        conditions: &Conditions,
+        albedos: &[f64],
+    ) -> Result<Self> {
         let conditions = conditions.checked(model)?;
         let place = NodeWeights::new(nodes.head, &conditions);
         let basis = (Kind::PolarisationBasis, None, None);
         let chunks = place.keys_of(Kind::Polarisation).chain([basis]);
         model.prefetch(place.keys().chain(chunks).chain(nodes.spectrum()))?;
-        let sky = Sky::prepare(model, nodes, &conditions)?;
+        let sky = Sky::prepare(model, nodes, &conditions, albedos)?;
         let layout = &sky.tables().layout;
-        let polarisation = prepare(model, nodes, &place, conditions.albedo, layout)?;
-        Ok(Self { sky, polarisation })
+        let polarisation = prepare(model, nodes, &place, albedos, layout)?;
+        Ok(Self {
+            sky,
+            polarisation,
+            over: None,
+        })
+    }
+
+    /// The same sky, where its ground has the albedo of `grounds`, with that over the second of these and the one for
+    /// colours.
+    pub(crate) fn with_ground(self, grounds: BetweenGrounds, second: Self, colour: Self) -> Self {
+        Self {
+            sky: self.sky.with_ground(OverGround {
+                grounds,
+                second: second.sky,
+                colour: colour.sky,
+            }),
+            over: Some(Box::new(OverPolarised {
+                second: second.polarisation,
+                colour: colour.polarisation,
+            })),
+            ..self
+        }
+    }
+
+    /// The sky over the other ground, where the albedo depends on wavelength.
+    pub(crate) fn second(&self) -> Option<Self> {
+        let (over, own) = (self.sky.over_ground()?, self.over.as_ref()?);
+        Some(Self {
+            sky: over.second.clone(),
+            polarisation: own.second.clone(),
+            over: None,
+        })
     }
 
     /// The sky without its polarisation.
@@ -82,7 +119,8 @@ impl PolarisedSky {
 
     /// Memory that the sky holds on the heap, bytes: that of [`PolarisedSky::sky`] and half as much.
     pub fn bytes(&self) -> usize {
-        self.sky.bytes() + self.polarisation.bytes()
+        let over = (self.over.as_ref()).map_or(0, |o| o.second.bytes() + o.colour.bytes());
+        self.sky.bytes() + self.polarisation.bytes() + over
     }
 
     /// Stokes vectors in W m⁻² sr⁻¹ nm⁻¹ at each of [`Sky::wavelengths`], in the frame of the caller. Q² + U² ≤ I².
@@ -116,9 +154,24 @@ impl PolarisedSky {
         out: &mut [Stokes],
     ) -> Result<()> {
         check_length(out.len(), self.sky.wavelengths().len())?;
-        self.evaluate(direction, frame, |block, light| {
-            store(out, block, light.radiance, &light);
-        })
+        self.light().relative_stokes(direction, frame, out)
+    }
+
+    /// Light at the wavelengths of the sky.
+    pub(crate) fn light(&self) -> PolarisedLight<'_> {
+        PolarisedLight {
+            sky: &self.sky,
+            polarisation: &self.polarisation,
+        }
+    }
+
+    /// Light at the wavelengths that colours are made of.
+    pub(crate) fn colour_light(&self) -> PolarisedLight<'_> {
+        let own = self.over.as_ref();
+        PolarisedLight {
+            sky: self.sky.coloured(),
+            polarisation: own.map_or(&self.polarisation, |own| &own.colour),
+        }
     }
 
     /// Stokes vector in W m⁻² sr⁻¹ nm⁻¹ at any wavelength (nm) within the range of the model.
@@ -142,8 +195,39 @@ impl PolarisedSky {
             let out = relative[block * LANES..].iter_mut();
             out.zip(light.radiance).for_each(|(out, l)| *out = l);
         })?;
+        self.blend(direction, frame, wavelength, (values, relative))?;
         let shares = self.sky.interpolation().shares(relative, wavelength);
         Ok(between(&shares, values, i))
+    }
+
+    /// Light at the nodes as it is over the ground of a wavelength: radiance, and what is polarised of its unit.
+    fn blend(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        wavelength: f64,
+        (values, relative): (&mut [Stokes], &mut [f32]),
+    ) -> Result<()> {
+        let (Some(over), Some(own)) = (self.sky.over_ground(), &self.over) else {
+            return Ok(());
+        };
+        let mut second = [Stokes::default(); MOST_WAVELENGTHS];
+        let light = PolarisedLight {
+            sky: &over.second,
+            polarisation: &own.second,
+        };
+        light.relative_stokes(direction, frame, &mut second[..values.len()])?;
+        let shares = over.grounds.shares(wavelength);
+        let lights = values.iter_mut().zip(relative).zip(&second);
+        for (((part, whole), second), share) in lights.zip(shares) {
+            let first = *whole;
+            *whole = (first + share * (second.i - first)).max(0.0);
+            let over = whole.max(f32::MIN_POSITIVE);
+            let mix = |first: f32, second: f32| (first + share * (second - first)) / over;
+            part.q = mix(first * part.q, second.q);
+            part.u = mix(first * part.u, second.u);
+        }
+        Ok(())
     }
 
     /// CIE 1931 X, Y and Z of the radiance and of what is polarised of it; Y in cd m⁻².
@@ -152,8 +236,9 @@ impl PolarisedSky {
     /// [`Error::Direction`](crate::Error::Direction) for a direction or an axis that is zero or not finite.
     pub fn xyz(&self, direction: [f32; 3], frame: PolarisationFrame) -> Result<[Stokes; 3]> {
         let mut sums = [Stokes::default(); 3];
-        let weights = &self.sky.tables().xyz;
-        self.evaluate(direction, frame, |block, light| {
+        let own = self.colour_light();
+        let weights = &own.sky.tables().xyz;
+        own.evaluate(direction, frame, |block, light| {
             for (sum, weight) in sums.iter_mut().zip(&weights[block]) {
                 for (lane, weight) in weight.iter().enumerate() {
                     let i = weight * light.radiance[lane];
@@ -206,11 +291,42 @@ impl PolarisedSky {
         frame: PolarisationFrame,
         emit: impl FnMut(usize, Block),
     ) -> Result<()> {
+        self.light().evaluate(direction, frame, emit)
+    }
+}
+
+/// A sky at its wavelengths, whatever it is part of.
+#[derive(Clone, Copy)]
+pub(crate) struct PolarisedLight<'a> {
+    sky: &'a Sky,
+    polarisation: &'a Polarisation,
+}
+
+impl PolarisedLight<'_> {
+    /// As [`PolarisedSky::relative_stokes`].
+    pub fn relative_stokes(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        out: &mut [Stokes],
+    ) -> Result<()> {
+        self.evaluate(direction, frame, |block, light| {
+            store(out, block, light.radiance, &light);
+        })
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &self,
+        direction: [f32; 3],
+        frame: PolarisationFrame,
+        emit: impl FnMut(usize, Block),
+    ) -> Result<()> {
         let lookup = self.sky.lookup(direction)?;
         let aspect = self.sky.aspect(direction);
         let mix = Mix::new(&aspect, frame)?;
-        self.polarisation
-            .evaluate(self.sky.tables(), &lookup, &mix, emit);
+        let tables = self.sky.tables();
+        self.polarisation.evaluate(tables, &lookup, &mix, emit);
         Ok(())
     }
 }

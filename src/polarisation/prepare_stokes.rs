@@ -11,12 +11,12 @@ use crate::model::{Model, Nodes};
 use crate::sky::prepare::{NodeWeights, OwnFactors, widen_rows};
 use crate::sky::tables::Layout;
 
-/// Prepares the polarisation at `place` over a ground of the given albedo. `layout` is that of the radiance.
+/// Prepares the polarisation at `place` over a ground of these albedos at the nodes. `layout` is that of the radiance.
 pub(super) fn prepare(
     model: &Model,
     nodes: Nodes,
     place: &NodeWeights,
-    albedo: f64,
+    albedos: &[f64],
     layout: &Layout,
 ) -> Result<Polarisation> {
     let head = nodes.head;
@@ -42,7 +42,7 @@ pub(super) fn prepare(
             own.add_to(&mut alpha, basis.rank, &elevation, weight);
         }
     }
-    let ground = place.ground(head, albedo);
+    let ground = place.ground(head, albedos);
     let applied = Basis::new(&basis, nodes, &ground, place.fade, layout);
     let [up, down] = alpha.map(|alpha| applied.apply(&alpha));
     let polarisation = Polarisation { up, down };

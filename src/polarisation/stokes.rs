@@ -104,6 +104,17 @@ impl Stokes {
         }
     }
 
+    /// Light that is linear in something, of which `other` has a share, as far as there is light at all.
+    #[inline(always)]
+    pub(crate) fn towards(&self, other: &Self, share: f32) -> Self {
+        let mix = |a: f32, b: f32| a + share * (b - a);
+        Self {
+            i: mix(self.i, other.i).max(0.0),
+            q: mix(self.q, other.q),
+            u: mix(self.u, other.u),
+        }
+    }
+
     /// Radiance behind an ideal polariser at `angle` (rad) from `e1` towards `e2`.
     pub fn through_polariser(&self, angle: f32) -> f32 {
         (0.5 * self.i + 0.5 * self.turned(angle).q).max(0.0)

@@ -1,6 +1,7 @@
 //! A prepared sky: radiance for any direction without allocation or system call.
 
 mod colour_space;
+mod over_ground;
 pub(crate) mod prepare;
 pub(crate) mod tables;
 
@@ -11,6 +12,7 @@ use crate::error::{Error, Result};
 use crate::estimate::Sightline;
 use crate::format::Head;
 use crate::geometry::{Planet, Ray, Side};
+use crate::ground::OverGround;
 use crate::kernel::math::{LANES, finite};
 use crate::phase_function::SunAngle;
 pub(crate) use crate::spectrum::MOST_WAVELENGTHS;
@@ -51,6 +53,7 @@ pub struct Sky {
     solar_axis: [f64; 2],
     interpolation: Arc<SpectralInterpolation>,
     tables: Tables,
+    over: Option<Box<OverGround<Sky>>>,
 }
 
 impl Sky {
@@ -72,6 +75,7 @@ impl Sky {
             conditions,
             interpolation,
             tables,
+            over: None,
         }
     }
 
@@ -88,7 +92,10 @@ impl Sky {
         self.conditions = self.conditions.with_solar_azimuth(azimuth)?;
         self.azimuth = azimuth.sin_cos();
         self.sun = self.conditions.sun_direction();
-        Ok(())
+        match &mut self.over {
+            Some(over) => over.set_solar_azimuth(azimuth),
+            None => Ok(()),
+        }
     }
 
     /// Unit vector towards the sun's centre.
@@ -102,10 +109,12 @@ impl Sky {
     }
 
     /// Memory that the sky holds on the heap, bytes: 4 × (up + down coefficients) × azimuth coefficients × channels,
-    /// with channels rounded up to whole vectors, plus a few kilobytes.
+    /// with channels rounded up to whole vectors, plus a few kilobytes; about 2½ times as much over a ground whose
+    /// albedo depends on wavelength.
     pub fn bytes(&self) -> usize {
         let axes = size_of_val(self.wavelengths.as_slice()) + size_of_val(self.solar.as_slice());
-        self.tables.bytes() + axes
+        let over = self.over.as_ref().map_or(0, |over| over.bytes());
+        self.tables.bytes() + axes + over
     }
 
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at each of [`Sky::wavelengths`].
@@ -167,10 +176,11 @@ impl Sky {
     /// # Errors
     /// [`Error::Direction`] for a vector that is zero or not finite.
     pub fn xyz(&self, direction: [f32; 3]) -> Result<[f32; 3]> {
-        let lookup = self.lookup(direction)?;
+        let sky = self.coloured();
+        let lookup = sky.lookup(direction)?;
         let mut sums = [[0f32; LANES]; 3];
-        self.tables.radiance(&lookup, |block, radiance| {
-            for (sum, weight) in sums.iter_mut().zip(&self.tables.xyz[block]) {
+        sky.tables.radiance(&lookup, |block, radiance| {
+            for (sum, weight) in sums.iter_mut().zip(&sky.tables.xyz[block]) {
                 *sum = core::array::from_fn(|i| sum[i] + weight[i] * radiance[i]);
             }
         });
@@ -287,6 +297,9 @@ impl Sky {
         let mut values = [0.0; MOST_WAVELENGTHS];
         let values = &mut values[..nodes.len()];
         self.relative_into(&lookup, values);
+        if let Some(over) = &self.over {
+            over.blend(direction, wavelength, values)?;
+        }
         Ok(self.interpolation.radiance(values, wavelength))
     }
 

@@ -7,6 +7,7 @@ use crate::format::{
     BasisView, FactorsView, Field, Head, Kind, Payload16, PhaseFunction, altitude_node,
     visibility_node,
 };
+use crate::ground::reflected;
 use crate::kernel::axis::{Ends, Stencil, Taps, hermite, linear, spline};
 use crate::kernel::half::widen;
 use crate::kernel::lanes::Lanes;
@@ -18,24 +19,15 @@ use crate::sky::Sky;
 use crate::sky::tables::{Cell, Layout, SideTable, SkyEstimates, Tables};
 use zerocopy::little_endian::F32;
 
-impl Model {
-    /// Prepares a sky: after this, queries cost no allocation and no system call.
-    ///
-    /// Touches the chunks of at most four altitudes and four visibilities around the conditions, and only one where
-    /// altitude or visibility is a node of the model. The first touch of a chunk verifies it.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for conditions outside the model (see [`Conditions::clamped`]), [`Error::MissingChunk`] if
-    /// the file lacks a needed chunk, [`Error::Checksum`], [`Error::Encoding`] or [`Error::Invalid`] if one is damaged,
-    /// [`Error::Read`] if the source of a streamed model fails.
-    pub fn sky(&self, conditions: &Conditions) -> Result<Sky> {
-        Sky::prepare(self, self.nodes(), conditions)
-    }
-}
-
 impl Sky {
-    /// At some of the wavelength nodes of the file, or at all: what costs time from here on goes with those.
-    pub(crate) fn prepare(model: &Model, nodes: Nodes, conditions: &Conditions) -> Result<Self> {
+    /// At some of the wavelength nodes of the file, or at all: what costs time from here on goes with those. `albedos`
+    /// are those of the ground at the nodes.
+    pub(crate) fn prepare(
+        model: &Model,
+        nodes: Nodes,
+        conditions: &Conditions,
+        albedos: &[f64],
+    ) -> Result<Self> {
         let conditions = conditions.checked(model)?;
         let head = nodes.head;
         let place = NodeWeights::new(head, &conditions);
@@ -47,7 +39,7 @@ impl Sky {
             nodes,
             place: &place,
             groups: &groups,
-            fold: place.fold(head, conditions.albedo),
+            fold: place.fold(head, albedos),
             elevation: spline(place.elevation, head.elevation.intervals, Ends::Free),
         };
         let (scale, [up, down]) = baker.sides()?;
@@ -126,8 +118,8 @@ impl NodeWeights {
     }
 
     /// What each channel `[field][wavelength]` is multiplied with: the light between ground and sky for ground fields.
-    fn fold(&self, head: &Head, albedo: f64) -> Vec<f32> {
-        let ground = self.ground(head, albedo);
+    fn fold(&self, head: &Head, albedos: &[f64]) -> Vec<f32> {
+        let ground = self.ground(head, albedos);
         let factor = |f: &Field, g: f32| if f.ground { g } else { 1.0 };
         let fields = head.fields.iter();
         fields
@@ -135,11 +127,16 @@ impl NodeWeights {
             .collect()
     }
 
-    /// What light from the ground is multiplied with at each wavelength: A / (1 − A s).
-    pub fn ground(&self, head: &Head, albedo: f64) -> Vec<f32> {
-        let spherical = self.at_visibility(&head.spherical_albedo, head.wavelengths.len());
-        let factor = |s: &f64| (albedo / (1.0 - albedo * s)) as f32;
-        spherical.iter().map(factor).collect()
+    /// What light from the ground is multiplied with at each wavelength, given the albedos there: A / (1 − A s).
+    pub fn ground(&self, head: &Head, albedos: &[f64]) -> Vec<f32> {
+        let spherical = self.spherical_albedo(head);
+        let pairs = albedos.iter().zip(spherical);
+        pairs.map(|(&a, s)| reflected(a, s) as f32).collect()
+    }
+
+    /// s at each wavelength.
+    pub fn spherical_albedo(&self, head: &Head) -> Vec<f64> {
+        self.at_visibility(&head.spherical_albedo, head.wavelengths.len())
     }
 
     /// K per constituent, `[constituent][block]`.

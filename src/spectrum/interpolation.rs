@@ -90,7 +90,9 @@ impl SpectralInterpolation {
         }
     }
 
-    /// Radiance per unit of solar irradiance at a wavelength (nm) from `values` at the wavelengths of the model.
+    /// Radiance per unit of solar irradiance at a wavelength (nm) from `values` at the wavelengths of the model, all over
+    /// the ground of that wavelength: those of a model over a ground whose albedo depends on wavelength
+    /// ([`Model::over`](crate::Model::over)) are not.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the wavelength; [`Error::Length`] unless there is one value per wavelength;

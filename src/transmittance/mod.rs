@@ -314,10 +314,10 @@ impl<const ATTENUATE: bool> Kernel for Depths<'_, ATTENUATE> {
 /// How much of the range each wavelength stands for: models have many where ozone absorbs.
 fn shares(wavelengths: &[f64]) -> Vec<f32> {
     let last = wavelengths.len() - 1;
-    if last == 0 {
-        return vec![1.0];
-    }
     let range = |from: usize, to: usize| wavelengths[to] - wavelengths[from];
+    if range(0, last) == 0.0 {
+        return vec![1.0 / wavelengths.len() as f32; wavelengths.len()];
+    }
     let share = |i: usize| 0.5 * range(i.saturating_sub(1), (i + 1).min(last)) / range(0, last);
     (0..=last).map(|i| share(i) as f32).collect()
 }

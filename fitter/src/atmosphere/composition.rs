@@ -50,6 +50,26 @@ pub struct Constituent {
     pub scatterers: Vec<Scatterer>,
 }
 
+/// Profiles that differ by no more than this, relative, are one.
+const SAME: f64 = 1e-12;
+
+impl Constituent {
+    /// Takes up what has the same profile.
+    pub(crate) fn absorb(&mut self, other: Self) {
+        self.name = format!("{} + {}", self.name, other.name);
+        for (a, b) in self.extinction.iter_mut().zip(&other.extinction) {
+            *a += b;
+        }
+        self.scatterers.extend(other.scatterers);
+    }
+
+    /// Whether it has this shape with altitude.
+    pub(crate) fn has_shape(&self, profile: &[f64]) -> bool {
+        let pairs = self.profile.iter().zip(profile);
+        pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME * a)
+    }
+}
+
 /// A spherically symmetric atmosphere above a Lambertian ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atmosphere {

@@ -7,9 +7,9 @@
 //! separates smoothly.
 
 use super::aerosol::{Particles, aerosols};
-use super::composition::{Atmosphere, Constituent, Phase, Scatterer, column};
+use super::composition::{Atmosphere, Constituent};
+use super::gases::{GasProfile, OZONE_TEMPERATURES};
 use super::monochromatic::Monochromatic;
-use super::table::{Curve, Table};
 use super::variation::{AerosolProfile, Variation};
 use anyhow::{Result, ensure};
 
@@ -20,12 +20,6 @@ pub const TOP: f64 = 100_000.0;
 
 /// The visibilities of the paper's Table 2, m.
 pub const VISIBILITIES: [f64; 6] = [20_000.0, 27_600.0, 40_000.0, 59_400.0, 90_000.0, 131_800.0];
-
-macro_rules! table {
-    ($name:literal) => {
-        Table::parse($name, include_str!(concat!("../../data/", $name)))
-    };
-}
 
 /// The real atmosphere with Henyey-Greenstein aerosols beside absorption lines; see [`real_with`].
 pub fn real(visibility: f64, wavelengths: &[f64]) -> Result<Atmosphere> {
@@ -102,7 +96,7 @@ fn build(
 
 /// Nodes dense where the profiles bend: the inversion layer (2 km) and the tropopause end of the aerosol (12 km).
 /// Where the profile jumps there, two nodes stand 1 m apart.
-fn altitude_nodes(profile: AerosolProfile) -> Vec<f64> {
+pub(crate) fn altitude_nodes(profile: AerosolProfile) -> Vec<f64> {
     let parts: [(f64, f64, f64); 8] = [
         (0.0, 1400.0, 100.0),
         (1400.0, 2800.0, 50.0),
@@ -130,120 +124,24 @@ fn gases(
     lights: &[Monochromatic],
     variation: Variation,
 ) -> Result<Vec<Constituent>> {
-    let profile = table!("atm_afgl_us_standard.csv")?;
-    let mut out = vec![air(&profile, altitudes, lights)?];
-    out.extend(ozone(&profile, altitudes, lights, variation.ozone)?);
-    out.push(water(&profile, altitudes, lights)?);
+    let profile = GasProfile::us_standard()?;
+    let mut out = vec![profile.air(altitudes, lights)?];
+    out.extend(profile.ozone(altitudes, lights, variation.ozone, &OZONE_TEMPERATURES)?);
+    out.extend(profile.water(altitudes, lights, None)?);
     Ok(out)
-}
-
-/// Rayleigh scattering, and absorption by the uniformly mixed gases.
-fn air(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<Constituent> {
-    let rayleigh = table!("rayleigh_bodhaine1999.csv")?;
-    let cross_section = rayleigh.curve("wavelength_nm", "sigma_cm2")?;
-    let depolarisation = rayleigh.curve("wavelength_nm", "depol")?;
-    let (air, scale) = density(&profile.curve("z_km", "n_air")?, altitudes);
-    let scattering = lights
-        .iter()
-        .map(|l| cross_section.log_at(l.wavelength) * scale);
-    let scattering: Vec<f64> = scattering.collect();
-    let all = column(altitudes, &air);
-    let absorption = lights.iter().map(|l| l.mixed / all);
-    Ok(Constituent {
-        name: "air".into(),
-        extinction: scattering
-            .iter()
-            .zip(absorption)
-            .map(|(s, a)| s + a)
-            .collect(),
-        profile: air,
-        scatterers: vec![Scatterer {
-            name: "rayleigh".into(),
-            phase: Phase::Rayleigh {
-                depolarisation: lights
-                    .iter()
-                    .map(|l| depolarisation.at(l.wavelength))
-                    .collect(),
-            },
-            extinction: scattering.clone(),
-            scattering,
-        }],
-    })
-}
-
-/// Temperatures between which the absorption of ozone is linear, K: those of the table.
-const OZONE: [f64; 3] = [223.0, 243.0, 293.0];
-
-/// Molecules per cm² in a Dobson unit.
-const DOBSON: f64 = 2.6867e16;
-
-/// Ozone as a mixture of three, each with the cross section at one temperature; `dobson` is its column, if not that of
-/// the profile.
-fn ozone(
-    profile: &Table,
-    altitudes: &[f64],
-    lights: &[Monochromatic],
-    dobson: Option<f64>,
-) -> Result<[Constituent; 3]> {
-    let cross_sections = table!("o3_xsec_1nm.csv")?;
-    let temperature = profile.curve("z_km", "T_K")?;
-    let (ozone, standard) = density(&profile.curve("z_km", "n_o3")?, altitudes);
-    let scale = match dobson {
-        Some(dobson) => dobson * DOBSON / column(altitudes, &ozone),
-        None => standard,
-    };
-    let part = |i: usize| -> Result<Constituent> {
-        let kelvin = OZONE[i];
-        let absorption = cross_sections.curve("wavelength_nm", &format!("sigma_{kelvin}K"))?;
-        let densities = altitudes.iter().zip(&ozone);
-        let share = |z: &f64| shares(temperature.at(z / 1000.0))[i];
-        let depth = |l: &Monochromatic| absorption.at(l.wavelength) * scale;
-        Ok(Constituent {
-            name: format!("ozone at {kelvin} K"),
-            profile: densities.map(|(z, n)| n * share(z)).collect(),
-            extinction: lights.iter().map(depth).collect(),
-            scatterers: vec![],
-        })
-    };
-    Ok([part(0)?, part(1)?, part(2)?])
-}
-
-/// How much of each temperature makes another, K.
-fn shares(temperature: f64) -> [f64; 3] {
-    let t = temperature.clamp(OZONE[0], OZONE[2]);
-    let upper = if t < OZONE[1] { 1 } else { 2 };
-    let share = (t - OZONE[upper - 1]) / (OZONE[upper] - OZONE[upper - 1]);
-    let mut out = [0.0; 3];
-    (out[upper - 1], out[upper]) = (1.0 - share, share);
-    out
-}
-
-/// Absorption by water vapour.
-fn water(profile: &Table, altitudes: &[f64], lights: &[Monochromatic]) -> Result<Constituent> {
-    /// g per molecule of water, and so cm of precipitable water per molecule in cm².
-    const MOLECULE: f64 = 18.015_28 / 6.022_140_76e23;
-    let (vapour, scale) = density(&profile.curve("z_km", "n_h2o")?, altitudes);
-    Ok(Constituent {
-        name: "water vapour".into(),
-        profile: vapour,
-        extinction: lights.iter().map(|l| l.water * MOLECULE * scale).collect(),
-        scatterers: vec![],
-    })
-}
-
-/// Profile normalised to its largest value, and the factor from cm² to m⁻¹ there.
-fn density(per_cm3: &Curve, altitudes: &[f64]) -> (Vec<f64>, f64) {
-    let n: Vec<f64> = altitudes
-        .iter()
-        .map(|z| per_cm3.log_at(z / 1000.0))
-        .collect();
-    let max = n.iter().cloned().fold(0.0, f64::max);
-    (n.iter().map(|v| v / max).collect(), max * 100.0)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::gases::DOBSON;
+    use super::super::table::Table;
     use super::*;
+
+    macro_rules! table {
+        ($name:literal) => {
+            Table::parse($name, include_str!(concat!("../../data/", $name)))
+        };
+    }
 
     /// Bodhaine et al. 1999, Table 3 (cm²), and the column of the US standard atmosphere at 1013.25 hPa (their Table
     /// 4).
@@ -311,15 +209,6 @@ mod tests {
         assert!((twice / hole - 2.0).abs() < 1e-9);
         let standard = 100.0 * depth(None) / hole;
         assert!((standard - 345.0).abs() < 10.0, "{standard} DU");
-    }
-
-    #[test]
-    fn ozone_is_a_mixture_of_neighbouring_temperatures() {
-        assert_eq!(shares(200.0), [1.0, 0.0, 0.0]);
-        assert_eq!(shares(233.0), [0.5, 0.5, 0.0]);
-        assert_eq!(shares(243.0), [0.0, 1.0, 0.0]);
-        assert_eq!(shares(268.0), [0.0, 0.5, 0.5]);
-        assert_eq!(shares(300.0), [0.0, 0.0, 1.0]);
     }
 
     #[test]

@@ -49,12 +49,33 @@ impl Table {
 }
 
 /// A piecewise linear function, constant beyond its ends.
+#[derive(Clone, Debug)]
 pub struct Curve {
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
 impl Curve {
+    /// Through the points of `x`, at least two of them that increase, and `y`, as many.
+    pub fn new(x: Vec<f64>, y: Vec<f64>) -> Result<Self> {
+        ensure!(
+            x.len() > 1 && x.len() == y.len(),
+            "a function needs two points or more, not {} and {} numbers",
+            x.len(),
+            y.len()
+        );
+        ensure!(
+            x.windows(2).all(|w| w[0] < w[1]),
+            "the points must increase"
+        );
+        Ok(Self { x, y })
+    }
+
+    /// Where it bends.
+    pub fn nodes(&self) -> &[f64] {
+        &self.x
+    }
+
     /// Its value at `x`.
     pub fn at(&self, x: f64) -> f64 {
         let (i, t) = self.locate(x);

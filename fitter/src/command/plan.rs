@@ -1,9 +1,11 @@
 //! What is traced: arguments that several commands share.
 
+use super::make::find;
 use anyhow::Result;
 use std::path::PathBuf;
+use welkin_fitter::air::Air;
 use welkin_fitter::dataset::SHORT_WAVE_INFRARED;
-use welkin_fitter::units::Plan;
+use welkin_fitter::units::{Between, Plan};
 
 /// The plan and the folder of its work units.
 #[derive(clap::Args)]
@@ -11,6 +13,10 @@ pub struct PlanArgs {
     /// Folder for finished work units; whatever was interrupted goes on from them.
     #[arg(long, default_value = "work")]
     pub work: PathBuf,
+    /// Air of a recipe instead of the default model's: a TOML file, or the name of one that comes along. What lies between
+    /// the wavelengths is then taken from the default model.
+    #[arg(long, conflicts_with_all = ["visibilities", "infrared"])]
+    recipe: Option<PathBuf>,
     /// Only these altitudes, m.
     #[arg(long, value_delimiter = ',')]
     altitudes: Option<Vec<f64>>,
@@ -41,6 +47,11 @@ impl PlanArgs {
         }
         if self.infrared {
             plan.coverage = SHORT_WAVE_INFRARED;
+        }
+        if let Some(recipe) = &self.recipe {
+            plan.air = Air::of(find(recipe)?)?;
+            plan.grid.visibilities = plan.air.visibilities();
+            plan.between = Between::Default;
         }
         plan.grid.check()?;
         Ok(plan)

@@ -6,6 +6,7 @@ use clap::Subcommand;
 use std::path::PathBuf;
 use welkin::Model;
 use welkin::output::replace_file;
+use welkin_fitter::air::Air;
 use welkin_fitter::dataset::Store;
 use welkin_fitter::spectrum::judge::judge;
 use welkin_fitter::spectrum::judgement_tables::{bands, csv, luminance, summary};
@@ -195,7 +196,7 @@ impl JudgeArgs {
                 .collect(),
         };
         let store = Store::open(&self.work, format!("2 {walk:?}"))?;
-        let judgement = judge(&model, &walk, &walk.trace(&store)?)?;
+        let judgement = judge(&model, &walk, &walk.trace(&store, &Air::Continental)?)?;
         let table = match self.table {
             Table::All => csv(&judgement),
             Table::Bands => bands(&judgement),

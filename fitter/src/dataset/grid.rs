@@ -139,6 +139,11 @@ impl Grid {
         self.phi.sites().into_iter().map(|u| u / n * PI).collect()
     }
 
+    /// Lowest and highest solar elevation, rad.
+    pub fn elevation_range(&self) -> [f64; 2] {
+        [self.elevation.min, self.elevation.max]
+    }
+
     /// The elevation axis as a spline axis.
     pub fn elevation_axis(&self) -> Axis {
         Axis {

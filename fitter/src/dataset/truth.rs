@@ -31,17 +31,17 @@ pub struct Sample {
 /// Random samples at `altitude`: `views` directions, uniform over the sphere, each under the same `suns` random suns
 /// and albedos.
 ///
-/// A third of the solar elevations are uniform in −12..90°, a third in −12..12°, a third in −6..0.5°, where the edge of the
-/// Earth's shadow is seen. Sun-major.
+/// A third of the solar elevations are uniform in all `range` (rad), a third in as much of −12..12° as that has, a third
+/// of −6..0.5°, where the edge of the Earth's shadow is seen. Sun-major.
 pub fn truth(
     gatherer: &Gatherer,
     light: &LightField,
-    altitude: f64,
+    (altitude, range): (f64, [f64; 2]),
     counts: [usize; 2],
     seed: u64,
 ) -> Vec<Sample> {
     let [views, suns] = counts;
-    let skies = skies(altitude, suns, seed);
+    let skies = skies(altitude, range, suns, seed);
     let rows: Vec<Vec<Sample>> = (0..views)
         .into_par_iter()
         .map(|i| {
@@ -93,12 +93,13 @@ fn uniform(rng: &mut Pcg64Mcg) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-fn skies(altitude: f64, count: usize, seed: u64) -> Vec<Sample> {
+fn skies(altitude: f64, range: [f64; 2], count: usize, seed: u64) -> Vec<Sample> {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     (0..count)
         .map(|k| {
-            let range: [f64; 2] = [[-12.0, 90.0], [-12.0, 12.0], [-6.0, 0.5]][k % 3];
-            let [lowest, highest] = range.map(f64::to_radians);
+            let wanted: [f64; 2] = [[-12.0, 90.0], [-12.0, 12.0], [-6.0, 0.5]][k % 3];
+            let inside = wanted.map(|e| e.to_radians().clamp(range[0], range[1]));
+            let [lowest, highest] = if inside[0] < inside[1] { inside } else { range };
             Sample {
                 altitude,
                 view_elevation: 0.0,
@@ -167,8 +168,8 @@ pub fn total(
     albedo: f64,
 ) -> [f64; NW] {
     let rayleigh = rayleigh_phase(gatherer.polarising(), cosine);
-    let fine = gatherer.phase(0, cosine);
-    let coarse = gatherer.phase(1, cosine);
+    let fine = gatherer.phase(0).at(cosine);
+    let coarse = gatherer.phase(1).at(cosine);
     std::array::from_fn(|w| {
         let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));
         f64::from(

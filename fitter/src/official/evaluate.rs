@@ -168,6 +168,12 @@ impl OfficialSky<'_> {
         Ok(self.sum(&angles, alpha))
     }
 
+    /// Memory of its tables.
+    pub fn bytes(&self) -> usize {
+        let tables = self.radiance.iter().flatten();
+        tables.map(RadianceTables::bytes).sum()
+    }
+
     fn at(&self, angles: &Angles) -> Vec<f64> {
         self.sum(angles, angles.alpha(self.frame.solar_elevation))
     }

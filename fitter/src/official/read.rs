@@ -10,6 +10,7 @@ use super::layout::{
     Axes, Channels, Header, MOST_BREAKS, MOST_CHANNELS, MOST_NODES, MOST_RANK, Node,
     PolarisationBreaks, RadianceBreaks,
 };
+use super::selection::Selection;
 use super::tables::{PolarisationTables, RadianceTables};
 use super::transmittance::{Shape, Transmittance};
 use std::fs::File;
@@ -55,6 +56,10 @@ impl std::fmt::Display for Note {
 pub struct OfficialData {
     source: Box<dyn ReadAt>,
     length: u64,
+    /// Of the file.
+    whole: Header,
+    selection: Selection,
+    /// Of what is selected.
     header: Header,
     radiance: u64,
     transmittance: Option<(Shape, u64)>,
@@ -109,6 +114,8 @@ impl OfficialData {
         Ok(Self {
             source: Box::new(source),
             length,
+            selection: Selection::all(&header),
+            whole: header.clone(),
             header,
             radiance,
             transmittance,
@@ -117,7 +124,22 @@ impl OfficialData {
         })
     }
 
-    /// Axes, channels and breaks.
+    /// The same file, of which only a part is looked at.
+    ///
+    /// # Errors
+    /// [`OfficialError::Value`] if the file does not have that part.
+    pub fn select(mut self, selection: Selection) -> Result<Self> {
+        self.header = selection.of(&self.whole)?;
+        self.selection = selection;
+        Ok(self)
+    }
+
+    /// What is looked at.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// Axes, channels and breaks of what is selected.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -149,7 +171,7 @@ impl OfficialData {
     pub fn radiance_tables(&self, node: Node, channel: usize) -> Result<RadianceTables> {
         let breaks = &self.header.breaks;
         let mut cursor = self.at(Section::Radiance, self.radiance);
-        cursor.skip(self.header.index(node, channel) * breaks.bytes())?;
+        cursor.skip(self.selection.place(&self.whole, node, channel) * breaks.bytes())?;
         RadianceTables::decode(breaks, &cursor.bytes(breaks.bytes())?)
     }
 
@@ -162,12 +184,12 @@ impl OfficialData {
             return Err(OfficialError::Missing(Section::Polarisation));
         };
         let mut cursor = self.at(Section::Polarisation, *start);
-        cursor.skip(self.header.index(node, channel) * breaks.bytes())?;
+        cursor.skip(self.selection.place(&self.whole, node, channel) * breaks.bytes())?;
         let values = cursor.f32s((breaks.bytes() / 4) as usize)?;
         PolarisationTables::decode(breaks, &values)
     }
 
-    /// Reads the whole transmittance (37 MB in the published data).
+    /// Reads the whole transmittance (37 MB in the published data) in the selected channels.
     ///
     /// # Errors
     /// As [`OfficialData::polarisation_tables`].
@@ -176,12 +198,13 @@ impl OfficialData {
             return Err(OfficialError::Missing(Section::Transmittance));
         };
         let mut cursor = self.at(Section::Transmittance, *start);
-        let channels = self.header.channels;
+        let channels = self.whole.channels;
         let altitudes = cursor.f32s(shape.altitudes)?;
         let visibilities = cursor.f32s(shape.visibilities)?;
         let paths = cursor.f32s(shape.paths())?;
         let airs = cursor.f32s(shape.airs(channels.count))?;
-        Transmittance::new(*shape, channels, [altitudes, visibilities], [paths, airs])
+        let whole = Transmittance::new(*shape, channels, [altitudes, visibilities], [paths, airs])?;
+        Ok(whole.only(self.selection.channels.clone()))
     }
 
     fn at(&self, section: Section, offset: u64) -> Cursor<'_> {

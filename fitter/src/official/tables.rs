@@ -102,6 +102,12 @@ impl RadianceTables {
         Ok(bytes)
     }
 
+    /// Memory of the factors.
+    pub fn bytes(&self) -> usize {
+        let numbers = self.sun.len() + self.zenith.len() + self.emphasis.len();
+        numbers * size_of::<f32>()
+    }
+
     /// Radiance at places among the breaks of the angle to the sun, of the zenith angle and of the emphasis.
     pub fn at(&self, breaks: &RadianceBreaks, [sun, zenith, emphasis]: [Place; 3]) -> f64 {
         let lengths = [breaks.sun.len(), breaks.zenith.len()];

@@ -206,6 +206,20 @@ impl Transmittance {
         })
     }
 
+    /// In some of its channels.
+    pub(super) fn only(mut self, selected: std::ops::Range<usize>) -> Self {
+        let channels = self.channels;
+        let airs = self.airs.chunks_exact(channels.count * self.shape.rank);
+        let part = selected.start * self.shape.rank..selected.end * self.shape.rank;
+        self.airs = airs.flat_map(|row| row[part.clone()].to_vec()).collect();
+        self.channels = Channels {
+            count: selected.len(),
+            start: channels.start + selected.start as f64 * channels.width,
+            ..channels
+        };
+        self
+    }
+
     /// Lengths of the tables.
     pub fn shape(&self) -> Shape {
         self.shape

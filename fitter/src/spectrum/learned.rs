@@ -4,6 +4,7 @@ use super::cells::Cell;
 use super::thinned::{needed, strong};
 use super::training::{TOGETHER, Training, guarded, lights};
 use super::weights::{FLOOR, Taps, Target, floored, learn, value};
+use crate::air::Air;
 use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
 use crate::dataset::{Coverage, Sample, Store};
@@ -63,7 +64,12 @@ pub struct Lesson {
 
 impl Training {
     /// Spectra from `store`, which are traced if need be.
-    pub fn lesson(&self, store: &Store, coverage: &Coverage, cells: Vec<Cell>) -> Result<Lesson> {
+    pub fn lesson(
+        &self,
+        store: &Store,
+        (air, coverage): (&Air, &Coverage),
+        cells: Vec<Cell>,
+    ) -> Result<Lesson> {
         let name = nodes_name(coverage);
         let lights = lights(&cells);
         let sets = lights.len().div_ceil(TOGETHER);
@@ -71,13 +77,13 @@ impl Training {
         let (mut samples, mut nodes) = (vec![], vec![]);
         let mut radiance = vec![vec![]; lights.len()];
         for &visibility in &self.visibilities {
-            let traced = self.unit(store, visibility, &coverage.nodes, &name)?;
+            let traced = self.unit(store, (air, visibility), &coverage.nodes, &name)?;
             progress.inc(1);
             nodes.extend(traced.iter().map(|s| floored(&s.radiance)));
             samples.extend(traced);
             for (set, part) in lights.chunks(TOGETHER).enumerate() {
                 let part = guarded(part, coverage);
-                let traced = self.unit(store, visibility, &part, &set.to_string())?;
+                let traced = self.unit(store, (air, visibility), &part, &set.to_string())?;
                 for (k, term) in radiance[set * TOGETHER..]
                     .iter_mut()
                     .take(TOGETHER)

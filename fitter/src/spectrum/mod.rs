@@ -9,6 +9,7 @@ pub mod g173;
 pub mod judge;
 pub mod judgement_tables;
 pub mod learned;
+mod of_default;
 mod pack;
 mod thinned;
 pub mod training;

@@ -3,12 +3,14 @@
 use super::cells::{Cell, cells};
 use super::colour::{self, Observer};
 use super::learned::{Learned, Lesson};
+use super::of_default::of_default;
+use super::training::Training;
 use super::weights::TAPS;
-use crate::atmosphere::{Monochromatic, Particles, real_at};
+use crate::air::Air;
+use crate::atmosphere::Monochromatic;
 use crate::dataset::Store;
-use crate::units::Plan;
-use crate::units::Solved;
-use anyhow::Result;
+use crate::units::{Between, Plan, Solved};
+use anyhow::{Result, bail};
 use std::path::Path;
 use welkin::format::Spectrum;
 
@@ -18,11 +20,35 @@ pub struct Packed {
     pub spectrum: Spectrum,
     /// XYZ per unit of relative radiance at each node.
     pub xyz: Vec<[f64; 3]>,
+    /// The light of each term.
+    pub(super) lights: Vec<Monochromatic>,
 }
 
-/// Learns what lies between the nodes, keeping traced spectra in the folder `work`, for the visibilities of `solved`.
-pub fn pack(plan: &Plan, work: &Path, solved: &[Solved]) -> Result<Packed> {
-    let learned = lesson(plan, work)?.learn();
+/// What lies between the nodes of a model, if anything: learned from traced spectra, which are kept in the folder `work`,
+/// or as in the default model.
+pub fn pack(plan: &Plan, work: &Path, solved: &[Solved]) -> Result<Option<Packed>> {
+    let visibilities: Vec<f64> = solved.iter().map(|s| s.visibility).collect();
+    let mut packed = match &plan.between {
+        Between::Learned(training) => learned(plan, training, work)?,
+        Between::Default => of_default(plan, work, solved)?,
+        Between::Nothing => return Ok(None),
+    };
+    let spectrum = &mut packed.spectrum;
+    for &visibility in &visibilities {
+        let beside = beside_lines(&plan.air, visibility, &spectrum.wavelength)?;
+        let row = beside.into_iter().flatten().map(|k| k as f32);
+        spectrum.extinction.extend(row);
+    }
+    for light in &packed.lights {
+        let lines = lines(&plan.air, visibilities[0], *light)?;
+        let row = lines.into_iter().map(|k| k as f32);
+        spectrum.term_extinction.extend(row);
+    }
+    Ok(Some(packed))
+}
+
+fn learned(plan: &Plan, training: &Training, work: &Path) -> Result<Packed> {
+    let learned = lesson_of(plan, training, work)?.learn();
     let cells = &learned.cells;
     let mut spectrum = Spectrum {
         taps: TAPS,
@@ -36,34 +62,34 @@ pub fn pack(plan: &Plan, work: &Path, solved: &[Solved]) -> Result<Packed> {
             .collect(),
         ..Spectrum::default()
     };
-    for solved in solved {
-        let beside = beside_lines(solved.visibility, cells)?;
-        spectrum
-            .extinction
-            .extend(beside.into_iter().flatten().map(|k| k as f32));
-    }
-    let terms = cells.iter().flat_map(|c| &c.terms).zip(&learned.taps);
-    for (term, taps) in terms {
+    let terms = || cells.iter().flat_map(|c| &c.terms);
+    for (term, taps) in terms().zip(&learned.taps) {
         spectrum.term_weight.push(term.weight as f32);
-        let lines = lines(solved[0].visibility, term.light)?;
-        spectrum
-            .term_extinction
-            .extend(lines.into_iter().map(|k| k as f32));
         for t in 0..TAPS {
             let (node, weight) = taps.get(t).copied().unwrap_or((0, 0.0));
             spectrum.tap_node.push(node as u32);
             spectrum.tap_weight.push(weight as f32);
         }
     }
-    let xyz = colour_weights(&learned, &plan.coverage.nodes)?;
-    Ok(Packed { spectrum, xyz })
+    Ok(Packed {
+        xyz: colour_weights(&learned, &plan.coverage.nodes)?,
+        lights: terms().map(|t| t.light).collect(),
+        spectrum,
+    })
 }
 
 /// Spectra of all visibilities that are learned from.
 pub fn lesson(plan: &Plan, work: &Path) -> Result<Lesson> {
+    match &plan.between {
+        Between::Learned(training) => lesson_of(plan, training, work),
+        _ => bail!("a model of this kind learns nothing"),
+    }
+}
+
+fn lesson_of(plan: &Plan, training: &Training, work: &Path) -> Result<Lesson> {
     let cells = cells(&plan.coverage)?;
-    let store = Store::open(work, plan.training.key(&cells))?;
-    plan.training.lesson(&store, &plan.coverage, cells)
+    let store = Store::open(work, training.key(&cells, &plan.air))?;
+    training.lesson(&store, (&plan.air, &plan.coverage), cells)
 }
 
 fn first_terms(cells: &[Cell]) -> Vec<u32> {
@@ -76,17 +102,17 @@ fn first_terms(cells: &[Cell]) -> Vec<u32> {
 }
 
 /// Extinction without lines, `[constituent][cell]`, m⁻¹.
-fn beside_lines(visibility: f64, cells: &[Cell]) -> Result<Vec<Vec<f64>>> {
-    let light = |c: &Cell| Monochromatic::beside_lines(c.wavelength);
+fn beside_lines(air: &Air, visibility: f64, cells: &[f64]) -> Result<Vec<Vec<f64>>> {
+    let light = |&nm: &f64| Monochromatic::beside_lines(nm);
     let lights: Vec<Monochromatic> = cells.iter().map(light).collect();
-    let air = real_at(visibility, &lights, Particles::HenyeyGreenstein)?;
+    let air = air.at(visibility, &lights)?;
     Ok(air.constituents.into_iter().map(|c| c.extinction).collect())
 }
 
 /// What lines add to the extinction of each constituent, m⁻¹.
-fn lines(visibility: f64, light: Monochromatic) -> Result<Vec<f64>> {
+pub(super) fn lines(air: &Air, visibility: f64, light: Monochromatic) -> Result<Vec<f64>> {
     let pair = [light, Monochromatic::beside_lines(light.wavelength)];
-    let air = real_at(visibility, &pair, Particles::HenyeyGreenstein)?;
+    let air = air.at(visibility, &pair)?;
     let added = air
         .constituents
         .iter()

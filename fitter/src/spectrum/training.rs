@@ -1,7 +1,8 @@
 //! Traced spectra: light of every term of every cell at the same random lines of sight.
 
 use super::cells::Cell;
-use crate::atmosphere::{Monochromatic, Particles, real_at};
+use crate::air::Air;
+use crate::atmosphere::{Atmosphere, Monochromatic};
 use crate::dataset::{Coverage, Sample, Store, truth};
 use crate::successive_orders::{Gatherer, Medium, NW, SOLAR_ANGULAR_RADIUS, Settings, solve};
 use anyhow::Result;
@@ -9,7 +10,7 @@ use anyhow::Result;
 /// How spectra are traced.
 #[derive(Clone, Debug)]
 pub struct Training {
-    /// Visibilities, m. Without any, a model has neither a spectrum nor colours.
+    /// Visibilities, m.
     pub visibilities: Vec<f64>,
     /// Altitudes of the observers, m.
     pub altitudes: Vec<f64>,
@@ -33,6 +34,9 @@ impl Default for Training {
     }
 }
 
+/// Solar elevations of lines of sight, rad.
+pub const SUNS: [f64; 2] = [-12.0 * DEGREE, 90.0 * DEGREE];
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Changes whenever the physics or the layout of the units does.
 const VERSION: u32 = 4;
 /// Lights that are solved together, beside the guard.
@@ -46,14 +50,6 @@ pub fn guarded(part: &[Monochromatic], coverage: &Coverage) -> [Monochromatic; N
 }
 
 impl Training {
-    /// Nothing is learned.
-    pub fn none() -> Self {
-        Self {
-            visibilities: vec![],
-            ..Self::draft()
-        }
-    }
-
     /// Coarse, to try things with.
     pub fn draft() -> Self {
         Self {
@@ -66,32 +62,32 @@ impl Training {
     }
 
     /// What the units depend on.
-    pub fn key(&self, cells: &[Cell]) -> String {
-        format!("{VERSION} {self:?} {:?}", lights(cells))
+    pub fn key(&self, cells: &[Cell], air: &Air) -> String {
+        format!("{VERSION} {self:?} {:?}{}", lights(cells), air.key())
     }
 
     /// Samples of `lights` at a visibility, `[set of NW lights][sample]`.
-    fn traced(&self, visibility: f64, lights: &[Monochromatic]) -> Result<Vec<Sample>> {
-        let medium = Medium::new(
-            real_at(visibility, lights, Particles::HenyeyGreenstein)?,
-            SOLAR_ANGULAR_RADIUS,
-        )?;
+    fn traced(&self, air: Atmosphere, visibility: f64) -> Result<Vec<Sample>> {
+        let medium = Medium::new(air, SOLAR_ANGULAR_RADIUS)?;
         let light = solve(&medium, self.settings, &|_| {});
         let gatherer = Gatherer::new(&medium, &light, self.fineness);
-        let one = |&h: &f64| truth(&gatherer, &light, h, self.counts, (h + visibility) as u64);
+        let one = |&h: &f64| {
+            let seed = (h + visibility) as u64;
+            truth(&gatherer, &light, (h, SUNS), self.counts, seed)
+        };
         Ok(self.altitudes.iter().flat_map(one).collect())
     }
 
-    /// The samples of a visibility for a set of lights, under the name `name`.
+    /// The samples of a visibility for a set of lights in some air, under the name `name`.
     pub fn unit(
         &self,
         store: &Store,
-        visibility: f64,
+        (air, visibility): (&Air, f64),
         lights: &[Monochromatic; NW],
         name: &str,
     ) -> Result<Vec<Sample>> {
         let values = store.unit(&format!("spectra-{visibility}-{name}"), || {
-            let samples = self.traced(visibility, lights)?;
+            let samples = self.traced(air.at(visibility, lights)?, visibility)?;
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;
         Ok(Sample::from_values(&values))

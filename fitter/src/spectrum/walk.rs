@@ -1,9 +1,9 @@
 //! A walk over wavelengths between nodes and cells: traced light that a model is judged by.
 
 use super::cells::Cell;
-use super::training::lights;
+use super::training::{SUNS, lights};
+use crate::air::Air;
 use crate::atmosphere::absorption_bands::AbsorptionBands;
-use crate::atmosphere::{Particles, real_at};
 use crate::dataset::{Sample, Store, truth};
 use crate::finite::study::{Case, cases};
 use crate::progress::bar;
@@ -45,8 +45,8 @@ pub struct Traced {
 const SEED: u64 = 16;
 
 impl Walk {
-    /// Traces the walk as finely as a model, keeping units in `store`.
-    pub fn trace(&self, store: &Store) -> Result<Traced> {
+    /// Traces the walk through some air as finely as a model, keeping units in `store`.
+    pub fn trace(&self, store: &Store, air: &Air) -> Result<Traced> {
         let bands = AbsorptionBands::new()?;
         let cell = |&wavelength: &f64| Cell {
             wavelength,
@@ -67,8 +67,7 @@ impl Walk {
             let mut part = lights[set * NW..lights.len().min((set + 1) * NW)].to_vec();
             let count = part.len();
             part.resize(NW, *part.last().context("no lights")?);
-            let air = real_at(self.visibility, &part, Particles::HenyeyGreenstein)?;
-            let medium = Medium::new(air, SOLAR_ANGULAR_RADIUS)?;
+            let medium = Medium::new(air.at(self.visibility, &part)?, SOLAR_ANGULAR_RADIUS)?;
             let (samples, cases, segments) = self.set(store, medium, set)?;
             for w in 0..count {
                 let [q, u] = [0, 1].map(|c| move |s: &Sample| s.polarisation[c][w]);
@@ -111,7 +110,10 @@ impl Walk {
         let sky = store.unit(&format!("walk-{}-{set}", self.visibility), || {
             let solved = &*solved;
             let gatherer = Gatherer::new(&solved.medium, &solved.light, 1.0);
-            let one = |&h: &f64| truth(&gatherer, &solved.light, h, self.counts, SEED + h as u64);
+            let one = |&h: &f64| {
+                let (counts, seed) = (self.counts, SEED + h as u64);
+                truth(&gatherer, &solved.light, (h, SUNS), counts, seed)
+            };
             let samples: Vec<Sample> = self.altitudes.iter().flat_map(one).collect();
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;

@@ -1,10 +1,11 @@
 //! View rays through a solved light field: the fields that the model stores.
 
-use super::first_order;
+use super::first_order::{self, Peaks};
+use super::lobes::Lobes;
 use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
 use super::solve::LightField;
-use super::spectral_medium::{Medium, NW, Spectrum, henyey_greenstein};
+use super::spectral_medium::{Medium, NW, Spectrum};
 use super::unresolved::TwiceScattered;
 use crate::column::planet;
 use welkin::geometry::{Planet, Side};
@@ -16,15 +17,15 @@ pub const POLARISED: usize = 4;
 
 /// Light along a view ray, divided by what the evaluator multiplies back.
 ///
-/// Singly scattered light is stored without its phase function; soot shares the phase function of the water-soluble
-/// particles and the small difference goes to the multiply scattered light.
+/// Singly scattered light is stored without its phase function; particles share that of their kind, and the small
+/// difference goes to the multiply scattered light. So does the polarisation by particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fields {
     /// Single Rayleigh scattering, over its phase function.
     pub rayleigh: Spectrum,
-    /// Single scattering by water-soluble particles and soot, over the phase function of the former.
+    /// Single scattering by particles of the first kind, over its phase function.
     pub fine: Spectrum,
-    /// Single scattering by insoluble particles, over their phase function.
+    /// Single scattering by particles of the second kind, over its phase function.
     pub coarse: Spectrum,
     /// Multiply scattered light over a black ground: I, Q, U.
     pub multiple: Stokes,
@@ -43,10 +44,6 @@ impl Fields {
         ]
     }
 }
-
-const WASO: usize = 0;
-const INSO: usize = 1;
-const SOOT: usize = 2;
 
 /// Gathers along view rays.
 pub struct Gatherer<'a> {
@@ -138,7 +135,7 @@ impl<'a> Gatherer<'a> {
         for (i, (sums, mut light)) in sunlit.chunks_exact(parts).zip(multiple).enumerate() {
             let sun = &suns[i];
             twice[i].add_to(&mut light[0][0], mu, sun);
-            out.push(self.assemble(sums, light, sun.cosine(mu)));
+            out.push(self.assemble(sums, light, (mu, sun)));
         }
         out
     }
@@ -164,7 +161,7 @@ impl<'a> Gatherer<'a> {
             }
         }
         twice.add_to(&mut light[0][0], mu, sun);
-        let mut out = first_order::stokes(self.medium, &sums, mu, sun);
+        let mut out = first_order::stokes(self.medium, &sums, (mu, sun), Peaks::Whole);
         for (s, total) in out.iter_mut().enumerate() {
             for w in 0..NW {
                 let ground = albedo / (1.0 - albedo * self.light.spherical_albedo[w]);
@@ -174,19 +171,17 @@ impl<'a> Gatherer<'a> {
         out
     }
 
-    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
+    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], (mu, sun): (f64, &Sun)) -> Fields {
         let [mut multiple, ground] = light;
-        let waso = first_order::aerosol(self.medium, WASO, sums);
-        let soot = first_order::aerosol(self.medium, SOOT, sums);
-        let shared = henyey_greenstein(&self.asymmetry(WASO), cosine);
-        let own = henyey_greenstein(&self.asymmetry(SOOT), cosine);
+        first_order::add_polarised_by_particles(self.medium, sums, (mu, sun), &mut multiple);
+        let beside = first_order::beside_kinds(self.medium, sums, sun.cosine(mu));
         for w in 0..NW {
-            multiple[0][w] += soot[w] * (own[w] - shared[w]);
+            multiple[0][w] += beside[w];
         }
         Fields {
             rayleigh: first_order::rayleigh(self.medium, sums),
-            fine: std::array::from_fn(|w| waso[w] + soot[w]),
-            coarse: first_order::aerosol(self.medium, INSO, sums),
+            fine: first_order::particles(self.medium, 0, sums),
+            coarse: first_order::particles(self.medium, 1, sums),
             multiple,
             ground,
         }
@@ -197,18 +192,8 @@ impl<'a> Gatherer<'a> {
         &self.medium.polarising
     }
 
-    /// Henyey-Greenstein phase function of an aerosol species.
-    pub fn phase(&self, species: usize, cosine: f32) -> Spectrum {
-        henyey_greenstein(&self.asymmetry(species), cosine)
-    }
-
-    /// Asymmetry parameter of an aerosol species; 0 where the atmosphere has none.
-    pub fn asymmetry(&self, species: usize) -> Spectrum {
-        let mut found = self
-            .medium
-            .parts
-            .iter()
-            .filter_map(|p| p.aerosols.get(species));
-        found.next().map_or([0.0; NW], |a| a.g)
+    /// Phase function of a kind of particles; 1 where the atmosphere has none.
+    pub fn phase(&self, kind: usize) -> &Lobes {
+        &self.medium.kinds[kind]
     }
 }

@@ -4,5 +4,5 @@ mod plan;
 mod run;
 mod unit;
 
-pub use plan::{CrossCheck, HeldOut, Plan, Solved};
+pub use plan::{Between, CrossCheck, HeldOut, Plan, Solved};
 pub use unit::{Kind, Unit};

@@ -1,13 +1,14 @@
 //! What is traced, and how finely.
 
 use super::unit::Kind;
-use crate::atmosphere::{Atmosphere, Particles, real_at};
+use crate::air::Air;
+use crate::atmosphere::Atmosphere;
 use crate::dataset::{
     CHANNELS, Coverage, Grid, Sample, Store, Tensor, VISIBLE, shadow_edge, trace_tensor, truth,
 };
 use crate::spectrum::training::Training;
 use crate::successive_orders::{
-    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+    Gatherer, Kinds, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
 };
 use anyhow::{Context, Result};
 use std::path::Path;
@@ -17,10 +18,12 @@ use std::path::Path;
 pub struct Plan {
     /// The grid.
     pub grid: Grid,
+    /// The air.
+    pub air: Air,
     /// The wavelengths.
     pub coverage: Coverage,
-    /// What lies between them is learned from.
-    pub training: Training,
+    /// Where what lies between them comes from.
+    pub between: Between,
     /// Resolution of the solver.
     pub settings: Settings,
     /// Held-out view directions and suns per chunk.
@@ -47,6 +50,17 @@ impl Default for CrossCheck {
     }
 }
 
+/// Where what lies between the nodes of the wavelengths comes from.
+#[derive(Clone, Debug)]
+pub enum Between {
+    /// It is learned from spectra in the same air.
+    Learned(Training),
+    /// It is as in the default model, but for the extinction of the air.
+    Default,
+    /// Nothing lies there: no spectrum, no colours.
+    Nothing,
+}
+
 /// How many held-out samples a chunk has.
 #[derive(Clone, Copy, Debug)]
 pub struct HeldOut {
@@ -71,11 +85,6 @@ const FINENESS: f64 = 1.0;
 const LIGHT_VERSION: u32 = 6;
 const UNIT_VERSION: u32 = 8;
 
-/// The air of a visibility (m) for the nodes.
-fn air(coverage: &Coverage, visibility: f64) -> Result<Atmosphere> {
-    real_at(visibility, &coverage.nodes, Particles::HenyeyGreenstein)
-}
-
 /// A visibility, solved.
 pub struct Solved {
     /// Visibility, m.
@@ -97,8 +106,9 @@ impl Default for Plan {
     fn default() -> Self {
         Self {
             grid: Grid::default(),
+            air: Air::Continental,
             coverage: VISIBLE,
-            training: Training::default(),
+            between: Between::Learned(Training::default()),
             settings: Settings::default(),
             held_out: HeldOut::default(),
             cross_check: CrossCheck::default(),
@@ -116,19 +126,27 @@ impl Plan {
         grid.elevation.intervals = 12;
         Self {
             grid,
+            air: Air::Continental,
             coverage: VISIBLE,
-            training: Training::draft(),
+            between: Between::Learned(Training::draft()),
             settings: Settings::DRAFT,
             held_out: HeldOut { views: 24, suns: 6 },
             cross_check: CrossCheck::default(),
         }
     }
 
+    /// The air of a visibility (m) for the nodes.
+    pub fn atmosphere(&self, visibility: f64) -> Result<Atmosphere> {
+        self.air.at(visibility, &self.coverage.nodes)
+    }
+
     /// What the light fields depend on.
     pub(super) fn light_key(&self) -> String {
         format!(
-            "{LIGHT_VERSION} {:?} {:?}",
-            self.settings, self.coverage.nodes
+            "{LIGHT_VERSION} {:?} {:?}{}",
+            self.settings,
+            self.coverage.nodes,
+            self.air.key()
         )
     }
 
@@ -148,6 +166,20 @@ impl Plan {
         self.store_of(work, Kind::Tensor)
     }
 
+    /// The air of a visibility (m), with the kinds of particles of all nodes.
+    fn medium(&self, visibility: f64) -> Result<Medium> {
+        let air = self.atmosphere(visibility)?;
+        let nodes = self.air.visibilities();
+        if nodes.len() < 2 {
+            return Medium::new(air, SOLAR_ANGULAR_RADIUS);
+        }
+        let all: Vec<Atmosphere> = nodes
+            .iter()
+            .map(|&node| self.atmosphere(node))
+            .collect::<Result<_>>()?;
+        Medium::in_kinds(air, SOLAR_ANGULAR_RADIUS, &Kinds::of(&all)?)
+    }
+
     /// The light field of a visibility (m). `progress` is told the share that is done.
     pub fn solve(
         &self,
@@ -156,7 +188,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(air(&self.coverage, visibility)?, SOLAR_ANGULAR_RADIUS)?;
+        let medium = self.medium(visibility)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;
@@ -186,8 +218,10 @@ impl Plan {
         let seed = (solved.visibility + altitude) as u64;
         let counts = [self.held_out.views, self.held_out.suns];
         let name = Kind::Truth.unit(solved.visibility, Some(altitude));
+        let suns = self.grid.elevation_range();
         let values = store.unit(&name, || {
-            let samples = truth(&solved.gatherer(), &solved.light, altitude, counts, seed);
+            let (gatherer, light) = (solved.gatherer(), &solved.light);
+            let samples = truth(&gatherer, light, (altitude, suns), counts, seed);
             Ok(samples.iter().flat_map(Sample::to_values).collect())
         })?;
         Ok(Sample::from_values(&values))
@@ -222,12 +256,14 @@ impl Plan {
     ) -> Result<(Atmosphere, Vec<Sample>)> {
         let solved = self.solve(work, visibility, &|_| {})?;
         let gatherer = solved.gatherer();
-        let one =
-            |altitude: f64, seed: u64| truth(&gatherer, &solved.light, altitude, [1, 2], seed);
+        let suns = self.grid.elevation_range();
+        let one = |altitude: f64, seed: u64| {
+            truth(&gatherer, &solved.light, (altitude, suns), [1, 2], seed)
+        };
         let samples = altitudes
             .iter()
             .flat_map(|&h| (0..directions as u64).flat_map(move |i| one(h, 1000 * i + h as u64)))
             .collect();
-        Ok((air(&self.coverage, visibility)?, samples))
+        Ok((self.atmosphere(visibility)?, samples))
     }
 }

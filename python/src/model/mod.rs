@@ -1,5 +1,6 @@
 //! `Model`: what a file says, and everything that is prepared from it.
 
+pub mod axis;
 pub mod budget;
 mod general;
 pub mod opening;
@@ -103,6 +104,12 @@ impl PyModel {
     #[getter]
     fn is_moonlit(&self) -> bool {
         self.model.is_moonlit()
+    }
+
+    /// Whether the model has a ground of its own: see `over`.
+    #[getter]
+    fn has_ground(&self) -> bool {
+        self.model.ground().is_some()
     }
 
     /// Length of the file, bytes.

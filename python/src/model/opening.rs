@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use welkin::{Model, Moon};
+use welkin::{Albedo, Model, Moon};
 
 use super::PyModel;
+use crate::errors::raise;
 use crate::moon;
 use crate::rows::alone;
 use crate::source::{Source, to_bytes};
@@ -21,6 +22,8 @@ pub enum Recipe {
     Bytes(Py<PyBytes>),
     Stream,
     Moonlit(Box<Recipe>, Moon),
+    /// Wavelengths and albedos.
+    Over(Box<Recipe>, [Vec<f64>; 2]),
 }
 
 impl Recipe {
@@ -31,6 +34,7 @@ impl Recipe {
             Self::Bytes(bytes) => Self::Bytes(bytes.clone_ref(py)),
             Self::Stream => Self::Stream,
             Self::Moonlit(of, moon) => Self::Moonlit(Box::new(of.clone_ref(py)), *moon),
+            Self::Over(of, ground) => Self::Over(Box::new(of.clone_ref(py)), ground.clone()),
         }
     }
 
@@ -58,6 +62,12 @@ impl Recipe {
                 let method = module.getattr("Model")?.getattr("moonlit")?;
                 (method, arguments).into_pyobject(py)?.into_any()
             }
+            Self::Over(of, [wavelengths, albedos]) => {
+                let model = of.open(py)?.into_pyobject(py)?;
+                let arguments = (model, wavelengths.clone(), albedos.clone());
+                let method = module.getattr("Model")?.getattr("over")?;
+                (method, arguments).into_pyobject(py)?.into_any()
+            }
         };
         Ok(call_and_arguments)
     }
@@ -69,11 +79,21 @@ impl Recipe {
             Self::Bytes(bytes) => from_bytes(py, bytes.bind(py).as_any()),
             Self::Stream => Err(PyTypeError::new_err(STREAMED)),
             Self::Moonlit(of, moon) => of.open(py)?.moonlit_by(py, moon),
+            Self::Over(of, ground) => of.open(py)?.over_ground(py, ground.clone()),
         }
     }
 }
 
 impl PyModel {
+    /// Over a ground with these wavelengths (nm) and albedos.
+    pub fn over_ground(&self, py: Python<'_>, ground: [Vec<f64>; 2]) -> PyResult<Self> {
+        let [wavelengths, albedos] = &ground;
+        let albedo = Albedo::table(wavelengths, albedos).map_err(|e| raise(py, e))?;
+        let model = alone(py, || Ok(self.model.over(&albedo)))?;
+        let recipe = Recipe::Over(Box::new(self.recipe.clone_ref(py)), ground);
+        Ok(Self::new(model, recipe))
+    }
+
     pub fn moonlit_by(&self, py: Python<'_>, moon: &Moon) -> PyResult<Self> {
         let model = alone(py, || self.model.moonlit(moon))?;
         let recipe = Recipe::Moonlit(Box::new(self.recipe.clone_ref(py)), *moon);

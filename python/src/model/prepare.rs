@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 use super::PyModel;
 use crate::aerial_perspective::colour::PyColourAerialPerspective;
 use crate::aerial_perspective::spectral::PyAerialPerspective;
-use crate::arrays::{pair, scalar};
+use crate::arrays::{numbers, pair, scalar};
 use crate::conditions;
 use crate::moon::PySkySum;
 use crate::polarised::PyPolarisedSky;
@@ -147,6 +147,25 @@ impl PyModel {
     /// `solar_azimuth` (`Moon.conditions`). moon: a `Moon`.
     fn moonlit(&self, py: Python<'_>, moon: &Bound<'_, PyAny>) -> PyResult<Self> {
         self.moonlit_by(py, &self.moon(moon)?)
+    }
+
+    /// The same model over a ground whose albedo depends on wavelength: albedos (K,) within 0..=1 at increasing
+    /// wavelengths (K,) in nm, linear between them and constant beyond.
+    ///
+    /// Whatever conditions say, all that is prepared from it is in the light of that ground, at each wavelength exactly;
+    /// colours and bands see it as sums over the spectrum. Conditions of what is prepared have the albedo at 550 nm.
+    /// Queries with arrays of conditions (`Model.radiance` and its like) say their albedos and refuse it.
+    fn over(
+        &self,
+        py: Python<'_>,
+        wavelengths: &Bound<'_, PyAny>,
+        albedos: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let read = |values, what| -> PyResult<Vec<f64>> {
+            Ok(numbers::<f64>(values, what)?.as_slice()?.to_vec())
+        };
+        let ground = [read(wavelengths, "wavelengths")?, read(albedos, "albedos")?];
+        self.over_ground(py, ground)
     }
 
     /// The air at a visibility (m).

@@ -34,7 +34,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let (render, count) = (&options.render, options.frames as usize);
-    let model = render.source.open()?;
+    let model = render.scene.over_ground(render.source.open()?);
     let course = render.course(&model, count)?;
     let outputs = render.outputs.numbered(count)?;
     let call = options.call()?;
@@ -93,6 +93,10 @@ impl Options {
         for path in files.into_iter().flatten() {
             let unreadable = |e| Failure::message(format!("{}: {e}", path.display()));
             hasher.update(&std::fs::read(path).map_err(unreadable)?);
+        }
+        if let Some(ground) = self.render.scene.ground() {
+            // What its table holds, which may change under the same name.
+            hasher.update(format!("{ground:?}").as_bytes());
         }
         Ok(hasher.finalize())
     }

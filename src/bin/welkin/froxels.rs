@@ -93,7 +93,7 @@ pub fn run(options: &Options) -> Result<()> {
         return Err(Failure::message("the volume is written as .exr or .raw"));
     };
     target.check()?;
-    let model = options.source.open()?;
+    let model = options.scene.over_ground(options.source.open()?);
     let conditions = options.scene.conditions(&model)?;
     let aerial = match options.spectral {
         true => Aerial::Spectral(model.aerial_perspective(&conditions)?),

@@ -28,6 +28,8 @@ pub struct Ground {
     radiance: Vec<Vec<f32>>,
     /// To linear sRGB from spectral radiance, `[wavelength]`.
     srgb: Vec<[f32; 3]>,
+    /// Albedos where they depend on wavelength and are not in the radiance, `[wavelength]`.
+    albedos: Option<Vec<f32>>,
 }
 
 impl Ground {
@@ -57,9 +59,10 @@ impl Ground {
             };
             row(model, &there)
         });
+        let in_colours = model.albedos_in_colours()?;
         let unit = |w: usize| {
             let mut spectrum = vec![0.0; model.wavelengths().len()];
-            spectrum[w] = 1.0;
+            spectrum[w] = in_colours.as_ref().map_or(1.0, |albedos| albedos[w] as f32);
             welkin::xyz_to_linear_srgb(xyz(model, &spectrum))
         };
         Ok(Self {
@@ -67,6 +70,7 @@ impl Ground {
             air: model.transmittance(conditions.visibility)?,
             sun: conditions.sun_direction(),
             altitude,
+            albedos: albedos(model),
             srgb: (0..model.wavelengths().len()).map(unit).collect(),
             planet,
             lowest,
@@ -78,10 +82,9 @@ impl Ground {
     /// horizon.
     pub fn add(&self, direction: [f32; 3], radiance: &mut [f32]) -> welkin::Result<()> {
         if let Some(ground) = self.seen(direction)? {
-            radiance
-                .iter_mut()
-                .zip(ground)
-                .for_each(|(sum, l)| *sum += l);
+            let albedo = |w: usize| self.albedos.as_ref().map_or(1.0, |albedos| albedos[w]);
+            let pairs = radiance.iter_mut().zip(ground).enumerate();
+            pairs.for_each(|(w, (sum, l))| *sum += albedo(w) * l);
         }
         Ok(())
     }
@@ -128,13 +131,21 @@ impl Ground {
     }
 }
 
-/// Logarithms of the radiance of the ground at one place.
+/// At the wavelengths of the model, where its ground has one for each.
+fn albedos(model: &Model) -> Option<Vec<f32>> {
+    let ground = model.ground()?;
+    let at = |&l: &f64| ground.at(l) as f32;
+    Some(model.wavelengths().iter().map(at).collect())
+}
+
+/// Logarithms of the radiance of the ground at one place; of a white one, where the albedo depends on wavelength.
 fn row(model: &Model, conditions: &Conditions) -> Result<Vec<f32>> {
     let light = Light::new(model, conditions).map_err(|failure| match failure {
         Failure::Message(text) => Failure::message(format!("the light on the ground: {text}")),
         other => other,
     })?;
-    let reflected = (conditions.albedo / PI) as f32;
+    let albedo = model.ground().map_or(conditions.albedo, |_| 1.0);
+    let reflected = (albedo / PI) as f32;
     let logarithm = |&e: &f32| (reflected * e).max(f32::MIN_POSITIVE).ln();
     Ok(light.global_horizontal.0.iter().map(logarithm).collect())
 }

@@ -22,7 +22,7 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<()> {
-    let model = options.source.open()?;
+    let model = options.scene.over_ground(options.source.open()?);
     let conditions = options.scene.conditions(&model)?;
     let light = Light::new(&model, &conditions)?;
     let mut out = io::stdout().lock();

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod about;
+mod albedo;
 mod almanac;
 mod animate;
 mod camera;
@@ -29,6 +30,7 @@ mod naming;
 mod octahedral;
 mod outputs;
 mod parallel;
+mod parameter;
 mod picture;
 mod plan;
 mod polarised;

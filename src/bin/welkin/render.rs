@@ -196,6 +196,10 @@ impl Options {
                         --bands, --wavelengths, --sun, --moon-elevation and --terrain";
             return Err(Failure::message(text));
         }
+        if model.ground().is_some() {
+            let text = "from beyond the air the ground has one albedo at all wavelengths: give --albedo a number";
+            return Err(Failure::message(text));
+        }
         let start = Instant::now();
         let view = self.view(model, conditions, azimuth)?;
         let bytes = self.source.bytes()?;
@@ -318,7 +322,7 @@ impl Options {
 pub fn run(options: &Options) -> Result<()> {
     let outputs = options.outputs.one()?;
     let start = Instant::now();
-    let model = options.source.open()?;
+    let model = options.scene.over_ground(options.source.open()?);
     options.scene.sun.still()?;
     let conditions = options.course(&model, 1)?[0];
     let opened = start.elapsed();

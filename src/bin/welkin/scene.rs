@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
-use welkin::{Conditions, Model};
+use welkin::{Albedo, Conditions, Model};
 
+use crate::albedo::Ground;
 use crate::failure::{Result, plain};
+use crate::parameter;
 use crate::sun::Sun;
 use crate::turbidity;
 
@@ -26,9 +28,13 @@ pub struct Scene {
     /// 2.1.
     #[arg(long, value_name = "RATIO")]
     turbidity: Option<f64>,
-    /// Albedo of the ground, 0 to 1.
-    #[arg(long, default_value_t = Conditions::default().albedo, value_name = "SHARE")]
-    albedo: f64,
+    /// Value of the quantity that the model's file has in place of the visibility, in its unit: welkin info tells which.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, conflicts_with_all = ["visibility", "turbidity"])]
+    parameter: Option<f64>,
+    /// Albedo of the ground, 0 to 1: a number; by wavelength (nm) a list such as 400:0.05,690:0.06,740:0.5, or a CSV table
+    /// with the columns wavelength_nm and albedo. Linear between wavelengths and constant beyond.
+    #[arg(long, default_value = "0.2", value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
+    albedo: Ground,
     /// Altitude of the observer above the ground, m; 0 if absent.
     #[arg(long, value_name = "M")]
     pub altitude: Option<f64>,
@@ -38,6 +44,16 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The model over the ground of the scene, where that has an albedo for each wavelength.
+    pub fn over_ground(&self, model: Model) -> Model {
+        self.albedo.under(model)
+    }
+
+    /// The albedo of the ground, where that has one for each wavelength.
+    pub fn ground(&self) -> Option<&Albedo> {
+        self.albedo.by_wavelength()
+    }
+
     /// Where the sun stands still.
     pub fn conditions(&self, model: &Model) -> Result<Conditions> {
         self.sun.still()?;
@@ -97,14 +113,18 @@ impl Scene {
     /// Everything but the sun.
     pub fn air(&self, model: &Model) -> Result<Conditions> {
         let standard = Conditions::default();
-        let visibility = match (self.visibility, self.turbidity) {
-            (Some(km), _) => 1e3 * km,
-            (None, Some(ratio)) => turbidity::visibility(model, ratio, self.clamp)?,
-            (None, None) => standard.visibility,
+        let visibility = match (self.visibility, self.turbidity, self.parameter) {
+            (Some(km), ..) => 1e3 * km,
+            (None, Some(ratio), _) => turbidity::visibility(model, ratio, self.clamp)?,
+            (None, None, Some(value)) => parameter::visibility(model, value, self.clamp)?,
+            (None, None, None) => {
+                let [hazy, clear] = model.visibility_range();
+                standard.visibility.clamp(hazy, clear)
+            }
         };
         Ok(Conditions {
             visibility,
-            albedo: self.albedo,
+            albedo: self.albedo.share(),
             altitude: self.altitude.unwrap_or(standard.altitude),
             ..standard
         })
@@ -112,7 +132,7 @@ impl Scene {
 
     /// Whether the air is described at all.
     pub fn has_visibility(&self) -> bool {
-        self.visibility.is_some() || self.turbidity.is_some()
+        self.visibility.is_some() || self.turbidity.is_some() || self.parameter.is_some()
     }
 
     /// With `--clamp` the nearest that the model reaches; says on standard error what it moved. Otherwise all must be

@@ -175,7 +175,7 @@ pub fn run(options: &Options) -> Result<()> {
     let named = naming::named(&options.out, Some(()), &[((), "png")])?;
     let target = named.map_or_else(|| Target::new(&options.out), |Named { target, .. }| target);
     target.check()?;
-    let model = options.source.open()?;
+    let model = options.scene.over_ground(options.source.open()?);
     let sheet = Sheet::new(options, &model)?;
     let tiles = &sheet.tiles;
     let mut canvas = Canvas::new(sheet.size);

@@ -1,10 +1,17 @@
 //! What each model can answer: asked where it can be asked, stated where the paper has it and this comparison not.
 
-use welkin::Model;
+use std::path::Path;
 
+use welkin::Model;
+use welkin_fitter::official::SAFETY_ALTITUDE;
+
+use super::cases::FIRST;
+use super::entry::NOT_RUN;
 use super::models::conditions;
+use super::official::{NAMES, Official};
 use super::table::Table;
 use super::{ALBEDO, Result, VISIBILITY};
+use crate::peers::WAVELENGTHS;
 use crate::peers::bruneton::Bruneton;
 use crate::peers::cie::{GeneralSky, ScaledSky};
 use crate::peers::colour::ToXyz;
@@ -14,7 +21,7 @@ use crate::peers::lanes::Lanes;
 use crate::peers::nishita::Nishita;
 use crate::peers::preetham::Preetham;
 use crate::peers::published;
-use crate::peers::sky::{LaneModel, Observer, Sky, SkyModel};
+use crate::peers::sky::{Coloured, LaneModel, Observer, Sky, SkyModel};
 
 const COMMAND: &str = "cargo run --release -p welkin-tools --bin evidence -- skies";
 /// Lowest sun that is tried, degrees.
@@ -32,7 +39,7 @@ type Stated = [&'static str; 4];
 ///
 /// # Errors
 /// Where the default model does not open or a table cannot be written.
-pub fn write() -> Result<()> {
+pub fn write(official: Option<&Path>) -> Result<()> {
     let model = Model::default_model()?;
     let turbidity = model.turbidity(VISIBILITY)?;
     let sky = GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?;
@@ -142,8 +149,28 @@ pub fn write() -> Result<()> {
         },
         ["red, green and blue", "–", "between any two points", "yes"],
     );
+    let stated = [
+        "280 to 2480 nm",
+        "yes",
+        "from the observer to any point",
+        "by a difference of two skies",
+    ];
+    match official {
+        Some(file) => add(NAMES[0], &|albedo| seen(file, albedo).ok(), stated),
+        None => {
+            add(NAMES[0], &|_| None, stated);
+            asked.replace_last(NOT_RUN);
+        }
+    }
     asked.write("abilities.csv")?;
     papers.write("papers.csv")
+}
+
+/// The official model as its code has it.
+fn seen(file: &Path, albedo: f32) -> Result<Box<dyn SkyModel>> {
+    let model = Official::open(file, SAFETY_ALTITUDE, VISIBILITY, albedo)?;
+    let colour = ToXyz::spectral(WAVELENGTHS);
+    Ok(Box::new(Coloured { model, colour }))
 }
 
 /// A model at one wavelength.
@@ -182,7 +209,7 @@ struct WelkinSky(welkin::Sky);
 
 impl SkyModel for Welkin<'_> {
     fn sky(&self, observer: Observer) -> Option<Box<dyn Sky + '_>> {
-        let mut conditions = conditions(observer);
+        let mut conditions = conditions(&FIRST, observer);
         conditions.albedo = f64::from(self.albedo);
         Some(Box::new(WelkinSky(self.model.sky(&conditions).ok()?)))
     }

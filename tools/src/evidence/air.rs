@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{ALBEDO, Result};
+use super::Result;
 use crate::peers::WAVELENGTHS;
 use crate::peers::lanes::Lanes;
 use crate::peers::medium::{Medium, ParticlePhase};
@@ -117,11 +117,11 @@ impl Air {
         self.rows.iter().map(value).sum::<f64>() / self.rows.len() as f64
     }
 
-    /// Exponential air with the same optical depths, scale heights and mean cosine.
+    /// Over ground of an albedo: exponential air with the same optical depths, scale heights and mean cosine.
     ///
     /// # Errors
     /// Unless the wavelengths are those that are compared.
-    pub fn medium(&self) -> Result<Medium<8>> {
+    pub fn medium(&self, albedo: f32) -> Result<Medium<8>> {
         let rows: &[AtWavelength; 8] = self.rows.as_slice().try_into()?;
         if rows.map(|row| row.0[0]) != WAVELENGTHS {
             return Err("the air is that of other wavelengths".into());
@@ -144,7 +144,7 @@ impl Air {
             phase: ParticlePhase::HenyeyGreenstein,
             ozone: lanes(&|row| row.0[3] / OZONE_LAYER[1]),
             ozone_layer: OZONE_LAYER,
-            albedo: ALBEDO,
+            albedo,
             sun_radius: welkin::SOLAR_ANGULAR_RADIUS,
         })
     }
@@ -153,8 +153,8 @@ impl Air {
     ///
     /// # Errors
     /// As [`Air::medium`].
-    pub fn exponential(&self) -> Result<Value> {
-        self.medium()?;
+    pub fn exponential(&self, albedo: f32) -> Result<Value> {
+        self.medium(albedo)?;
         let [molecules, particles] = self.heights();
         let altitudes: Vec<f64> = (0..100)
             .map(|i| 100.0 * f64::from(i))
@@ -180,7 +180,7 @@ impl Air {
             "planet_radius_m": self.planet,
             "altitude_m": altitudes,
             "toa_altitude_m": self.top,
-            "ground_albedo": f64::from(ALBEDO),
+            "ground_albedo": f64::from(albedo),
             "sun_elevation_deg": 20.0,
             "species": [
                 {"name": "molecules", "kind": "rayleigh", "single_scattering_albedo": 1.0, "depolarisation": 0.0,
@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn the_exponential_air_has_the_same_depths() {
         let air = air();
-        let again = Air::from_json(&air.exponential().unwrap().to_string()).unwrap();
+        let again = Air::from_json(&air.exponential(0.2).unwrap().to_string()).unwrap();
         for (a, b) in air.rows.iter().zip(&again.rows) {
             for column in [2, 3, 5, 6] {
                 assert!(
@@ -275,7 +275,7 @@ mod tests {
                 );
             }
         }
-        let [molecules, particles, ozone] = air.medium().unwrap().vertical();
+        let [molecules, particles, ozone] = air.medium(0.2).unwrap().vertical();
         for (k, row) in air.rows.iter().enumerate() {
             assert!((f64::from(molecules.0[k]) / row.0[2] - 1.0).abs() < 1e-4);
             assert!((f64::from(particles.0[k]) / row.0[5] - 1.0).abs() < 1e-4);

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::{ALBEDO, SUNS};
+use super::cases::Case;
 
 /// Zenith angles, degrees.
 const ZENITHS: [f64; 11] = [
@@ -72,13 +72,17 @@ fn cells(angles: &[f64], end: f64) -> Vec<(f64, [f64; 2])> {
     angles.iter().enumerate().map(cell).collect()
 }
 
-/// The lines of sight of all suns, as `welkin-fit trace` reads them.
-pub fn queries() -> String {
+/// The lines of sight of all suns of a case, as `welkin-fit trace` reads them.
+pub fn queries(case: &Case) -> String {
     let mut text =
         String::from("altitude_m,view_zenith_deg,view_azimuth_deg,solar_elevation_deg,albedo\n");
-    for sun in SUNS {
+    for sun in case.suns {
         for site in sites() {
-            let _ = writeln!(text, "0,{},{},{sun},{ALBEDO}", site.zenith, site.azimuth);
+            let _ = writeln!(
+                text,
+                "0,{},{},{sun},{}",
+                site.zenith, site.azimuth, case.albedo
+            );
         }
     }
     text

@@ -1,11 +1,12 @@
 //! Luminance and chromaticity next to the traced sky.
 
+use super::Result;
+use super::cases::{Case, FIRST, OTHERS};
 use super::directions::{Site, sites};
-use super::models::Entry;
+use super::entry::Entry;
 use super::quantities::{quantile, short};
 use super::table::Table;
 use super::truth::Traced;
-use super::{Result, SUNS};
 use crate::peers::colour::uniform_chromaticity;
 use crate::peers::sky::Observer;
 
@@ -21,109 +22,168 @@ const REGIONS: [Region; 3] = [
 ];
 
 /// Light of a model at all sites, per sun; nothing where it has no sky.
-type Light = Vec<Option<Vec<[f32; 3]>>>;
+struct Light {
+    name: &'static str,
+    own_light: bool,
+    absent: &'static str,
+    xyz: Vec<Option<Vec<[f32; 3]>>>,
+}
+
+impl Light {
+    fn of(entry: &Entry, case: &Case) -> Self {
+        let sky = |sun: f64| {
+            let sky = entry.model.sky(Observer::on_the_ground(sun.to_radians()))?;
+            sites()
+                .iter()
+                .map(|site| sky.xyz(site.direction()))
+                .collect()
+        };
+        Self {
+            name: entry.name,
+            own_light: entry.own_light,
+            absent: entry.absent,
+            xyz: case.suns.iter().map(|&sun| sky(sun)).collect(),
+        }
+    }
+
+    fn traced(name: &'static str, traced: &Traced) -> Self {
+        Self {
+            name,
+            own_light: true,
+            absent: super::entry::NO_SKY,
+            xyz: traced.xyz.iter().cloned().map(Some).collect(),
+        }
+    }
+}
 
 /// Writes tables of all models, and of methods on the air that they were made for.
 ///
 /// # Errors
 /// Where a table cannot be written.
 pub fn write(models: &[Entry], real: &Traced, exponential: &Traced) -> Result<()> {
-    let lights: Vec<(&Entry, Light)> = models.iter().map(|entry| (entry, light(entry))).collect();
-    let traced: Light = exponential.xyz.iter().cloned().map(Some).collect();
-    let mut all: Vec<(&str, bool, &Light)> = lights
-        .iter()
-        .map(|(e, l)| (e.name, e.own_light, l))
-        .collect();
-    all.push(("exponential air, traced", true, &traced));
+    let light = |entry: &Entry| Light::of(entry, &FIRST);
+    let mut all: Vec<Light> = models.iter().map(light).collect();
+    all.push(Light::traced("exponential air, traced", exponential));
     for region in REGIONS {
-        table(
-            &all,
-            &|_, light, sun, sites| luminance(light, &real.xyz[sun], sites),
-            Some(region),
-        )
-        .write(&format!("{}.csv", region.0))?;
+        let cell = |light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| {
+            luminance(light, &real.xyz[sun], sites)
+        };
+        by_sun(&all, &cell, Some(region)).write(&format!("{}.csv", region.0))?;
     }
-    table(
-        &all,
-        &|_, light, sun, sites| level(light, &real.xyz[sun], sites),
-        None,
-    )
-    .write("level.csv")?;
-    let colour = |own: bool, light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| match own {
-        true => colour(light, &real.xyz[sun], sites),
-        false => "no colour".into(),
+    let cell = |light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| {
+        level(light, &real.xyz[sun], sites)
     };
-    table(&all, &colour, None).write("chromaticity.csv")?;
-    let solved: Vec<_> = lights
+    by_sun(&all, &cell, None).write("level.csv")?;
+    colours(&all, real).write("chromaticity.csv")?;
+    let solved = models
         .iter()
-        .filter(|(entry, _)| entry.key.ends_with("-matched"))
-        .map(|(entry, light)| (entry.name, true, light))
-        .collect();
-    table(
-        &solved,
-        &|_, light, sun, sites| luminance(light, &exponential.xyz[sun], sites),
-        None,
-    )
-    .write("own-air.csv")?;
-    noise(real, exponential).write("noise.csv")
-}
-
-/// Standard errors of what all are compared with.
-fn noise(real: &Traced, exponential: &Traced) -> Table {
-    let mut table = Table::new(
-        COMMAND,
-        &["traced", "standard error at a wavelength, median"],
-    );
-    for (name, traced) in [
-        ("the air of welkin", real),
-        ("exponential air", exponential),
-    ] {
-        table.push(vec![
-            name.into(),
-            format!("{} %", short(100.0 * traced.noise)),
-        ]);
-    }
-    table
-}
-
-fn light(entry: &Entry) -> Light {
-    let sky = |sun: f64| {
-        let sky = entry.model.sky(Observer::on_the_ground(sun.to_radians()))?;
-        sites()
-            .iter()
-            .map(|site| sky.xyz(site.direction()))
-            .collect()
+        .filter(|entry| entry.key.ends_with("-matched"));
+    let solved: Vec<Light> = solved.map(light).collect();
+    let cell = |light: &[[f32; 3]], sun: usize, sites: &[(Site, usize)]| {
+        luminance(light, &exponential.xyz[sun], sites)
     };
-    SUNS.iter().map(|&sun| sky(sun)).collect()
+    by_sun(&solved, &cell, None).write("own-air.csv")
 }
 
-type Cell<'a> = dyn Fn(bool, &[[f32; 3]], usize, &[(Site, usize)]) -> String + 'a;
+/// Writes the table of a case beside the first: luminance and colour.
+///
+/// # Errors
+/// Where it cannot be written.
+pub fn write_case(case: &Case, models: &[Entry], traced: &Traced) -> Result<()> {
+    let suns = case.suns.iter();
+    let header = ["model".to_owned()]
+        .into_iter()
+        .chain(suns.clone().map(|sun| format!("sun {sun}°")))
+        .chain(suns.map(|sun| format!("colour, {sun}°")));
+    let mut table = Table::new(COMMAND, &header.collect::<Vec<_>>());
+    let sites: Vec<_> = sites().into_iter().zip(0..).collect();
+    for entry in models {
+        let light = Light::of(entry, case);
+        let luminances = cells(&light, |xyz, sun| luminance(xyz, &traced.xyz[sun], &sites));
+        let colours = cells(&light, |xyz, sun| match light.own_light {
+            true => colour(xyz, &traced.xyz[sun], &sites),
+            false => NO_COLOUR.into(),
+        });
+        let name = light.name.to_owned();
+        table.push(
+            [name]
+                .into_iter()
+                .chain(luminances)
+                .chain(colours)
+                .collect(),
+        );
+    }
+    table.write(&format!("case-{}.csv", case.key))
+}
+
+/// A cell per sun.
+fn cells(light: &Light, cell: impl Fn(&[[f32; 3]], usize) -> String) -> Vec<String> {
+    let cell = |(sun, xyz): (usize, &Option<Vec<[f32; 3]>>)| match xyz {
+        Some(xyz) => cell(xyz, sun),
+        None => light.absent.into(),
+    };
+    light.xyz.iter().enumerate().map(cell).collect()
+}
+
+/// Said of models without a colour of their own.
+const NO_COLOUR: &str = "no colour";
+
+/// Writes standard errors of what all are compared with: those of the page's sky, then of the cases.
+///
+/// # Errors
+/// Where the table cannot be written.
+pub fn write_noise(first: [&Traced; 2], others: &[Traced]) -> Result<()> {
+    let header = ["traced", "standard error at a wavelength, median"];
+    let mut table = Table::new(COMMAND, &header);
+    let names = ["the air of welkin", "exponential air"];
+    let first = names.into_iter().zip(first);
+    let others = OTHERS.iter().map(|case| case.name).zip(others);
+    for (name, traced) in first.chain(others) {
+        let noise = format!("{} %", short(100.0 * traced.noise));
+        table.push(vec![name.into(), noise]);
+    }
+    table.write("noise.csv")
+}
+
+type Cell<'a> = dyn Fn(&[[f32; 3]], usize, &[(Site, usize)]) -> String + 'a;
 
 /// A row per model, a column per sun.
-fn table(rows: &[(&str, bool, &Light)], cell: &Cell, region: Option<Region>) -> Table {
-    let mut header = vec!["model".to_owned()];
-    header.extend(SUNS.map(|sun| format!("sun {}°", sun.to_string().replace('-', "−"))));
-    let mut table = Table::new(
-        COMMAND,
-        &header.iter().map(String::as_str).collect::<Vec<_>>(),
-    );
-    for (name, own, light) in rows {
-        let mut row = vec![(*name).to_owned()];
-        for (i, sun) in SUNS.into_iter().enumerate() {
-            let belongs = |site: &Site| region.is_none_or(|(_, belongs)| belongs(site, sun));
-            let part = sites()
-                .into_iter()
-                .zip(0..)
-                .filter(|(site, _)| belongs(site));
-            let part: Vec<_> = part.collect();
-            row.push(match &light[i] {
-                Some(light) => cell(*own, light, i, &part),
-                None => "no sky".into(),
-            });
-        }
-        table.push(row);
+fn by_sun(rows: &[Light], cell: &Cell, region: Option<Region>) -> Table {
+    let mut table = Table::new(COMMAND, &header());
+    for light in rows {
+        let row = cells(light, |xyz, sun| {
+            cell(xyz, sun, &part(region, FIRST.suns[sun]))
+        });
+        let name = light.name.to_owned();
+        table.push([name].into_iter().chain(row).collect());
     }
     table
+}
+
+fn colours(rows: &[Light], real: &Traced) -> Table {
+    let mut table = Table::new(COMMAND, &header());
+    for light in rows {
+        let row = cells(light, |xyz, sun| match light.own_light {
+            true => colour(xyz, &real.xyz[sun], &part(None, FIRST.suns[sun])),
+            false => NO_COLOUR.into(),
+        });
+        let name = light.name.to_owned();
+        table.push([name].into_iter().chain(row).collect());
+    }
+    table
+}
+
+fn header() -> Vec<String> {
+    let sun = |sun: &f64| format!("sun {}°", sun.to_string().replace('-', "−"));
+    let suns = FIRST.suns.iter().map(sun);
+    ["model".to_owned()].into_iter().chain(suns).collect()
+}
+
+/// The sites of a region, each with its index.
+fn part(region: Option<Region>, sun: f64) -> Vec<(Site, usize)> {
+    let belongs = |site: &Site| region.is_none_or(|(_, belongs)| belongs(site, sun));
+    let all = sites().into_iter().zip(0..);
+    all.filter(|(site, _)| belongs(site)).collect()
 }
 
 /// Weighted values of the sites of a part.

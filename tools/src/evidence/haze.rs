@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn the_depth_is_that_of_the_traced_air() {
         let air = crate::evidence::air::Air::read(&super::super::table::folder().join("air.csv"));
-        let [_, particles, _] = air.unwrap().medium().unwrap().vertical();
+        let [_, particles, _] = air.unwrap().medium(0.2).unwrap().vertical();
         let between = 0.75 * particles.0[4] + 0.25 * particles.0[3];
         let depth = Model::default_model()
             .unwrap()

@@ -5,10 +5,13 @@
 
 pub mod abilities;
 pub mod air;
+pub mod cases;
 pub mod directions;
+pub mod entry;
 pub mod errors;
 pub mod haze;
 pub mod models;
+pub mod official;
 pub mod pictures;
 pub mod profiles;
 pub mod quantities;

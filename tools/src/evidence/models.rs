@@ -1,9 +1,14 @@
 //! All that are compared, each with the terms on which it is.
 
+use std::path::Path;
+
 use welkin::{Conditions, Model};
 
+use super::Result;
 use super::air::{Air, LOW_TOP};
-use super::{ALBEDO, Result, VISIBILITY};
+use super::cases::{Case, FIRST};
+use super::entry::{Entry, NO_SKY};
+use super::official;
 use crate::peers::WAVELENGTHS;
 use crate::peers::bruneton::Bruneton;
 use crate::peers::cie::{GeneralSky, ScaledSky};
@@ -16,26 +21,12 @@ use crate::peers::preetham::Preetham;
 use crate::peers::published;
 use crate::peers::sky::{Coloured, LaneModel, LaneSky, Observer, SkyModel};
 
-/// A model on its terms.
-pub struct Entry {
-    /// Name of its files.
-    pub key: &'static str,
-    /// For people.
-    pub name: &'static str,
-    /// Which parameters it has.
-    pub terms: String,
-    /// Whether it has a luminance and a colour of its own.
-    pub own_light: bool,
-    /// The model.
-    pub model: Box<dyn SkyModel>,
-}
-
 /// This library at the wavelengths of the others.
-pub struct Welkin(Model);
+pub struct Welkin(Model, Case);
 
 impl LaneModel<8> for Welkin {
     fn sky(&self, observer: Observer) -> Option<Box<dyn LaneSky<8> + '_>> {
-        let sky = self.0.sky(&conditions(observer)).ok()?;
+        let sky = self.0.sky(&conditions(&self.1, observer)).ok()?;
         Some(Box::new(WelkinSky(sky)))
     }
 
@@ -61,24 +52,28 @@ impl LaneSky<8> for WelkinSky {
 }
 
 /// The sky that all are compared with.
-pub fn conditions(observer: Observer) -> Conditions {
+pub fn conditions(case: &Case, observer: Observer) -> Conditions {
     Conditions {
         solar_elevation: observer.solar_elevation,
         solar_azimuth: 0.0,
-        visibility: VISIBILITY,
-        albedo: f64::from(ALBEDO),
+        visibility: case.visibility,
+        albedo: f64::from(case.albedo),
         altitude: observer.altitude,
     }
 }
 
-/// All models, this one first.
+/// All models in a case, this one first; those of published coefficients, which are the same in all, only in the first.
 ///
 /// # Errors
-/// Where the default model does not open, or the air was not summed up for these wavelengths.
-pub fn all(air: &Air) -> Result<Vec<Entry>> {
-    let mut models = vec![this()?];
-    models.extend(formulas()?);
-    models.extend(of_coefficients(air)?);
+/// Where the default model or the official file does not open, or the air was not summed up for these wavelengths.
+pub fn all(case: &Case, air: &Air, file: Option<&Path>) -> Result<Vec<Entry>> {
+    let mut models = vec![this(case)?];
+    models.extend(official::entries(case, file)?);
+    models.extend(formulas(case)?);
+    if *case == FIRST {
+        models.extend(published());
+    }
+    models.extend(matched(case, air)?);
     Ok(models)
 }
 
@@ -87,22 +82,24 @@ fn seen<M: LaneModel<8> + 'static>(model: M) -> Box<dyn SkyModel> {
     Box::new(Coloured { model, colour })
 }
 
-fn this() -> Result<Entry> {
+fn this(case: &Case) -> Result<Entry> {
     Ok(Entry {
         key: "welkin",
         name: "welkin",
-        terms: "visibility 59.4 km, albedo 0.2".into(),
+        terms: case.name.into(),
         own_light: true,
-        model: seen(Welkin(Model::default_model()?)),
+        absent: NO_SKY,
+        model: seen(Welkin(Model::default_model()?, *case)),
     })
 }
 
-fn formulas() -> Result<Vec<Entry>> {
-    let turbidity = Model::default_model()?.turbidity(VISIBILITY)?;
+fn formulas(case: &Case) -> Result<Vec<Entry>> {
+    let turbidity = Model::default_model()?.turbidity(case.visibility)?;
+    let (case, albedo) = (*case, case.albedo);
     let zenith = Model::default_model()?;
     let zenith_luminance = move |solar_elevation: f64| {
         let sky = zenith
-            .sky(&conditions(Observer::on_the_ground(solar_elevation)))
+            .sky(&conditions(&case, Observer::on_the_ground(solar_elevation)))
             .ok()?;
         Some(sky.xyz([0.0, 0.0, 1.0]).ok()?[1])
     };
@@ -116,23 +113,23 @@ fn formulas() -> Result<Vec<Entry>> {
             name: "Preetham et al. 1999",
             terms: format!("turbidity {turbidity:.2}"),
             own_light: true,
+            absent: NO_SKY,
             model: Box::new(Preetham { turbidity }),
         },
         Entry {
             key: "hosek",
             name: "Hosek–Wilkie 2012",
-            terms: format!("turbidity {turbidity:.2}, albedo 0.2"),
+            terms: format!("turbidity {turbidity:.2}, albedo {albedo}"),
             own_light: true,
-            model: Box::new(Hosek {
-                turbidity,
-                albedo: ALBEDO,
-            }),
+            absent: NO_SKY,
+            model: Box::new(Hosek { turbidity, albedo }),
         },
         Entry {
             key: "cie",
             name: "CIE clear sky (type 12)",
             terms: "zenith luminance of welkin, no colour".into(),
             own_light: false,
+            absent: NO_SKY,
             model: Box::new(ScaledSky {
                 sky,
                 zenith_luminance,
@@ -147,33 +144,28 @@ fn daylight() -> [f32; 3] {
     crate::peers::colour::srgb_to_xyz([1.0; 3])
 }
 
-fn of_coefficients(air: &Air) -> Result<Vec<Entry>> {
-    let medium = air.medium()?;
-    let low = air.medium()?.below(LOW_TOP);
-    let matched = "optical depths, scale heights and mean cosine of welkin's air, albedo 0.2";
-    let entry = |key, name, terms: &str, model| Entry {
+fn entry(key: &'static str, name: &'static str, terms: &str, model: Box<dyn SkyModel>) -> Entry {
+    Entry {
         key,
         name,
         terms: terms.into(),
         own_light: true,
+        absent: NO_SKY,
         model,
-    };
+    }
+}
+
+fn published() -> Vec<Entry> {
     let hillaire = Coloured {
         model: Hillaire::new(&published::hillaire()),
         colour: ToXyz::rgb(),
     };
-    Ok(vec![
+    vec![
         entry(
             "nishita-published",
             "Nishita et al. 1993, as in Blender",
             "Blender's coefficients, all densities 1, no ground",
             seen(Nishita::new(&published::blender(WAVELENGTHS))),
-        ),
-        entry(
-            "nishita-matched",
-            "Nishita, matched",
-            matched,
-            seen(Nishita::new(&low)),
         ),
         entry(
             "bruneton-published",
@@ -185,21 +177,38 @@ fn of_coefficients(air: &Air) -> Result<Vec<Entry>> {
             )),
         ),
         entry(
+            "hillaire-published",
+            "Hillaire 2020",
+            "its coefficients in red, green and blue, albedo 0.3",
+            Box::new(hillaire),
+        ),
+    ]
+}
+
+fn matched(case: &Case, air: &Air) -> Result<Vec<Entry>> {
+    let medium = air.medium(case.albedo)?;
+    let low = air.medium(case.albedo)?.below(LOW_TOP);
+    let matched = format!(
+        "optical depths, scale heights and mean cosine of welkin's air, albedo {}",
+        case.albedo
+    );
+    Ok(vec![
+        entry(
+            "nishita-matched",
+            "Nishita, matched",
+            &matched,
+            seen(Nishita::new(&low)),
+        ),
+        entry(
             "bruneton-matched",
             "Bruneton, matched",
             &format!("{matched}, four orders"),
             seen(Bruneton::new(&low, Bruneton::<8>::ORDERS)),
         ),
         entry(
-            "hillaire-published",
-            "Hillaire 2020",
-            "its coefficients in red, green and blue, albedo 0.3",
-            Box::new(hillaire),
-        ),
-        entry(
             "hillaire-matched",
             "Hillaire, matched",
-            matched,
+            &matched,
             seen(Hillaire::new(&medium)),
         ),
     ])

@@ -2,7 +2,7 @@
 
 use welkin::xyz_to_linear_srgb;
 
-use super::models::Entry;
+use super::entry::Entry;
 use super::quantities::quantile;
 use super::{Result, SUNS, table};
 use crate::peers::sky::{Observer, SkyModel};
@@ -49,7 +49,7 @@ fn sky(model: &dyn SkyModel, sun: f64) -> Vec<Option<[f32; 3]>> {
     (0..SIZE * SIZE).map(pixel).collect()
 }
 
-/// Writes a strip per model.
+/// Writes a strip per model that was run; those of others stay.
 ///
 /// # Errors
 /// Where a picture cannot be written.
@@ -64,7 +64,7 @@ pub fn write(models: &[Entry]) -> Result<()> {
             .collect();
         quantile(&mut light, WHITE) as f32
     });
-    for entry in models {
+    for entry in models.iter().filter(|entry| entry.was_run()) {
         let png = strip(entry.model.as_ref(), &white)?;
         table::write(&format!("{}.png", entry.key), &png)?;
     }

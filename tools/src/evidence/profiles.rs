@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::models::Entry;
+use super::entry::Entry;
 use super::{Result, SUNS, table};
 use crate::peers::colour::chromaticity;
 use crate::peers::sky::Observer;
@@ -16,7 +16,7 @@ const LEGEND: usize = 3;
 
 /// Colour and dashes of a line.
 fn style(key: &str) -> (&'static str, &'static str) {
-    let dashes = if key.ends_with("-published") {
+    let dashes = if key.ends_with("-published") || key.ends_with("-raised") {
         "5 3"
     } else {
         ""
@@ -26,6 +26,7 @@ fn style(key: &str) -> (&'static str, &'static str) {
         Some("preetham") => "#d95f02",
         Some("hosek") => "#e6ab02",
         Some("cie") => "#999999",
+        Some("wilkie") => "#7a3fc4",
         Some("nishita") => "#c51b7d",
         Some("bruneton") => "#1b6ca8",
         _ => "#4d9221",
@@ -229,13 +230,14 @@ fn ticks([low, high]: [f64; 2], logarithmic: bool) -> Vec<(f64, String)> {
 fn legend(svg: &mut String, models: &[Entry], top: f64) {
     for (i, entry) in models.iter().enumerate() {
         let (colour, dashes) = style(entry.key);
+        let note = if entry.was_run() { "" } else { " (not run)" };
         let (x, y) = (
             ORIGIN[0] + (i / LEGEND) as f64 * 290.0,
             top + 20.0 * (i % LEGEND) as f64,
         );
         let _ = writeln!(
             svg,
-            r##"<path d="M{x} {y}h34" stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}"/><text x="{}" y="{}">{}</text>"##,
+            r##"<path d="M{x} {y}h34" stroke="{colour}" stroke-width="2" stroke-dasharray="{dashes}"/><text x="{}" y="{}">{}{note}</text>"##,
             x + 40.0,
             y + 4.0,
             entry.name

@@ -19,8 +19,8 @@ pub struct Table {
 
 impl Table {
     /// With the names of the columns.
-    pub fn new(command: &'static str, header: &[&str]) -> Self {
-        let header = header.iter().map(|&name| name.to_owned()).collect();
+    pub fn new(command: &'static str, header: &[impl AsRef<str>]) -> Self {
+        let header = header.iter().map(|name| name.as_ref().to_owned()).collect();
         Self {
             command,
             rows: vec![header],
@@ -30,6 +30,12 @@ impl Table {
     /// Appends a row.
     pub fn push(&mut self, row: Vec<String>) {
         self.rows.push(row);
+    }
+
+    /// Says the same in all cells of the last row but its first.
+    pub fn replace_last(&mut self, text: &str) {
+        let cells = self.rows.last_mut().into_iter().flatten();
+        cells.skip(1).for_each(|cell| *cell = text.to_owned());
     }
 
     /// As a CSV file of the page's folder.

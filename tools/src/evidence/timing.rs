@@ -1,14 +1,20 @@
 //! Memory and processor time of each, in one run. Times of the clock would be those of a busy machine.
 
 use std::hint::black_box;
+use std::path::Path;
 
 use cpu_time::ProcessTime;
 use welkin::{BakedColourSky, BakedSky, Model};
+use welkin_fitter::official::SAFETY_ALTITUDE;
 
+use super::cases::FIRST;
+use super::entry::NOT_RUN;
 use super::models::conditions;
+use super::official::{NAMES, Official};
 use super::quantities::short;
 use super::table::Table;
 use super::{ALBEDO, Result, VISIBILITY};
+use crate::peers::WAVELENGTHS;
 use crate::peers::bruneton::Bruneton;
 use crate::peers::cie::{GeneralSky, ScaledSky};
 use crate::peers::colour::ToXyz;
@@ -33,7 +39,7 @@ struct Welkin(Model);
 
 impl SkyModel for Welkin {
     fn sky(&self, observer: Observer) -> Option<Box<dyn Sky + '_>> {
-        let sky = self.0.colour_sky(&conditions(observer)).ok()?;
+        let sky = self.0.colour_sky(&conditions(&FIRST, observer)).ok()?;
         Some(Box::new(Baked(sky.bake(BakedSky::TOLERANCE).ok()?)))
     }
 
@@ -67,8 +73,8 @@ struct Times {
 ///
 /// # Errors
 /// Where a model cannot be made or the table not be written.
-pub fn write() -> Result<()> {
-    let models = models()?;
+pub fn write(official: Option<&Path>) -> Result<()> {
+    let models = models(official)?;
     let times = measured(&models)?;
     let first = &times[0];
     let mut table = Table::new(
@@ -97,12 +103,17 @@ pub fn write() -> Result<()> {
             bytes(t.bytes[1]),
         ]);
     }
+    if official.is_none() {
+        let absent = [NOT_RUN; 7].map(str::to_owned);
+        let name = NAMES[0].to_owned();
+        table.push([name].into_iter().chain(absent).collect());
+    }
     table.write("times.csv")
 }
 
 type Timed = (&'static str, f64, Box<dyn SkyModel>);
 
-fn models() -> Result<Vec<Timed>> {
+fn models(official: Option<&Path>) -> Result<Vec<Timed>> {
     let turbidity = Model::default_model()?.turbidity(VISIBILITY)?;
     let sky = GeneralSky::new(GeneralSky::CLEAR).ok_or("type 12")?;
     let rgb = |model| Coloured {
@@ -148,6 +159,13 @@ fn models() -> Result<Vec<Timed>> {
     add("Hillaire 2020", &mut || {
         lanes(Box::new(Hillaire::new(&published::hillaire())))
     })?;
+    if let Some(file) = official {
+        add(NAMES[0], &mut || {
+            let model = Official::open(file, SAFETY_ALTITUDE, VISIBILITY, ALBEDO)?;
+            let colour = ToXyz::spectral(WAVELENGTHS);
+            Ok(Box::new(Coloured { model, colour }))
+        })?;
+    }
     Ok(models)
 }
 

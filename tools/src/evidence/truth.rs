@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use super::Result;
+use super::cases::Case;
 use super::directions::{Site, sites};
-use super::{Result, SUNS};
 use crate::peers::WAVELENGTHS;
 use crate::peers::colour::ToXyz;
 use crate::peers::lanes::Lanes;
@@ -22,12 +23,12 @@ impl Traced {
     ///
     /// # Errors
     /// Where the file cannot be read or has other rows.
-    pub fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path, case: &Case) -> Result<Self> {
         let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-        Self::parse(&text).map_err(|e| format!("{}: {e}", path.display()).into())
+        Self::parse(&text, case).map_err(|e| format!("{}: {e}", path.display()).into())
     }
 
-    fn parse(text: &str) -> Result<Self> {
+    fn parse(text: &str, case: &Case) -> Result<Self> {
         let mut rows = csv::Reader::from_reader(text.as_bytes());
         let names = rows.headers()?.clone();
         let find = |name: &str| {
@@ -71,7 +72,11 @@ impl Traced {
                 .map(|s| site(sun, s))
                 .collect::<Result<Vec<_>>>()
         };
-        let xyz = SUNS.iter().map(|&sun| sky(sun)).collect::<Result<_>>()?;
+        let xyz = case
+            .suns
+            .iter()
+            .map(|&sun| sky(sun))
+            .collect::<Result<_>>()?;
         errors.sort_by(f64::total_cmp);
         Ok(Self {
             xyz,
@@ -86,9 +91,10 @@ mod tests {
 
     #[test]
     fn other_rows_are_refused() {
+        let parse = |text: &str| Traced::parse(text, &super::super::cases::FIRST);
         let header = "altitude_m,view_zenith_deg,view_azimuth_deg,solar_elevation_deg,albedo,wavelength_nm,I,Q,U,I_se";
-        assert!(Traced::parse(header).is_err());
-        assert!(Traced::parse(&format!("{header}\n0,5,5,60,0.2,500,1,0,0,0.1\n")).is_err());
-        assert!(Traced::parse("a,b\n1,2\n").is_err());
+        assert!(parse(header).is_err());
+        assert!(parse(&format!("{header}\n0,5,5,60,0.2,500,1,0,0,0.1\n")).is_err());
+        assert!(parse("a,b\n1,2\n").is_err());
     }
 }

@@ -23,7 +23,7 @@ const TRACED: [([f64; 2], [f32; 3]); 6] = [
 /// The exponential air at 560 nm.
 fn medium(albedo: f32) -> Medium<1> {
     let air = Air::read(&crate::book::root().join("docs/evidence/air.csv")).unwrap();
-    let all = air.medium().unwrap();
+    let all = air.medium(albedo).unwrap();
     let one = |lanes: Lanes<8>| Lanes([lanes.0[4]]);
     Medium {
         shell: all.shell,
@@ -36,7 +36,7 @@ fn medium(albedo: f32) -> Medium<1> {
         phase: all.phase,
         ozone: one(all.ozone),
         ozone_layer: all.ozone_layer,
-        albedo,
+        albedo: all.albedo,
         sun_radius: all.sun_radius,
     }
 }

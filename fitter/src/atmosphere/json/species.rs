@@ -6,9 +6,6 @@ use super::within;
 use anyhow::{Context, Result, bail};
 use serde::{Deserialize, Serialize};
 
-/// Profiles that differ by no more than this, relative, are one.
-const SAME: f64 = 1e-12;
-
 /// As it stands in the file.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -101,21 +98,6 @@ impl Species {
 }
 
 impl Constituent {
-    /// Takes up what has the same profile.
-    pub(super) fn absorb(&mut self, other: Self) {
-        self.name = format!("{} + {}", self.name, other.name);
-        for (a, b) in self.extinction.iter_mut().zip(&other.extinction) {
-            *a += b;
-        }
-        self.scatterers.extend(other.scatterers);
-    }
-
-    /// Whether it has this shape with altitude.
-    pub(super) fn has_shape(&self, profile: &[f64]) -> bool {
-        let pairs = self.profile.iter().zip(profile);
-        pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME * a)
-    }
-
     /// Sets the coefficients at wavelength index `w`.
     fn add(&mut self, w: usize, extinction: f64, albedo: f64) {
         self.extinction[w] = extinction;

@@ -149,19 +149,42 @@ fn places(data: &OfficialData, node: Node, count: usize) -> Vec<Place> {
 }
 
 fn of_sky(data: &OfficialData, model: &Model, node: Node, count: usize) -> Result<Vec<Error>> {
-    let ours = model.sky(&conditions(data, model, node))?;
+    let ours = of_model(data, model, node)?;
+    against_stored(data, node, count, |direction, _| ours(direction))
+}
+
+/// What the model has for a stored sky, in every channel.
+pub fn of_model(
+    data: &OfficialData,
+    model: &Model,
+    node: Node,
+) -> Result<impl Fn([f64; 3]) -> Result<Vec<f64>>> {
+    let sky = model.sky(&conditions(data, model, node))?;
+    let channels = data.header().channels.count;
+    Ok(move |direction: [f64; 3]| {
+        let mut spectrum = vec![0.0; channels];
+        sky.radiance(direction.map(|v| v as f32), &mut spectrum)?;
+        Ok(spectrum.into_iter().map(f64::from).collect())
+    })
+}
+
+/// Errors of what says the radiance of a direction on a side of the horizon, against a stored sky.
+pub fn against_stored(
+    data: &OfficialData,
+    node: Node,
+    count: usize,
+    ours: impl Fn([f64; 3], Side) -> Result<Vec<f64>>,
+) -> Result<Vec<Error>> {
     let theirs = data.stored_sky(node)?;
     let channels = data.header().channels;
-    let mut spectrum = vec![0.0; channels.count];
     let mut pairs = vec![];
     for place in places(data, node, count) {
-        ours.radiance(place.direction.map(|v| v as f32), &mut spectrum)?;
         let side = match place.error.above_horizon > 0.0 {
             true => Side::Up,
             false => Side::Down,
         };
         let truth = theirs.beside_horizon(place.direction, side)?;
-        pairs.push((place.error, spectrum.clone(), truth));
+        pairs.push((place.error, ours(place.direction, side)?, truth));
     }
     let mut out = vec![];
     for c in 0..channels.count {
@@ -170,7 +193,7 @@ fn of_sky(data: &OfficialData, model: &Model, node: Node, count: usize) -> Resul
             let against = truth[c].max(DARK * mean);
             if against > 0.0 {
                 out.push(Error {
-                    relative: (f64::from(ours[c]) - truth[c]).abs() / against,
+                    relative: (ours[c] - truth[c]).abs() / against,
                     wavelength: channels.centre(c),
                     ..*error
                 });

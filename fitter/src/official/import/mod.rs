@@ -11,6 +11,7 @@ mod bare_head;
 mod fields;
 mod fit;
 mod judge;
+pub mod left_out;
 mod light;
 mod pack;
 mod polarise;
@@ -64,6 +65,7 @@ impl Default for Settings {
                 up: 32,
                 down: 20,
                 azimuth: 18,
+                elevation: None,
             },
             options: Options {
                 rank: 192,

@@ -23,7 +23,12 @@ pub struct Intervals {
     pub down: usize,
     /// Over azimuth.
     pub azimuth: usize,
+    /// Over solar elevation; none is half as many again as the file has elevations.
+    pub elevation: Option<usize>,
 }
+
+/// Below the horizon of files that see no air there: the fewest whose sites differ.
+const UNSEEN: usize = 2;
 
 /// How much denser the axes are at the horizon.
 const EXPONENT: f64 = 2.0;
@@ -37,13 +42,18 @@ pub fn grid(data: &OfficialData, intervals: Intervals) -> Grid {
     };
     let elevations = elevations(data);
     let (first, last) = (elevations[0], elevations[elevations.len() - 1]);
+    let down = match axes.altitudes.iter().any(|h| Sites::sees_down(*h)) {
+        true => intervals.down,
+        false => UNSEEN.min(intervals.down),
+    };
+    let by_count = (3 * elevations.len() / 2).max(4);
     // Of one sun only, a little around it.
     let room = if elevations.len() == 1 { 1e-3 } else { 0.0 };
     Grid {
         altitudes: axes.altitudes.clone(),
         visibilities: axes.visibilities.iter().map(|v| 1e3 * v).collect(),
         up: (free(intervals.up), EXPONENT),
-        down: (free(intervals.down), EXPONENT),
+        down: (free(down), EXPONENT),
         phi: Axis {
             intervals: intervals.azimuth,
             ends: Ends::Mirrored,
@@ -53,7 +63,7 @@ pub fn grid(data: &OfficialData, intervals: Intervals) -> Grid {
             max: (last + room).min(FRAC_PI_2),
             centre: (-1f64).to_radians(),
             width: 4f64.to_radians(),
-            intervals: (3 * elevations.len() / 2).max(4),
+            intervals: intervals.elevation.unwrap_or(by_count),
         },
     }
 }

@@ -141,7 +141,7 @@ pub fn run(options: &Options) -> Result<()> {
         return Err(Failure::message(text));
     }
     let files = Files::new(&options.out, renderer.extension())?;
-    let model = options.source.open()?;
+    let model = options.scene.over_ground(options.source.open()?);
     let conditions = options.scene.conditions(&model)?;
     let lights = options.lights(&model, &conditions, files.name.clone())?;
     let scene = renderer.scene(&lights, &model)?;

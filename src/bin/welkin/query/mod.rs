@@ -17,10 +17,11 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use csv::ByteRecord;
-use welkin::Model;
 
 use crate::Source;
+use crate::albedo::Ground;
 use crate::failure::{Failure, Result};
+use crate::parameter;
 use crate::sensor::{self, Sensor};
 use block::Block;
 use bounded::Bounded;
@@ -37,6 +38,15 @@ pub struct Options {
     /// Fail (exit code 2) if a row got an error.
     #[arg(long)]
     strict: bool,
+    /// Albedo of the ground in all rows, in place of the column albedo: a number; by wavelength (nm) a list such as
+    /// 400:0.05,690:0.06,740:0.5, or a CSV table with the columns wavelength_nm and albedo. Each row has that of its
+    /// wavelength, so --bands and --wavelengths take a number only.
+    #[arg(long, value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
+    albedo: Option<Ground>,
+    /// Value in all rows, in place of the column visibility_km, of the quantity that the model's file has in place of the
+    /// visibility, in its unit: welkin info tells which.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    parameter: Option<f64>,
     /// Move conditions that the model does not reach to its nearest.
     #[arg(long)]
     clamp: bool,
@@ -48,6 +58,10 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<()> {
+    if options.sensor.is_wanted() && matches!(options.albedo, Some(Ground::ByWavelength(_))) {
+        let text = "a row has the albedo of its wavelength_nm: --bands and --wavelengths take a number as --albedo";
+        return Err(Failure::message(text));
+    }
     let model = options.source.open()?;
     let input = input(options)?;
     let threads = rayon::ThreadPoolBuilder::new()
@@ -56,7 +70,12 @@ pub fn run(options: &Options) -> Result<()> {
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
     let sensor = options.sensor.sensor(&model)?;
     let output = io::stdout().lock();
-    let summary = answer(&model, options.clamp, sensor, &threads, input, output)?;
+    let visibility = options.parameter;
+    let visibility = visibility.map(|value| parameter::visibility(&model, value, options.clamp));
+    let shared = Shared::new(&model, options.clamp, sensor.map(|s| s.bands.clone()))
+        .over(options.albedo.as_ref())
+        .in_air(visibility.transpose()?);
+    let summary = answer(&shared, sensor, &threads, input, output)?;
     if summary.moved {
         // Nobody is left to tell when standard error is closed.
         let text =
@@ -81,20 +100,18 @@ pub struct Summary {
 }
 
 /// Answers a table, in the bands of a sensor if there is one; returns how many rows it has and how many of them failed.
-pub fn answer(
-    model: &Model,
-    clamp: bool,
+pub fn answer<'a>(
+    shared: &'a Shared<'a>,
     sensor: Option<&Sensor>,
     threads: &rayon::ThreadPool,
     input: impl Read,
     output: impl io::Write,
 ) -> Result<Summary> {
-    let shared = Shared::new(model, clamp, sensor.map(|s| s.bands.clone()));
     let names = match sensor {
         Some(sensor) => sensor.names.clone(),
         None => vec!["value".to_owned()],
     };
-    answer_columns(&shared, &names, threads, input, output)
+    answer_columns(shared, &names, threads, input, output)
 }
 
 /// Answers a table with so many columns of values.
@@ -110,7 +127,7 @@ fn answer_columns<'a>(
         .buffer_capacity(BUFFER)
         .from_reader(Bounded::new(input, block::MOST_BYTES));
     let header = reader.byte_headers().map_err(unreadable)?.clone();
-    let columns = Columns::find(&header, names, shared.bands.is_some())?;
+    let columns = Columns::find(&header, names, shared)?;
     let mut writer = csv::WriterBuilder::new()
         .buffer_capacity(BUFFER)
         .from_writer(output);

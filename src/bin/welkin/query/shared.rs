@@ -8,6 +8,8 @@ use welkin::{
     PointQuery, PolarisedPointQuery, Result,
 };
 
+use crate::albedo::Ground;
+
 /// The model and what is prepared of it when it is first needed.
 ///
 /// Queries at any conditions verify all that they could ever read. Where that fails, because a chunk is missing or
@@ -18,6 +20,10 @@ pub struct Shared<'a> {
     pub clamp: bool,
     /// Of a sensor, if answers are in those.
     pub bands: Option<Bands>,
+    /// In place of the albedo of rows.
+    pub ground: Option<&'a Ground>,
+    /// In place of the visibility of rows, m.
+    pub visibility: Option<f64>,
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     moved: AtomicBool,
@@ -35,11 +41,25 @@ impl<'a> Shared<'a> {
             model,
             clamp,
             bands,
+            ground: None,
+            visibility: None,
             moved: AtomicBool::new(false),
             point_query: OnceLock::new(),
             polarised: OnceLock::new(),
             aerial: OnceLock::new(),
         }
+    }
+
+    /// The same where all rows have this ground.
+    pub fn over(mut self, ground: Option<&'a Ground>) -> Self {
+        self.ground = ground;
+        self
+    }
+
+    /// The same where all rows have this visibility, m.
+    pub fn in_air(mut self, visibility: Option<f64>) -> Self {
+        self.visibility = visibility;
+        self
     }
 
     /// Radiance of any direction under any conditions, as exact as prepared skies.

@@ -1,0 +1,111 @@
+//! From a recipe to a model: what a scene needs of it, built and judged.
+//!
+//! Data flow: [`Recipe`], [`Axis`] and [`Scene`] → [`Quality`] → [`Plan`] → [`build()`] → [`judge`].
+
+mod axis;
+pub mod judge;
+mod quality;
+mod scene;
+
+pub use axis::Axis;
+pub use quality::Quality;
+pub use scene::{Bands, Scene};
+
+use crate::air::Air;
+use crate::build::build;
+use crate::fitting::Fitting;
+use crate::recipe::Recipe;
+use crate::units::Plan;
+use anyhow::{Context, Result};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+use welkin::Model;
+use welkin::format::{Payload, Selection, crop, encode, extend, unpack};
+use welkin::output::{Target, write};
+
+/// What is to be made.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The air.
+    pub recipe: Recipe,
+    /// A number of the recipe that the model keeps as an axis, if any.
+    pub axis: Option<Axis>,
+    /// Where the model is used.
+    pub scene: Scene,
+    /// How good it is.
+    pub quality: Quality,
+}
+
+impl Request {
+    /// What is traced, and how it is fitted.
+    pub fn plan(&self) -> Result<(Plan, Fitting)> {
+        let air = match &self.axis {
+            Some(axis) => axis.air(),
+            None => Air::of(self.recipe.clone())?,
+        };
+        let (mut plan, fitting) = self.quality.plan(air);
+        self.scene.narrow(&mut plan.grid)?;
+        plan.grid.check()?;
+        Ok((plan, fitting))
+    }
+
+    /// What it will take, in words.
+    pub fn estimate(&self) -> Result<String> {
+        let (plan, fitting) = self.plan()?;
+        let cores = rayon::current_num_threads();
+        let seconds = self.quality.core_seconds(&plan, fitting) / cores as f64;
+        Ok(format!(
+            "{} altitudes, {} airs, {} suns: about {:.0} minutes on {cores} cores",
+            plan.grid.altitudes.len(),
+            plan.grid.visibilities.len(),
+            plan.grid.elevation_sites().len(),
+            (seconds / 60.0).ceil()
+        ))
+    }
+
+    /// Makes the model file `out`, keeping work units in the folder `work`; returns a report.
+    pub fn make(&self, work: &Path, out: &Target) -> Result<String> {
+        out.check()?;
+        let started = Instant::now();
+        let (plan, fitting) = self.plan()?;
+        fs::create_dir_all(work).with_context(|| format!("cannot create {}", work.display()))?;
+        let path = work.join("whole.welkin");
+        let mut report = build(&plan, fitting, work, &Target::new(&path))?;
+        let bytes = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let bytes = match self.scene.bands {
+            Bands::All => bytes,
+            Bands::Rgb => colours_only(&bytes)?,
+        };
+        let bytes = match self.axis.as_ref().and_then(Axis::chunk) {
+            Some(chunk) => extend(&bytes, &[chunk])?,
+            None => bytes,
+        };
+        let model = Model::from_bytes(bytes.clone())?;
+        let judgement = judge::judge(&model, &plan, self.axis.as_ref(), self.quality.judged())?;
+        write(&[(out, &bytes)]).context("cannot write the model")?;
+        writeln!(report, "{judgement}")?;
+        writeln!(
+            report,
+            "{} bytes in {out}, {:.0} s in all",
+            bytes.len(),
+            started.elapsed().as_secs_f64()
+        )?;
+        Ok(report)
+    }
+}
+
+/// The file without all wavelengths that colours do not need, and without what lies between them.
+fn colours_only(bytes: &[u8]) -> Result<Vec<u8>> {
+    let (mut head, mut chunks) = unpack(bytes)?;
+    let seen = |w: &usize| head.xyz[*w] != [0.0; 3];
+    let wavelengths: Vec<usize> = (0..head.wavelengths.len()).filter(seen).collect();
+    chunks.retain(|chunk| !matches!(chunk.payload, Payload::Spectrum(_)));
+    let selection = Selection {
+        wavelengths,
+        ..Selection::all(&head)
+    };
+    crop(&mut head, &mut chunks, &selection)?;
+    Ok(encode(&head, &chunks)?)
+}

@@ -1,0 +1,127 @@
+//! `welkin-fit atmosphere` with a recipe.
+
+use std::path::Path;
+use std::process::{Command, Output};
+use welkin_fitter::atmosphere::{Monochromatic, json::Case};
+use welkin_fitter::recipe::Recipe;
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .current_dir(folder)
+        .arg("atmosphere")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn complaint(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert!(!output.status.success(), "{output:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn recipes_are_listed_with_what_they_make() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = text(folder.path(), &["--list"]);
+    for name in Recipe::names() {
+        assert!(list.contains(name), "{name}");
+    }
+    text(folder.path(), &["--list", "--out", "list.csv"]);
+    let csv = std::fs::read_to_string(folder.path().join("list.csv")).unwrap();
+    assert!(csv.contains("urban,10.7,"), "{csv}");
+    let rows = csv.lines().filter(|line| !line.starts_with('#')).count();
+    assert_eq!(rows, 1 + Recipe::names().count());
+}
+
+/// What `--toml` prints is a recipe, the same one.
+#[test]
+fn a_recipe_is_written_changed_and_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let mine = text(folder.path(), &["fog", "--toml"]);
+    std::fs::write(folder.path().join("mine.toml"), &mine).unwrap();
+    let [fog, own] = ["fog", "mine.toml"].map(|name| text(folder.path(), &[name]));
+    assert_eq!(fog, own);
+    assert!(own.contains("visibility 4.0 km"), "{own}");
+    let thick = text(
+        folder.path(),
+        &["mine.toml", "--set", "visibility=2.5", "--set", "ozone=100"],
+    );
+    assert!(thick.contains("visibility 2.5 km, ozone 100 DU"), "{thick}");
+}
+
+#[test]
+fn the_air_of_a_recipe_goes_into_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    text(
+        folder.path(),
+        &["desert", "--wavelengths", "440,550", "--out", "air.json"],
+    );
+    let case = Case::read(&folder.path().join("air.json")).unwrap();
+    let lights = [440.0, 550.0].map(Monochromatic::beside_lines);
+    let recipe = Recipe::named("desert").unwrap();
+    let air = recipe.air(&lights).unwrap();
+    assert_eq!(case.atmosphere.altitudes, air.altitudes);
+    for altitude in [0.0, 1000.0, 6000.0, 20_000.0] {
+        for w in 0..2 {
+            let [a, b] = [&case.atmosphere, &air].map(|air| air.extinction(altitude, w));
+            assert!((a / b - 1.0).abs() < 1e-12, "{altitude} m: {a}, {b}");
+        }
+    }
+    let surface = recipe.surface().unwrap().unwrap();
+    assert_eq!(case.albedo, 0.5 * (surface.at(440.0) + surface.at(550.0)));
+}
+
+#[test]
+fn the_plot_has_every_layer() {
+    let folder = tempfile::tempdir().unwrap();
+    text(folder.path(), &["mars", "--plot", "mars.svg"]);
+    let svg = std::fs::read_to_string(folder.path().join("mars.svg")).unwrap();
+    for word in [
+        "Mars",
+        "dust",
+        "molecules",
+        "altitude, km",
+        "wavelength, nm",
+        "scattering angle, degrees",
+    ] {
+        assert!(svg.contains(word), "{word}");
+    }
+    assert!(complaint(folder.path(), &["mars", "--plot", "mars.png"]).contains("SVG"));
+    assert!(!folder.path().join("mars.png").exists());
+}
+
+#[test]
+fn mistakes_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("bad.toml"),
+        "[layers.a]\nmixture = \"urban\"\ntop_km = -1\n",
+    )
+    .unwrap();
+    for (arguments, says) in [
+        (&["venus"][..], "continental-clean"),
+        (&["nowhere.toml"], "nowhere.toml"),
+        (&["bad.toml"], "layers.a.top_km: -1.0 is outside 0..100"),
+        (&["urban", "--set", "colour=3"], "cannot be changed"),
+        (&["urban", "--set", "ozone"], "no ="),
+        (&["urban", "--ozone", "100"], "--set ozone"),
+        (&["urban", "--visibility", "50"], "--visibility"),
+        (
+            &["urban", "--wavelengths", "550,440", "--out", "a.json"],
+            "increase",
+        ),
+        (&["urban", "--wavelengths", "200", "--out", "a.json"], "200"),
+        (&[], "--visibility"),
+    ] {
+        let complaint = complaint(folder.path(), arguments);
+        assert!(complaint.contains(says), "{arguments:?}: {complaint}");
+    }
+    assert!(!folder.path().join("a.json").exists());
+}
