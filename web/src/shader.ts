@@ -1,0 +1,197 @@
+// The sky in a shader. Directions are those of `directions.ts`, the table's coordinates those of `welkin.h` (the
+// comment above its baked skies), colours and tone curves those of `welkin render`.
+
+export const VERTEX = `#version 300 es
+void main() {
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(corner, 0.0, 1.0);
+}`;
+
+const UNIFORMS = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+uniform sampler2D roots, degrees;
+uniform vec2 size;
+uniform int projection; // up, side, lat-long, perspective
+uniform mat3 axes;      // right, above, ahead
+uniform float half_field;
+uniform vec4 horizon;   // dip, height of the sun above the horizon, coordinates of it and of half of it
+uniform vec3 ends;      // coordinates of zenith, nadir and the azimuth opposite to the sun
+uniform ivec3 intervals;
+uniform vec2 sun;       // cosine and sine of its azimuth
+uniform int quantity;   // radiance, degree of polarisation
+uniform float polariser; // rad
+uniform bool has_polariser;
+uniform float white;    // cd m^-2
+uniform int tone;       // linear, filmic, ACES; -1 leaves light as it is
+uniform bool is_daylight;
+out vec4 colour;
+const float PI = 3.14159265358979;
+`;
+
+const DIRECTIONS = `
+bool look(out vec3 local) {
+  vec2 place = gl_FragCoord.xy / size * 2.0 - 1.0;
+  if (projection == 2) {
+    vec2 angle = vec2(place.x * PI, place.y * 0.5 * PI);
+    local = vec3(cos(angle.y) * sin(angle.x), sin(angle.y), cos(angle.y) * cos(angle.x));
+    return true;
+  }
+  if (projection == 3) {
+    local = normalize(vec3(place.x * half_field * 1.5, place.y * half_field, 1.0));
+    return true;
+  }
+  float radius = length(place);
+  float angle = radius * 0.5 * PI;
+  local = vec3(place * (radius > 0.0 ? sin(angle) / radius : 0.0), cos(angle));
+  return radius < 1.0;
+}
+`;
+
+const TABLE = `
+const float HEIGHT_SCALE = 0.06;
+const float AZIMUTH_SCALE = 0.8;
+
+float from_horizon(float angle) {
+  float x = angle / HEIGHT_SCALE;
+  return log(1.0 + 2.0 * x + 2.0 * sqrt(x * (x + 1.0)));
+}
+
+float arsinh(float x) { return sign(x) * log(abs(x) + sqrt(x * x + 1.0)); }
+
+float up_coordinate(float height) {
+  if (height < 0.5 * horizon.y) return from_horizon(height);
+  return horizon.z + arsinh((height - horizon.y) / HEIGHT_SCALE);
+}
+
+// Weights of four neighbours, and where the first stands. Slopes are those of parabolas, or 0 at ends that are level.
+vec4 between(float coordinate, int count, bool is_level, out int first_node) {
+  int cell = min(int(coordinate), count - 1);
+  float t = coordinate - float(cell);
+  float first = t * (1.0 - t) * (1.0 - t), second = t * t * (t - 1.0);
+  float rise = t * t * (3.0 - 2.0 * t);
+  vec4 w = vec4(0.0, 1.0 - rise, rise, 0.0);
+  if (cell > 0) w += first * vec4(-0.5, 0.0, 0.5, 0.0);
+  else if (!is_level) w += first * vec4(0.0, -1.5, 2.0, -0.5);
+  if (cell + 1 < count) w += second * vec4(0.0, -0.5, 0.0, 0.5);
+  else if (!is_level) w += second * vec4(0.5, -2.0, 1.5, 0.0);
+  first_node = cell - 1;
+  return w;
+}
+
+struct Light { vec3 root, q, u; };
+
+Light table(vec3 v, bool has_degrees) {
+  float height = atan(v.z, length(v.xy)) + horizon.x;
+  float along = dot(v.xy, sun), across = v.y * sun.x - v.x * sun.y;
+  bool up = height >= 0.0;
+  int rows = up ? intervals.x : intervals.y;
+  float end = up ? ends.x : ends.y;
+  float row = clamp(float(rows) * (up ? up_coordinate(height) : from_horizon(-height)) / end, 0.0, float(rows));
+  float azimuth = arsinh(atan(abs(across), along) / AZIMUTH_SCALE);
+  float column = clamp(float(intervals.z) * azimuth / ends.z, 0.0, float(intervals.z));
+  int first_row, first_column;
+  vec4 by_row = between(row, rows, false, first_row);
+  vec4 by_column = between(column, intervals.z, true, first_column);
+  Light light = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  for (int i = 0; i < 4; i++) {
+    int y = clamp(first_row + i, 0, rows) + (up ? 0 : intervals.x + 1);
+    for (int j = 0; j < 4; j++) {
+      int x = clamp(first_column + j, 0, intervals.z);
+      float weight = by_row[i] * by_column[j];
+      light.root += weight * texelFetch(roots, ivec2(x, y), 0).rgb;
+      if (has_degrees) {
+        light.q += weight * texelFetch(degrees, ivec2(2 * x, y), 0).rgb;
+        light.u += weight * texelFetch(degrees, ivec2(2 * x + 1, y), 0).rgb;
+      }
+    }
+  }
+  light.u *= across / max(length(v.xy), 1e-12);
+  return light;
+}
+`;
+
+const POLARISATION = `
+// Half of the light that is not polarised, and what passes of the rest; the frame of the table is the vertical one.
+vec3 pass(vec3 v, vec3 xyz, Light light) {
+  float level = max(length(v.xy), 1e-6);
+  vec3 e1 = vec3(-v.z * v.xy / level, level), e2 = vec3(v.y, -v.x, 0.0) / level;
+  vec3 top = projection == 2 || projection == 1 ? vec3(0.0, 0.0, 1.0) : axes[1];
+  float angle = atan(dot(e2, top), dot(e1, top)) + polariser;
+  vec3 part = light.q * cos(2.0 * angle) + light.u * sin(2.0 * angle);
+  return max(0.5 * xyz * (1.0 + part), 0.0);
+}
+
+vec3 sequential(float x) {
+  vec3 stops[6] = vec3[6](vec3(0.0, 0.0, 0.02), vec3(0.25, 0.05, 0.42), vec3(0.58, 0.15, 0.40),
+                          vec3(0.87, 0.31, 0.22), vec3(0.98, 0.62, 0.12), vec3(0.98, 0.99, 0.66));
+  float u = clamp(x, 0.0, 1.0) * 5.0;
+  int i = min(int(u), 4);
+  return mix(stops[i], stops[i + 1], u - float(i));
+}
+`;
+
+const FILM = `
+vec3 linear_srgb(vec3 c) {
+  return vec3(dot(vec3(3.24097, -1.5373832, -0.49861076), c), dot(vec3(-0.96924365, 1.8759675, 0.04155506), c),
+              dot(vec3(0.05563008, -0.20397696, 1.0569715), c));
+}
+
+vec3 into_gamut(vec3 rgb) {
+  float least = min(min(rgb.r, rgb.g), min(rgb.b, 0.0));
+  float luminance = dot(rgb, vec3(0.2126, 0.7152, 0.0722));
+  if (least == 0.0) return rgb;
+  if (luminance <= 0.0) return vec3(0.0);
+  return max(luminance + luminance / (luminance - least) * (rgb - luminance), 0.0);
+}
+
+vec3 hable(vec3 x) {
+  return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3;
+}
+
+vec3 aces(vec3 v) {
+  return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.432951) + 0.238081);
+}
+
+vec3 develop(vec3 rgb) {
+  vec3 scene = rgb / white;
+  if (is_daylight) {
+    scene = vec3(dot(vec3(0.963048, -0.055734, -0.01005), scene), dot(vec3(0.002642, 1.013428, -0.003697), scene),
+                 dot(vec3(0.004656, 0.01677, 1.188038), scene));
+  }
+  scene = min(into_gamut(scene), 1e4);
+  if (tone == 1) scene = hable(min(2.927523 * scene, 11.2)) / hable(vec3(11.2));
+  if (tone == 2) {
+    vec3 s = 1.461926 * scene;
+    s = aces(vec3(dot(vec3(0.59719, 0.35458, 0.04823), s), dot(vec3(0.076, 0.90834, 0.01566), s),
+                  dot(vec3(0.0284, 0.13383, 0.83777), s)));
+    scene = vec3(dot(vec3(1.60475, -0.53108, -0.07367), s), dot(vec3(-0.10208, 1.10813, -0.00605), s),
+                 dot(vec3(-0.00327, -0.07276, 1.07602), s));
+  }
+  scene = clamp(scene, 0.0, 1.0);
+  return mix(1.055 * pow(scene, vec3(1.0 / 2.4)) - 0.055, 12.92 * scene, lessThanEqual(scene, vec3(0.0031308)));
+}
+`;
+
+const MAIN = `
+void main() {
+  vec3 local;
+  if (!look(local)) {
+    colour = vec4(0.0, 0.0, 0.0, 1.0);
+    return;
+  }
+  vec3 v = axes * local;
+  Light light = table(v, has_polariser || quantity == 1);
+  vec3 xyz = light.root * light.root;
+  if (quantity == 1) {
+    colour = vec4(sequential(xyz.y > 0.0 ? min(length(vec2(light.q.y, light.u.y)), 1.0) : 0.0), 1.0);
+    return;
+  }
+  if (has_polariser) xyz = pass(v, xyz, light);
+  vec3 rgb = linear_srgb(xyz);
+  colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
+}
+`;
+
+export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, FILM, MAIN].join("");

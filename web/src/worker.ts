@@ -1,0 +1,107 @@
+// Fetches and computes, away from the page.
+
+import { Failure, message } from "./failure";
+import type { Answer, Question, Scene, SkyTables, Spectrum, Traffic } from "./protocol";
+import { RangedFile } from "./ranged_file";
+import { Reader, type ReaderFile } from "./reader";
+
+/** The first request: the heads of both files that `build` makes and, of that for colours, all that every sky needs. */
+const START = 86_016;
+
+const traffic: Traffic = { requests: 0, bytes: 0, total: 0 };
+
+const say = (answer: Answer, transfer: Transferable[] = []) => postMessage(answer, { transfer });
+
+/** A model that grows as it is asked. */
+class Model {
+  #isOpen = false;
+  #ranged: RangedFile;
+
+  constructor(
+    readonly file: ReaderFile,
+    url: string,
+  ) {
+    this.#ranged = new RangedFile(url, file, traffic, () => say({ kind: "traffic", traffic: { ...traffic } }));
+  }
+
+  /** The head. */
+  async open(): Promise<void> {
+    if (this.#isOpen) return;
+    await this.#safely(async () => {
+      await this.#ranged.need([[0, START]]);
+      const head = this.#ranged.length >= 32 ? this.file.headLength() : 0;
+      if (head > START && head <= this.#ranged.length) await this.#ranged.need([[0, head]]);
+      this.file.open();
+      this.#isOpen = true;
+    });
+  }
+
+  /** The sky of a scene, ready to be asked; how long that took without what had to be fetched, ms. */
+  async prepare(scene: Scene, spectral: boolean): Promise<number> {
+    await this.open();
+    let start = 0;
+    await this.#safely(async () => {
+      if (await this.#ranged.need(this.file.plan(scene, spectral))) this.file.open();
+      start = performance.now();
+      this.file.prepare(scene);
+    });
+    return performance.now() - start;
+  }
+
+  /** After a failure all is fetched anew: the file may be repaired. */
+  async #safely(action: () => Promise<void>): Promise<void> {
+    try {
+      await action();
+    } catch (error) {
+      this.#isOpen = false;
+      this.#ranged.forget();
+      throw error;
+    }
+  }
+}
+
+let colours: Model | undefined;
+let spectra: Model | undefined;
+
+async function open(question: Extract<Question, { kind: "open" }>): Promise<Answer> {
+  const reader = await Reader.load(question.code);
+  colours = new Model(reader.file(0, question.colours), question.colours);
+  spectra = new Model(reader.file(1, question.spectra), question.spectra);
+  await colours.open();
+  return { kind: "opened", id: question.id, limits: colours.file.limits() };
+}
+
+function opened(model: Model | undefined): Model {
+  if (!model) throw new Failure("No model is open.");
+  return model;
+}
+
+async function sky(scene: Scene): Promise<SkyTables> {
+  const model = opened(colours);
+  const prepared = await model.prepare(scene, false);
+  const start = performance.now();
+  const tables = model.file.bake(scene);
+  return { ...tables, prepared, baked: performance.now() - start };
+}
+
+async function look(question: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
+  const model = opened(question.spectral ? spectra : colours);
+  await model.prepare({ ...question.scene, polarised: true, grounded: false }, question.spectral);
+  return model.file.look(question.direction, question.spectral);
+}
+
+async function answer(question: Question): Promise<void> {
+  if (question.kind === "open") return say(await open(question));
+  if (question.kind === "look") return say({ kind: "look", id: question.id, spectrum: await look(question) });
+  const tables = await sky(question.scene);
+  const transfer = [tables.header.buffer, tables.root.buffer, ...(tables.degrees ? [tables.degrees.buffer] : [])];
+  say({ kind: "sky", id: question.id, tables }, transfer);
+}
+
+// One after the other: questions share the memory of the reader.
+let last = Promise.resolve();
+addEventListener("message", ({ data }: MessageEvent<Question>) => {
+  last = last
+    .then(() => answer(data))
+    .catch((error: unknown) => say({ kind: "failed", id: data.id, message: message(error) }));
+});

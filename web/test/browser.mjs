@@ -1,0 +1,36 @@
+// A browser of Debian, and a page in it whose complaints are kept.
+
+import { chromium } from "playwright-core";
+
+const ARGUMENTS = [
+  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+
+export function launch() {
+  const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+  return chromium.launch({ executablePath, headless: true, args: ARGUMENTS });
+}
+
+/** A page of this size; `complaints` collects errors of its console and uncaught ones. */
+export async function newPage(browser, size = { width: 1200, height: 800 }) {
+  const context = await browser.newContext({ viewport: size, permissions: ["clipboard-read", "clipboard-write"] });
+  const page = await context.newPage();
+  page.setDefaultTimeout(120_000);
+  const complaints = [];
+  page.on("console", (line) => ["error", "warning"].includes(line.type()) && complaints.push(line.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  return { page, complaints };
+}
+
+/** Until the page shows what its controls say. */
+export async function ready(page, state = "ready") {
+  await page.waitForFunction((state) => document.documentElement.dataset.state === state, state);
+}
+
+/** Opens a view; `hash` is the part after #. */
+export async function open(page, url, hash) {
+  await page.goto("about:blank");
+  await page.goto(`${url}#${hash}`);
+  await ready(page);
+}
