@@ -2,8 +2,8 @@
 #![cfg(feature = "default-model")]
 
 use welkin::Response;
+use welkin::{Albedo, Conditions, Model, PolarisationFrame};
 use welkin::{BakedSky, Budget, Channels, Directions, PointQuery};
-use welkin::{Conditions, Model, PolarisationFrame};
 
 /// Code without comments, spaces, and the commas that a formatter adds.
 fn compact(code: &str) -> String {
@@ -174,5 +174,26 @@ fn finite_distances() -> welkin::Result<()> {
     let mut aerial = model.aerial_perspective_query()?;
     aerial.in_scattering(&conditions, camera, point, &mut light, &mut transmittance)?;
     assert!(light.iter().chain(&transmittance).all(|&x| x > 0.0));
+    Ok(())
+}
+
+#[test]
+fn a_ground_with_a_spectrum() -> welkin::Result<()> {
+    let model = Model::default_model()?;
+    let conditions = Conditions::default();
+
+    let grass = Albedo::table(&[450.0, 550.0, 670.0, 750.0], &[0.04, 0.10, 0.05, 0.45])?;
+    let meadow = model.over(&grass);
+    let sky = meadow.sky(&conditions)?;
+    let colour = meadow.colour_sky(&conditions)?;
+
+    let up = [0.0, 0.0, 1.0];
+    let grey = model.sky(&Conditions {
+        albedo: 0.45,
+        ..conditions
+    })?;
+    let ratio = sky.radiance_at(up, 750.0)? / grey.radiance_at(up, 750.0)?;
+    assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
+    assert!(colour.xyz(up)?[1] > 0.0);
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::column::{ColumnIntegrator, planet};
 use crate::successive_orders::grid::{SOLAR_UNITS, TENSOR, sun_taps};
-use crate::successive_orders::spectral_medium::Part;
+use crate::successive_orders::parts::Part;
 use crate::successive_orders::{LightField, Medium, NW, PER_SPHERE, Spectrum};
 use crate::units::Solved;
 use std::f64::consts::FRAC_PI_2;

@@ -11,10 +11,12 @@ pub mod judgement_tables;
 pub mod learned;
 mod of_default;
 mod pack;
+mod packed;
 mod thinned;
 pub mod training;
 pub mod walk;
 pub mod weights;
 
 pub use learned::{Lesson, held_out_table, quantiles};
-pub use pack::{Packed, lesson, pack};
+pub use pack::{lesson, pack};
+pub use packed::Packed;

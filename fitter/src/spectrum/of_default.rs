@@ -1,7 +1,7 @@
 //! What lies between the nodes of the default model, for other air: how its wavelengths depend on each other is much the
 //! same, and need not be learned anew.
 
-use super::pack::{Packed, lines};
+use super::packed::{Packed, lines};
 use super::weights::floored;
 use crate::air::Air;
 use crate::atmosphere::{Monochromatic, VISIBILITIES};

@@ -4,6 +4,7 @@ use super::cells::{Cell, cells};
 use super::colour::{self, Observer};
 use super::learned::{Learned, Lesson};
 use super::of_default::of_default;
+use super::packed::{Packed, lines};
 use super::training::Training;
 use super::weights::TAPS;
 use crate::air::Air;
@@ -13,16 +14,6 @@ use crate::units::{Between, Plan, Solved};
 use anyhow::{Result, bail};
 use std::path::Path;
 use welkin::format::Spectrum;
-
-/// The spectrum and the colour weights of a model.
-pub struct Packed {
-    /// The payload of its chunk.
-    pub spectrum: Spectrum,
-    /// XYZ per unit of relative radiance at each node.
-    pub xyz: Vec<[f64; 3]>,
-    /// The light of each term.
-    pub(super) lights: Vec<Monochromatic>,
-}
 
 /// What lies between the nodes of a model, if anything: learned from traced spectra, which are kept in the folder `work`,
 /// or as in the default model.
@@ -107,17 +98,6 @@ fn beside_lines(air: &Air, visibility: f64, cells: &[f64]) -> Result<Vec<Vec<f64
     let lights: Vec<Monochromatic> = cells.iter().map(light).collect();
     let air = air.at(visibility, &lights)?;
     Ok(air.constituents.into_iter().map(|c| c.extinction).collect())
-}
-
-/// What lines add to the extinction of each constituent, m⁻¹.
-pub(super) fn lines(air: &Air, visibility: f64, light: Monochromatic) -> Result<Vec<f64>> {
-    let pair = [light, Monochromatic::beside_lines(light.wavelength)];
-    let air = air.at(visibility, &pair)?;
-    let added = air
-        .constituents
-        .iter()
-        .map(|c| (c.extinction[0] - c.extinction[1]).max(0.0));
-    Ok(added.collect())
 }
 
 /// Fitted to the examples, whose spectra the taps make. Light that eyes do not see, or that gases absorb, has no weight, so

@@ -1,7 +1,9 @@
 //! Singly scattered sunlight along a ray.
 
+use super::parts::Aerosol;
 use super::scattered_source::{DARK, Stokes, Sun};
-use super::spectral_medium::{Aerosol, Medium, NW, PER_SPHERE, Spectrum};
+use super::spectra::{NW, PER_SPHERE, Spectrum};
+use super::spectral_medium::Medium;
 
 /// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one
 /// per constituent.

@@ -5,7 +5,8 @@
 //! smooth. So the kinds are chosen for small differences.
 
 use super::lobes::Lobes;
-use super::spectral_medium::{Aerosol, NW, Part, parts};
+use super::parts::{Aerosol, Part, parts};
+use super::spectra::NW;
 use crate::atmosphere::{Atmosphere, column};
 use anyhow::Result;
 
@@ -108,7 +109,8 @@ fn price(kind: &[Member], green: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::spectral_medium::{Medium, spectrum};
+    use super::super::spectra::spectrum;
+    use super::super::spectral_medium::Medium;
     use super::*;
     use crate::atmosphere::{Particles, VISIBILITIES, real_at};
     use crate::dataset::VISIBLE;

@@ -1,6 +1,6 @@
 //! Phase functions of particles as sums of Henyey-Greenstein functions, by wavelength.
 
-use super::spectral_medium::{NW, Spectrum, henyey_greenstein};
+use super::spectra::{NW, Spectrum, henyey_greenstein};
 
 /// One of the functions.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,10 +11,12 @@ pub mod first_order;
 mod kinds;
 pub mod lobes;
 pub mod moments;
+pub mod parts;
 pub mod phase_table;
 pub mod ray_points;
 pub mod scattered_source;
 mod solve;
+pub mod spectra;
 pub mod spectral_medium;
 mod unresolved;
 pub mod view_rays;
@@ -26,7 +28,6 @@ pub use lobes::{Lobe, Lobes};
 pub use moments::Moments;
 pub use ray_points::Path;
 pub use solve::{LightField, Settings, solve};
-pub use spectral_medium::{
-    DEGREE, Medium, NW, PER_SPHERE, SOLAR_ANGULAR_RADIUS, Spectrum, rayleigh_phase,
-};
+pub use spectra::{DEGREE, NW, PER_SPHERE, Spectrum, rayleigh_phase};
+pub use spectral_medium::{Medium, SOLAR_ANGULAR_RADIUS};
 pub use view_rays::{FIELDS, Fields, Gatherer, POLARISED};

@@ -1,6 +1,6 @@
 //! Angular moments of the light field on a grid of altitudes and sun zeniths.
 
-use super::spectral_medium::{DEGREE, NW, Spectrum};
+use super::spectra::{DEGREE, NW, Spectrum};
 use welkin::axis::{Stencil, hermite};
 
 /// Highest azimuthal order.

@@ -1,7 +1,7 @@
 //! Tabulated phase functions for all wavelengths at once, and their smooth part.
 
 use super::lobes::Lobes;
-use super::spectral_medium::{DEGREE, NW, Spectrum};
+use super::spectra::{DEGREE, NW, Spectrum};
 use crate::atmosphere::matrix::{Matrix, NODES, angle, interval};
 use crate::particles::lobe_fit::{self, Signs};
 use std::f64::consts::PI;

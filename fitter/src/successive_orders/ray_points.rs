@@ -1,7 +1,8 @@
 //! The points along a view ray at which the source function is sampled.
 
 use super::moments::HIGHEST;
-use super::spectral_medium::{Medium, NW, Spectrum};
+use super::spectra::{NW, Spectrum};
+use super::spectral_medium::Medium;
 use crate::column::ColumnIntegrator;
 
 /// A quadrature node on a ray.

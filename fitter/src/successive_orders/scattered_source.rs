@@ -5,7 +5,8 @@ use super::moments::{
     polar_harmonics, sun_taps,
 };
 use super::ray_points::Node;
-use super::spectral_medium::{Medium, NW, PER_SPHERE, Spectrum};
+use super::spectra::{NW, PER_SPHERE, Spectrum};
+use super::spectral_medium::Medium;
 
 /// Intensity and linear polarisation per wavelength, against (e1, e2): e1 in the vertical plane of the ray, e2
 /// horizontal.
@@ -185,7 +186,7 @@ fn multiply_add(sum: &mut Spectrum, a: &Spectrum, b: &Spectrum) {
 /// Rayleigh scattering coefficient per steradian, and Σ scattering·g^l for each degree.
 fn local_coefficients(medium: &Medium, profiles: &[f32]) -> (Spectrum, Vec<Spectrum>) {
     let mut rayleigh = [0.0; NW];
-    let mut legendre = vec![[0.0; NW]; super::spectral_medium::DEGREE + 1];
+    let mut legendre = vec![[0.0; NW]; super::spectra::DEGREE + 1];
     for (part, p) in medium.parts.iter().zip(profiles) {
         for (sum, scattering) in rayleigh.iter_mut().zip(&part.rayleigh) {
             *sum += p * scattering * PER_SPHERE;

@@ -7,7 +7,8 @@ use super::moments::{
 };
 use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
-use super::spectral_medium::{Medium, NW, Spectrum};
+use super::spectra::{NW, Spectrum};
+use super::spectral_medium::Medium;
 use crate::column::planet;
 use rayon::prelude::*;
 use std::f64::consts::PI;

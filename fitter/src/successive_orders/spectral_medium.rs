@@ -2,56 +2,19 @@
 
 use super::kinds::Kinds;
 use super::lobes::Lobes;
-use super::phase_table::{AngleFunction, PhaseTable, beside};
-use crate::atmosphere::{Atmosphere, Phase};
+use super::parts::{Part, parts};
+use super::phase_table::beside;
+use super::spectra::{NW, Spectrum};
+use crate::atmosphere::Atmosphere;
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
-/// Wavelengths that are treated together.
-pub const NW: usize = 24;
-/// One value per wavelength.
-pub type Spectrum = [f32; NW];
-
-/// Highest degree of the spherical harmonics of multiply scattered light.
-pub const DEGREE: usize = 12;
 /// Angular radius of the sun, rad (0.2667°, as in the published model).
 pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 
 /// Optical depth beyond which nothing passes: products of what would are not normal numbers, with which processors
 /// are slow.
 const BLACK: f32 = 25.0;
-
-/// Isotropic share of a phase function, per steradian.
-pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
-
-/// Most lobes that stand for a tabulated phase function.
-pub const LOBES: usize = 5;
-
-/// Particles of a constituent.
-pub struct Aerosol {
-    /// Scattering coefficient where the profile is 1, m⁻¹.
-    pub scattering: Spectrum,
-    /// Their phase function, or what is nearest to it.
-    pub lobes: Lobes,
-    /// Their phase function if it is tabulated.
-    pub table: Option<PhaseTable>,
-    /// What it is beside that of its kind, as far as it is smooth; none where both are one lobe.
-    pub beside: Option<AngleFunction>,
-    /// The kind that it counts among, an index into [`Medium::kinds`].
-    pub kind: usize,
-}
-
-/// One constituent's spectral coefficients.
-pub struct Part {
-    /// m⁻¹ where the profile is 1.
-    pub extinction: Spectrum,
-    /// Rayleigh scattering coefficient, m⁻¹ where the profile is 1; zero if there is none.
-    pub rayleigh: Spectrum,
-    /// Its particles.
-    pub aerosols: Vec<Aerosol>,
-    /// Σ scattering · moment of the phase function, which is g^l, for each degree l.
-    pub legendre: Vec<Spectrum>,
-}
 
 /// An atmosphere with its sun table.
 pub struct Medium {
@@ -65,13 +28,6 @@ pub struct Medium {
     pub kinds: [Lobes; 2],
     sun: SunColumns,
     sun_radius: f64,
-}
-
-impl Part {
-    /// Whether it scatters at all.
-    pub fn scatters(&self) -> bool {
-        !self.aerosols.is_empty() || self.rayleigh.iter().any(|&s| s > 0.0)
-    }
 }
 
 impl Medium {
@@ -170,80 +126,6 @@ impl Medium {
     }
 }
 
-/// What an atmosphere of [`NW`] wavelengths is made of, all particles of the first kind, and the polarising share of
-/// Rayleigh scattering.
-pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
-    ensure!(
-        atmosphere.wavelengths.len() == NW,
-        "the solver needs {NW} wavelengths"
-    );
-    ensure!(
-        atmosphere.constituents.len() <= MAX_CONSTITUENTS,
-        "too many constituents"
-    );
-    let mut polarising = [1.0; NW];
-    let mut parts = vec![];
-    for constituent in &atmosphere.constituents {
-        let mut part = Part {
-            extinction: spectrum(&constituent.extinction),
-            rayleigh: [0.0; NW],
-            aerosols: vec![],
-            legendre: vec![[0.0; NW]; DEGREE + 1],
-        };
-        for scatterer in &constituent.scatterers {
-            let scattering = spectrum(&scatterer.scattering);
-            match &scatterer.phase {
-                Phase::Rayleigh { depolarisation } => {
-                    part.rayleigh = scattering;
-                    for (d, rho) in polarising.iter_mut().zip(depolarisation) {
-                        *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
-                    }
-                }
-                Phase::HenyeyGreenstein { g } => {
-                    part.aerosols.push(henyey_greenstein_part(
-                        scattering,
-                        spectrum(g),
-                        &mut part.legendre,
-                    ));
-                }
-                Phase::Tabulated(matrix) => {
-                    let table = PhaseTable::new(matrix.clone());
-                    for (sum, moment) in part.legendre.iter_mut().zip(table.moments()) {
-                        for w in 0..NW {
-                            sum[w] += scattering[w] * moment[w];
-                        }
-                    }
-                    part.aerosols.push(Aerosol {
-                        scattering,
-                        lobes: table.lobes(LOBES),
-                        table: Some(table),
-                        beside: None,
-                        kind: 0,
-                    });
-                }
-            }
-        }
-        parts.push(part);
-    }
-    Ok((parts, polarising))
-}
-
-/// Adds its moments to `legendre`.
-fn henyey_greenstein_part(scattering: Spectrum, g: Spectrum, legendre: &mut [Spectrum]) -> Aerosol {
-    for (l, sum) in legendre.iter_mut().enumerate() {
-        for w in 0..NW {
-            sum[w] += scattering[w] * g[w].powi(l as i32);
-        }
-    }
-    Aerosol {
-        scattering,
-        lobes: Lobes::one(g),
-        table: None,
-        beside: None,
-        kind: 0,
-    }
-}
-
 /// Share of the solar disc above the horizon, and by how many radii the centroid of that share stands above the disc's
 /// centre, for a centre `x` radii above the horizon.
 fn visible_disc(x: f64) -> (f64, f64) {
@@ -251,24 +133,6 @@ fn visible_disc(x: f64) -> (f64, f64) {
     let chord = 1.0 - x * x;
     let share = 0.5 + (x * chord.sqrt() + x.asin()) / PI;
     (share, 2.0 / 3.0 * chord.powf(1.5) / (PI * share.max(1e-12)))
-}
-
-/// Narrows a per-wavelength vector.
-pub fn spectrum(values: &[f64]) -> Spectrum {
-    std::array::from_fn(|w| values[w] as f32)
-}
-
-/// Henyey-Greenstein phase function, mean 1, at the cosine `c` of the scattering angle.
-pub fn henyey_greenstein(g: &Spectrum, c: f32) -> Spectrum {
-    std::array::from_fn(|w| {
-        let x = 1.0 + g[w] * g[w] - 2.0 * g[w] * c;
-        (1.0 - g[w] * g[w]) / (x * x.sqrt())
-    })
-}
-
-/// Rayleigh phase function, mean 1, for polarising shares `delta`.
-pub fn rayleigh_phase(delta: &Spectrum, c: f32) -> Spectrum {
-    delta.map(|d| 0.75 * d * (1.0 + c * c) + 1.0 - d)
 }
 
 #[cfg(test)]

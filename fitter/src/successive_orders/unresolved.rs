@@ -7,10 +7,10 @@
 
 use super::lobes::Lobe;
 use super::moments::{DEGREES, HARMONICS, azimuth_harmonics, order_start, polar_harmonics};
+use super::parts::Aerosol;
 use super::scattered_source::Sun;
-use super::spectral_medium::{
-    Aerosol, DEGREE, Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein,
-};
+use super::spectra::{DEGREE, NW, PER_SPHERE, Spectrum, henyey_greenstein};
+use super::spectral_medium::Medium;
 
 /// Line integrals ∫ profile · column towards the sun · sunlight · transmittance to the observer (m²) of each pair of
 /// constituents that scatter as aerosols.
