@@ -5,7 +5,7 @@ use clap::{Args as ClapArgs, Subcommand};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use welkin::Model;
-use welkin::output::{check, replace_files};
+use welkin::output::{check, printable, replace_files};
 use welkin_fitter::dataset::Store;
 use welkin_fitter::measured::broadband::{Air, Broadband};
 use welkin_fitter::measured::fisheye::Sheet;
@@ -210,7 +210,8 @@ impl KiderArgs {
                 .with_context(|| format!("{}", folder.display()))?;
             say(&(scan_report::summary(&scan, &fitted) + "\n"))?;
             if fitted.left_out.count() > 0 {
-                eprintln!("warning: {}: {}", folder.display(), fitted.left_out);
+                let name = folder.display().to_string();
+                eprintln!("warning: {}: {}", printable(&name), fitted.left_out);
             }
             table += &scan_report::csv(&scan, &choice, &fitted);
             let bands = choice.wavelengths.iter();
@@ -220,11 +221,11 @@ impl KiderArgs {
         ensure!(!fits.is_empty(), "no scan of this day");
         let mut files: Vec<(&Path, Vec<u8>)> = vec![];
         if let Some(path) = &self.csv {
-            files.push((path, table.into_bytes()));
+            files.push((path.as_path(), table.into_bytes()));
         }
         if let Some(path) = &self.png {
             let rows: Vec<_> = fits.iter().map(|(s, m, f)| (s, m.as_slice(), f)).collect();
-            files.push((path, Sheet::new(&rows).png()?));
+            files.push((path.as_path(), Sheet::new(&rows).png()?));
         }
         let files: Vec<(&Path, &[u8])> = files.iter().map(|(p, b)| (*p, b.as_slice())).collect();
         Ok(replace_files(&files)?)

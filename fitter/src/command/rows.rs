@@ -33,7 +33,7 @@ fn row_of<const N: usize>(record: &csv::StringRecord, names: &[&str; N]) -> Resu
     ensure!(record.len() == N, "{} columns, expected {N}", record.len());
     let mut row = [0.0; N];
     for ((number, name), field) in row.iter_mut().zip(names).zip(record) {
-        let parsed = field.parse();
+        let parsed = field.parse::<f64>();
         *number = parsed.with_context(|| format!("{name}: {field:?} is no number"))?;
     }
     Ok(row)
