@@ -269,9 +269,9 @@ fn options_that_mean_nothing_are_refused_by_name() {
         assert!(complaint(&output).contains("--sky-factor"), "{factor}");
     }
     // The folder of the scan by another name.
-    assert_eq!(folders(&scan).unwrap(), [scan.clone()]);
+    assert_eq!(folders(&scan).unwrap(), [scan.as_path()]);
     let dotted = scan.join("..").join(NAME).join(".");
-    assert_eq!(folders(&dotted).unwrap(), [dotted.clone()]);
+    assert_eq!(folders(&dotted).unwrap(), [dotted.as_path()]);
     let inside = run(&scan, &["kider", ".", "--from", "400", "--to", "700"]);
     assert!(complaint(&inside).contains("no wavelengths in some band"));
 }
