@@ -129,6 +129,20 @@ pub enum Error {
         /// Unit of the three values.
         unit: &'static str,
     },
+    #[cfg(feature = "std")]
+    /// A value of the quantity that the model's maker chose is not finite or outside the range of the model.
+    OutOfAxis {
+        /// What the file calls the quantity.
+        name: String,
+        /// The refused value.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+        /// What the file says that the three are measured in.
+        unit: String,
+    },
     /// No table is large enough for the wanted error.
     Tolerance {
         /// The wanted error.
@@ -179,6 +193,8 @@ impl Error {
             Error::Invalid { .. } => "value",
             Error::MissingChunk { .. } => "missing",
             Error::OutOfRange { .. } => "range",
+            #[cfg(feature = "std")]
+            Error::OutOfAxis { .. } => "range",
             Error::Tolerance { .. } => "tolerance",
             Error::Limit { .. } => "limit",
             Error::Direction { .. } => "direction",
@@ -305,14 +321,18 @@ impl fmt::Display for Error {
                 min,
                 max,
                 unit,
+            } => refused(f, parameter, *value, [*min, *max], unit),
+            #[cfg(feature = "std")]
+            Error::OutOfAxis {
+                name,
+                value,
+                min,
+                max,
+                unit,
             } => {
-                let (min, max) = (*min, *max);
-                let range = Range { min, max, unit };
-                write!(f, "{parameter} must be {range}, got {}", Number(*value))?;
-                match unit.is_empty() || !value.is_finite() {
-                    true => Ok(()),
-                    false => write!(f, " {unit}"),
-                }
+                // Text from strangers.
+                let [name, unit] = [name, unit].map(|text| text.escape_debug().to_string());
+                refused(f, &name, *value, [*min, *max], &unit)
             }
             Error::Limit { what, most, got } => write!(
                 f,
@@ -346,6 +366,22 @@ impl fmt::Display for Error {
                 Single(*z)
             ),
         }
+    }
+}
+
+/// A value that is not in its range.
+fn refused(
+    f: &mut fmt::Formatter<'_>,
+    name: &str,
+    value: f64,
+    [min, max]: [f64; 2],
+    unit: &str,
+) -> fmt::Result {
+    let range = Range { min, max, unit };
+    write!(f, "{name} must be {range}, got {}", Number(value))?;
+    match unit.is_empty() || !value.is_finite() {
+        true => Ok(()),
+        false => write!(f, " {unit}"),
     }
 }
 

@@ -157,7 +157,7 @@ cfg_if::cfg_if! {
         pub use ground::Albedo;
         #[cfg(feature = "default-model")]
         pub use model::DEFAULT_MODEL;
-        pub use model::{Model, ReadAt, Traffic};
+        pub use model::{Model, ModelAxis, ReadAt, Traffic};
         pub use moon::{Moon, SkySum};
         pub use polarisation::{
             PolarisationFrame, PolarisedPointQuery, PolarisedSky, Stokes, StokesSpectra,

@@ -24,6 +24,8 @@ macro_rules! all_shared {
 all_shared! {
     Transmittance,
     AlphaAxis,
+    AxisTable,
+    ModelAxis,
     BakeError,
     Moon,
     SkySum,

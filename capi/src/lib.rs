@@ -15,6 +15,8 @@ mod status;
 
 mod model;
 
+mod axis;
+
 mod plan;
 
 mod structs;
@@ -51,6 +53,7 @@ mod colour_aerial_perspective;
 
 pub use abi::*;
 pub use aerial_perspective::*;
+pub use axis::*;
 pub use baked_colour_sky::*;
 pub use baked_polarised_sky::*;
 pub use baked_sky::*;

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use cbindgen::{Builder, Config, EnumConfig, ExportConfig, Language, RenameRule, Style};
 use welkin::{
-    WelkinAbi, WelkinBakeError, WelkinBudget, WelkinCameraVolume, WelkinConditions, WelkinError,
-    WelkinMoon, WelkinPlanSummary, WelkinPolarisationFrame, WelkinRanges, WelkinSample,
-    WelkinStokes,
+    WelkinAbi, WelkinAxis, WelkinBakeError, WelkinBudget, WelkinCameraVolume, WelkinConditions,
+    WelkinError, WelkinMoon, WelkinPlanSummary, WelkinPolarisationFrame, WelkinRanges,
+    WelkinSample, WelkinStokes,
 };
 
 const INTRODUCTION: &str = include_str!("introduction.h");
@@ -39,6 +39,7 @@ fn trailer() -> String {
         WelkinBakeError { max }
         WelkinSample { pdf, xyz, part }
         WelkinRanges { wavelength, top }
+        WelkinAxis { nodes, name, unit }
         WelkinMoon { distance }
         WelkinBudget { altitude, channels }
         WelkinPlanSummary { bake_p95 }

@@ -1140,3 +1140,39 @@ fn models() {
         }
     }
 }
+
+#[test]
+fn axes() {
+    let file = include_bytes!("../../format-spec/conformance/files/axis.welkin");
+    let library = library::Model::from_bytes(file.to_vec()).unwrap();
+    let own = library.axis().unwrap().unwrap();
+    let model = make!(welkin_model_from_bytes(file.as_ptr(), file.len()));
+    let mut axis = std::mem::MaybeUninit::<WelkinAxis>::uninit();
+    good!(welkin_model_axis(model, axis.as_mut_ptr()));
+    // SAFETY: the call filled it.
+    let axis = unsafe { axis.assume_init() };
+    assert_eq!((axis.range, axis.nodes), (own.range(), 4));
+    let text = |characters: &[std::ffi::c_char]| {
+        let bytes = characters.iter().map(|c| *c as u8);
+        String::from_utf8(bytes.take_while(|b| *b != 0).collect()).unwrap()
+    };
+    assert_eq!(text(&axis.name), own.name());
+    assert_eq!(text(&axis.unit), own.unit());
+    let mut values = [0.0; 4];
+    good!(welkin_model_axis_values(model, values.as_mut_ptr(), 4));
+    assert_eq!(values, own.values());
+    let (mut visibility, mut value) = (0.0, 0.0);
+    good!(welkin_model_axis_visibility(model, 315.0, &mut visibility));
+    assert_eq!(visibility, own.visibility(315.0).unwrap());
+    good!(welkin_model_axis_value(model, visibility, &mut value));
+    assert_eq!(value, own.value(visibility).unwrap());
+    let text = bad!(Range: welkin_model_axis_visibility(model, 501.0, &mut visibility));
+    assert!(text.contains("ozone"), "{text}");
+    let plain = default_model();
+    bad!(Missing: welkin_model_axis_visibility(plain, 315.0, &mut visibility));
+    // SAFETY: each is freed once.
+    unsafe {
+        welkin_model_free(model);
+        welkin_model_free(plain);
+    }
+}

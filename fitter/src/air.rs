@@ -84,10 +84,11 @@ impl Air {
             ),
             Self::Recipes(nodes) => {
                 let recipe = &nodes[0].1;
-                (
-                    recipe.name().into(),
-                    json!({ "description": recipe.description() }),
-                )
+                let mut what = json!({ "description": recipe.description() });
+                if recipe.has_spheres() {
+                    what["phase_functions"] = "OPAC's particles as spheres (Lorenz-Mie), by sums of Henyey-Greenstein functions".into();
+                }
+                (recipe.name().into(), what)
             }
         }
     }

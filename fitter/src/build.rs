@@ -280,11 +280,8 @@ fn check_rounding(
     fit: &Fit,
     file: &[format::Chunk],
 ) -> Result<()> {
-    let shared = file.iter().find_map(|c| match &c.payload {
-        Payload::RadianceBasis(basis) => Some(basis),
-        _ => None,
-    });
-    let shared = shared.context("a file without a basis")?;
+    // As the fit has it: the file says each kind of particles by its lobes.
+    let shared = PackedBasis::new(&plan.grid, &fit.basis).radiance();
     let radiance: Vec<_> = file
         .iter()
         .filter_map(|c| match &c.payload {
@@ -294,7 +291,7 @@ fn check_rounding(
         .collect();
     radiance.par_iter().enumerate().try_for_each(|(k, packed)| {
         let fitted = (&fit.own[k], &fit.basis);
-        let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, shared));
+        let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, &shared));
         let [altitude, visibility] = [
             plan.grid.altitudes[places[k].altitude],
             plan.grid.visibilities[places[k].visibility],
@@ -315,7 +312,8 @@ pub(crate) fn radiance_file(
     let airs: Vec<AirTables> = solved.iter().map(air).collect();
     let head = pack::head(plan, &airs, &solved[0].gatherer(), "{}".into())?;
     let basis = PackedBasis::new(&plan.grid, &fit.basis);
-    let shared = Payload::RadianceBasis(basis.radiance());
+    let kinds = &solved[0].medium.kinds;
+    let shared = Payload::RadianceBasis(pack::by_lobes(basis.radiance(), kinds));
     let mut out = vec![
         format::Chunk::new(None, None, shared),
         format::Chunk::new(None, None, Payload::Estimate(tables)),

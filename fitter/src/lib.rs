@@ -7,6 +7,7 @@
 pub mod air;
 pub mod assess;
 pub mod atmosphere;
+pub mod aureole;
 pub mod build;
 pub mod chart;
 pub mod column;
@@ -22,6 +23,7 @@ pub mod measured;
 mod non_negative;
 pub mod official;
 pub mod pack;
+pub mod particles;
 pub mod picture;
 pub mod polarimetry;
 pub mod polarise;

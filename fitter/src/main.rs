@@ -47,6 +47,10 @@ enum Command {
     Official(command::official::Args),
     /// Path-trace a picture of sky, ground and simple things on it.
     Picture(command::picture::Args),
+    /// Compare models with the tracer about the sun, with full scattering matrices.
+    Aureole(command::aureole::Args),
+    /// Say how well a few Henyey-Greenstein functions make the phase functions of a recipe's particles.
+    Lobes(command::lobes::Args),
     /// Measure how fast the tracer is.
     TraceBench(command::bench::Args),
     /// Compare the tracer with outside references.
@@ -86,6 +90,8 @@ fn main() -> ExitCode {
         Command::Measure(args) => command::measure::run(&args),
         Command::Official(args) => command::official::run(&args),
         Command::Picture(args) => command::picture::run(&args),
+        Command::Aureole(args) => command::aureole::run(&args),
+        Command::Lobes(args) => command::lobes::run(&args),
         Command::TraceBench(args) => command::bench::run(&args),
         Command::Validate(args) => command::validate::run(&args),
     };

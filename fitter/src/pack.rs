@@ -3,7 +3,7 @@
 use crate::dataset::Grid;
 use crate::decompose::{Basis, Own, row_major, splines};
 use crate::estimate::OF_FIELD;
-use crate::successive_orders::{Gatherer, Medium, NW, Spectrum};
+use crate::successive_orders::{FIELDS, Gatherer, Lobes, Medium, NW, Spectrum};
 use crate::units::Plan;
 use anyhow::Result;
 use faer::Mat;
@@ -87,23 +87,44 @@ fn fields(gatherer: &Gatherer, wide: impl Fn(&Spectrum) -> Vec<f64>) -> Vec<Fiel
     };
     // Δ = (1 − ρ)/(1 + ρ/2) solved for ρ.
     let depolarisation = gatherer.polarising().map(|d| (1.0 - d) / (1.0 + d / 2.0));
-    vec![
-        field(0, PhaseFunction::Rayleigh, false, wide(&depolarisation)),
-        field(
-            1,
-            PhaseFunction::HenyeyGreenstein,
+    let lobes = |kind: usize| {
+        let g = gatherer.phase(kind).iter().map(|lobe| wide(&lobe.g));
+        let lobe = |g| field(1 + kind, PhaseFunction::HenyeyGreenstein, false, g);
+        g.map(lobe).collect::<Vec<_>>()
+    };
+    [
+        vec![field(
+            0,
+            PhaseFunction::Rayleigh,
             false,
-            wide(&gatherer.asymmetry(0)),
-        ),
-        field(
-            2,
-            PhaseFunction::HenyeyGreenstein,
-            false,
-            wide(&gatherer.asymmetry(1)),
-        ),
-        field(3, PhaseFunction::None, false, vec![0.0; NW]),
-        field(4, PhaseFunction::None, true, vec![0.0; NW]),
+            wide(&depolarisation),
+        )],
+        lobes(0),
+        lobes(1),
+        vec![field(3, PhaseFunction::None, false, vec![0.0; NW])],
+        vec![field(4, PhaseFunction::None, true, vec![0.0; NW])],
     ]
+    .concat()
+}
+
+/// Channel factors with a field for every lobe of the kinds of particles, which differ by the weights.
+pub fn by_lobes(basis: RadianceBasis, kinds: &[Lobes; 2]) -> RadianceBasis {
+    let row = |row: &[f32]| -> Vec<f32> {
+        let field = |f: usize| &row[f * NW..(f + 1) * NW];
+        let mut out = field(0).to_vec();
+        for (kind, lobes) in kinds.iter().enumerate() {
+            for lobe in lobes.iter() {
+                out.extend(field(1 + kind).iter().zip(lobe.weight).map(|(v, c)| v * c));
+            }
+        }
+        out.extend_from_slice(&row[3 * NW..]);
+        out
+    };
+    let rows = basis.channel.chunks_exact(FIELDS * NW);
+    RadianceBasis {
+        channel: rows.flat_map(row).collect(),
+        ..basis
+    }
 }
 
 /// The shared factor matrices as splines, every column scaled to a largest magnitude of 1; the scales go into the

@@ -11,6 +11,7 @@ use welkin_fitter::recipe::Recipe;
 fn request(bands: Bands) -> Request {
     Request {
         recipe: Recipe::named("urban").unwrap(),
+        axis: None,
         scene: Scene {
             altitudes: [0.0, 0.0],
             elevations: [5.0, 40.0].map(f64::to_radians),
@@ -74,7 +75,7 @@ fn the_model_has_the_air_and_the_ranges_of_the_request() {
 #[test]
 fn the_unbiased_tracer_confirms_a_draft() {
     let (plan, _) = request(Bands::All).plan().unwrap();
-    let judgement = judge(&made().model, &plan, Quality::Draft.judged()).unwrap();
+    let judgement = judge(&made().model, &plan, None, Quality::Draft.judged()).unwrap();
     println!("{judgement}");
     let errors = judgement.quantiles().unwrap();
     assert!(errors.count > 200);

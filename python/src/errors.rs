@@ -88,6 +88,19 @@ fn describe(attributes: &Bound<'_, PyDict>, error: Error) -> PyResult<Option<PyE
             attributes.set_item("max", max)?;
             attributes.set_item("unit", unit)?;
         }
+        Error::OutOfAxis {
+            name,
+            value,
+            min,
+            max,
+            unit,
+        } => {
+            attributes.set_item("parameter", name)?;
+            attributes.set_item("value", value)?;
+            attributes.set_item("min", min)?;
+            attributes.set_item("max", max)?;
+            attributes.set_item("unit", unit)?;
+        }
         Error::Direction { got } => attributes.set_item("got", got.map(f64::from).to_vec())?,
         Error::Point { got } | Error::Reach { got, .. } => {
             attributes.set_item("got", got.to_vec())?;

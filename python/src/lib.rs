@@ -46,7 +46,7 @@ mod _native {
     #[pymodule_export]
     use crate::model::opening::{default_model, from_bytes, open, stream};
     #[pymodule_export]
-    use crate::model::{PyModel, budget::PyPlan};
+    use crate::model::{PyModel, axis::PyModelAxis, budget::PyPlan};
     #[pymodule_export]
     use crate::moon::{PySkySum, phase_angle_between};
     #[pymodule_export]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import welkin_sky
-from conftest import SCENE
+from conftest import MODEL_FILE, SCENE
 
 trapezoid = getattr(np, "trapezoid", None) or np.trapz
 
@@ -413,3 +413,17 @@ def test_grounds_by_wavelength(model, directions):
         model.over([400.0, 500.0], [0.1, 1.2])
     with pytest.raises(welkin_sky.LengthError):
         model.over([400.0, 500.0], [0.1])
+
+
+def test_the_axis_of_a_file(model):
+    assert model.axis is None
+    file = MODEL_FILE.parents[1] / "format-spec" / "conformance" / "files" / "axis.welkin"
+    axis = welkin_sky.open(file).axis
+    assert (axis.name, axis.unit, axis.range) == ("ozone", "DU", (100.0, 500.0))
+    assert axis.values.tolist() == [500.0, 380.0, 250.0, 100.0]
+    middle = axis.visibility(315.0)
+    assert np.isclose(1 / middle, 0.5 / 30e3 + 0.5 / 59.4e3, rtol=1e-12)
+    assert np.isclose(axis.value(middle), 315.0, rtol=1e-12)
+    with pytest.raises(welkin_sky.RangeError, match="ozone must be in 100..=500 DU, got 600 DU") as caught:
+        axis.visibility(600.0)
+    assert (caught.value.parameter, caught.value.unit) == ("ozone", "DU")

@@ -23,11 +23,8 @@ pub(crate) fn assemble(
         header.required_features |= U32::new(FEATURE_SPECTRUM);
     }
     let features = header.required_features.get();
-    let needed = match (features & FEATURE_ESTIMATE != 0, features != 0) {
-        (true, _) => VERSION_MINOR,
-        (false, true) => 1,
-        _ => 0,
-    };
+    let has_axis = chunks.iter().any(|(e, _)| e.kind.get() == KIND_AXIS);
+    let needed = minor_version(features, has_axis);
     header.version_minor = U16::new(header.version_minor.get().max(needed));
     let mut file = [header.as_bytes(), arrays].concat();
     file.resize(head_length, 0);
@@ -49,4 +46,14 @@ pub(crate) fn assemble(
     // The reader's checks of the directory are the writer's too.
     parse(&file)?;
     Ok(file)
+}
+
+/// The lowest version that such a file needs.
+fn minor_version(features: u32, has_axis: bool) -> u16 {
+    match features {
+        _ if has_axis => 3,
+        _ if features & FEATURE_ESTIMATE != 0 => 2,
+        0 => 0,
+        _ => 1,
+    }
 }

@@ -2,6 +2,7 @@
 
 use zerocopy::little_endian::U16;
 
+use super::axis_table::AxisTable;
 use super::density::{DensityTable, DensityView};
 use super::encoding::{check_chunk, decode};
 use super::estimate::{Estimate, view as estimate_view};
@@ -97,6 +98,7 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
             Kind::Estimate => {
                 Payload::Estimate(Estimate::from(&estimate_view(&contents.head, &payload)?))
             }
+            Kind::Axis => Payload::Axis(AxisTable::read(&contents.head, &payload)?),
             Kind::SourceBasis => {
                 Payload::SourceBasis(SourceBasis::from(&SourceBasisView::new(&payload, nw)?))
             }
@@ -117,6 +119,9 @@ pub fn unpack(file: &[u8]) -> Result<(Head, Vec<Chunk>)> {
 /// The colour weights of the remaining wavelengths stay as they are; they no longer add up to the colour of the whole
 /// spectrum, so set [`Head::xyz`] where wavelengths are left out. A spectrum chunk stays only if all wavelengths with a
 /// weight in it do; without it the model ends at its first and last wavelength, and interpolates between neighbours.
+///
+/// An axis chunk keeps the values of the visibilities that stay. Where its values are no affine function of 1/V, leaving
+/// out nodes between others moves the visibilities that values between those are answered for.
 ///
 /// # Errors
 /// [`Error::Invalid`] for indices that do not increase or that the head does not have.
@@ -156,6 +161,7 @@ pub fn crop(head: &mut Head, chunks: &mut Vec<Chunk>, selection: &Selection) -> 
                 basis.channel = kept(&basis.channel, POLARISATION_PARTS);
             }
             Payload::Estimate(estimate) => estimate.keep(nw, &selection.wavelengths),
+            Payload::Axis(table) => table.values = pick(&table.values, &selection.visibilities),
             Payload::Source(core) => core.keep(nw, &selection.wavelengths),
             Payload::SourceBasis(basis) => basis.keep(nw, &selection.wavelengths),
             Payload::Spectrum(spectrum) => {

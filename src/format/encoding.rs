@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::axis_table::AxisTable;
 use super::density::DensityView;
 use super::estimate::view as estimate_view;
 use super::head::{Entry, Head, Kind};
@@ -55,6 +56,7 @@ pub(crate) fn check_chunk(head: &Head, i: usize, entry: &Entry, payload: &[u8]) 
         Kind::Source => return SourceView::new(payload, constituents, wavelengths).map(drop),
         Kind::SourceBasis => return SourceBasisView::new(payload, wavelengths).map(drop),
         Kind::Estimate => return estimate_view(head, payload).map(drop),
+        Kind::Axis => return AxisTable::read(head, payload).map(drop),
         Kind::Spectrum => return spectrum_view(head, payload).map(drop),
         Kind::RadianceBasis => BasisView::radiance(payload, &shape, entry.rank)?.is_finite(),
     };

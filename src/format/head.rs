@@ -1,8 +1,9 @@
 //! The head of a file in owned form: everything except the chunks.
 
 use super::layout::{
-    KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE,
-    KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM, KIND_TRANSMITTANCE, Shape,
+    KIND_AXIS, KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION, KIND_POLARISATION_BASIS,
+    KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS, KIND_SPECTRUM,
+    KIND_TRANSMITTANCE, Shape,
 };
 use super::matrix::{columns, pick};
 use crate::geometry::Planet;
@@ -249,6 +250,8 @@ pub enum Kind {
     Spectrum,
     /// Tables of the estimates that fields are relative to.
     Estimate,
+    /// What the visibilities stand for.
+    Axis,
     /// A kind that this reader skips.
     Unknown(u32),
 }
@@ -266,6 +269,7 @@ impl Kind {
             KIND_RADIANCE_BASIS => Kind::RadianceBasis,
             KIND_SPECTRUM => Kind::Spectrum,
             KIND_ESTIMATE => Kind::Estimate,
+            KIND_AXIS => Kind::Axis,
             other => Kind::Unknown(other),
         }
     }
@@ -283,6 +287,7 @@ impl Kind {
             Kind::RadianceBasis => "radiance basis",
             Kind::Spectrum => "spectrum",
             Kind::Estimate => "estimate",
+            Kind::Axis => "axis",
             Kind::Unknown(_) => "unknown",
         }
     }

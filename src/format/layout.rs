@@ -8,7 +8,7 @@ pub const MAGIC: [u8; 8] = *b"\x89WLK\r\n\x1a\n";
 /// The major version that this crate reads and writes.
 pub const VERSION_MAJOR: u16 = 1;
 /// The newest minor version that this crate writes, where a file needs it; other files have 0.
-pub const VERSION_MINOR: u16 = 2;
+pub const VERSION_MINOR: u16 = 3;
 /// Bit of `required_features`: the file has a spectrum.
 pub const FEATURE_SPECTRUM: u32 = 1;
 /// Bit of `required_features`: fields are relative to estimates.
@@ -43,6 +43,8 @@ pub const KIND_RADIANCE_BASIS: u32 = 3;
 pub const KIND_SPECTRUM: u32 = 9;
 /// `kind` of the estimate chunk.
 pub const KIND_ESTIMATE: u32 = 10;
+/// `kind` of the axis chunk.
+pub const KIND_AXIS: u32 = 11;
 /// Directory index that means "none".
 pub const NO_INDEX: u16 = u16::MAX;
 /// Largest rank of a chunk.

@@ -12,7 +12,7 @@ pub use estimate_view::{
 };
 pub use layout::{
     CHUNK_ALIGNMENT, ENCODING_RAW, ENCODING_ZSTD, FEATURE_ESTIMATE, FEATURE_SPECTRUM,
-    FIELD_ESTIMATE_SHIFT, FIELD_GROUND, KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION,
+    FIELD_ESTIMATE_SHIFT, FIELD_GROUND, KIND_AXIS, KIND_COLUMN, KIND_ESTIMATE, KIND_POLARISATION,
     KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE, KIND_SOURCE_BASIS,
     KIND_SPECTRUM, KIND_TRANSMITTANCE, MAGIC, MAX_RANK, MAX_TABLE, MOST_EXPANSION, NO_INDEX,
     POLARISATION_PARTS, Shape, VERSION_MAJOR, VERSION_MINOR, ceil16,
@@ -23,6 +23,7 @@ pub use views::{BasisView, ColumnView, FactorsView, Payload16};
 cfg_if::cfg_if! {
     if #[cfg(feature = "std")] {
         mod assemble;
+        mod axis_table;
         mod matrix;
         mod payload_bytes;
         mod rewrite;
@@ -47,6 +48,7 @@ cfg_if::cfg_if! {
         pub(crate) use spectrum::view as spectrum_view;
 
         pub use crate::output::replace_file;
+        pub use axis_table::{AxisTable, MAX_AXIS_NAME, MAX_AXIS_UNIT};
         pub use rewrite::{extend, recode};
         pub use crop::{Selection, crop, unpack};
         pub use density::{DensityTable, DensityView, MAX_LAYERS};

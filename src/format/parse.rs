@@ -369,7 +369,8 @@ fn check_entry(head: &Head, raw: &RawEntry, entry: &Entry) -> core::result::Resu
         | Kind::Transmittance
         | Kind::SourceBasis
         | Kind::Spectrum
-        | Kind::Estimate => entry.altitude.is_none() && entry.visibility.is_none(),
+        | Kind::Estimate
+        | Kind::Axis => entry.altitude.is_none() && entry.visibility.is_none(),
     };
     let known = entry.altitude.is_none_or(|i| i < head.altitudes.len())
         && entry.visibility.is_none_or(|i| i < head.visibilities.len());

@@ -1,5 +1,6 @@
 //! Checks a whole file, also what evaluation does not depend on. Format specification, sections 3 to 6 and 8.
 
+use super::axis_table::RESERVED as AXIS_RESERVED;
 use super::density::RESERVED as DENSITY_RESERVED;
 use super::encoding::{check_chunk, decode};
 use super::estimate::view as estimate_view;
@@ -130,6 +131,7 @@ fn check_reserved_of_payload(entry: &Entry, payload: &[u8]) -> Result<(), Error>
     let reserved = match entry.kind {
         Kind::Transmittance => DENSITY_RESERVED,
         Kind::Source => SOURCE_RESERVED,
+        Kind::Axis => AXIS_RESERVED,
         _ => return Ok(()),
     };
     match payload.get(reserved) {

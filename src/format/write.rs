@@ -6,6 +6,7 @@ use zerocopy::IntoBytes;
 use zerocopy::little_endian::{F32, F64, U16, U32, U64};
 
 use super::assemble::assemble;
+use super::axis_table::AxisTable;
 use super::density::DensityTable;
 use super::estimate::Estimate;
 use super::head::{Head, PhaseFunction};
@@ -136,6 +137,8 @@ pub enum Payload {
     Spectrum(Spectrum),
     /// Tables of the estimates that fields are relative to.
     Estimate(Estimate),
+    /// What the visibilities stand for.
+    Axis(AxisTable),
 }
 
 /// A chunk to be written.
@@ -310,6 +313,7 @@ fn entry(chunk: &Chunk, payload: &[u8]) -> Result<RawEntry> {
         Payload::RadianceBasis(basis) => (KIND_RADIANCE_BASIS, basis.rank),
         Payload::Spectrum(_) => (KIND_SPECTRUM, 0),
         Payload::Estimate(_) => (KIND_ESTIMATE, 0),
+        Payload::Axis(_) => (KIND_AXIS, 0),
     };
     let index = |i: Option<usize>| {
         let Some(i) = i else {
@@ -350,6 +354,7 @@ fn encode_payload(head: &Head, payload: &Payload) -> Result<Vec<u8>> {
         Payload::SourceBasis(basis) => basis.encode(wavelengths),
         Payload::Spectrum(spectrum) => spectrum.encode(head),
         Payload::Estimate(estimate) => estimate.encode(constituents, wavelengths, head.planet.top),
+        Payload::Axis(table) => table.encode(head),
     }
 }
 

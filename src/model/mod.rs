@@ -6,6 +6,7 @@
     reason = "what is mapped is memory that others can change"
 )]
 mod memory_map;
+mod model_axis;
 mod node_subset;
 mod opened;
 mod ranges;
@@ -13,6 +14,7 @@ mod read_at;
 mod store;
 
 pub(crate) use crate::format::Key;
+pub use model_axis::ModelAxis;
 pub(crate) use node_subset::{NodeSubset, Nodes, SourceAtNodes};
 #[cfg(feature = "default-model")]
 pub use opened::DEFAULT_MODEL;

@@ -5,12 +5,12 @@ use super::head_counts::require;
 use super::head_view::{HeadView, Rest};
 use crate::error::Result;
 use crate::format::{
-    CHUNK_ALIGNMENT, ENCODING_RAW, FEATURE_ESTIMATE, FEATURE_SPECTRUM, KIND_COLUMN, KIND_ESTIMATE,
-    KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS, KIND_SOURCE,
-    KIND_SPECTRUM, MAX_RANK, MOST_EXPANSION, NO_INDEX, RawEntry,
+    CHUNK_ALIGNMENT, ENCODING_RAW, FEATURE_ESTIMATE, FEATURE_SPECTRUM, KIND_AXIS, KIND_COLUMN,
+    KIND_ESTIMATE, KIND_POLARISATION, KIND_POLARISATION_BASIS, KIND_RADIANCE, KIND_RADIANCE_BASIS,
+    KIND_SOURCE, KIND_SPECTRUM, MAX_RANK, MOST_EXPANSION, NO_INDEX, RawEntry,
 };
 
-const KINDS: usize = KIND_ESTIMATE as usize + 1;
+const KINDS: usize = KIND_AXIS as usize + 1;
 
 pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
     let rule = |holds, detail| require(holds, "directory", detail);
@@ -74,7 +74,7 @@ pub(super) fn check(head: &HeadView, rest: &Rest) -> Result<()> {
 }
 
 pub(super) fn is_known(entry: &RawEntry) -> bool {
-    (KIND_RADIANCE..=KIND_ESTIMATE).contains(&entry.kind.get())
+    (KIND_RADIANCE..=KIND_AXIS).contains(&entry.kind.get())
 }
 
 fn fits_axes(head: &HeadView, entry: &RawEntry) -> bool {

@@ -37,6 +37,10 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     };
     let segment = ends(altitude, [x, y, z], distance);
     match quantity {
+        "axis_visibility" => {
+            let answer = axis_visibility(model, visibility);
+            return answer.map(|v| vec![v as f32]).map_err(|e| e.class());
+        }
         "transmittance" => return transmittance(model, visibility, segment).map_err(|e| e.class()),
         "in_scattering" => {
             return in_scattering(model, &conditions, segment).map_err(|e| e.class());
@@ -60,6 +64,16 @@ pub fn answer(model: &Model, line: &str) -> Result<Vec<f32>, &'static str> {
     }
     let direction = [x, y, z].map(|v| v as f32);
     values(model, quantity, &conditions, direction, wavelength).map_err(|error| error.class())
+}
+
+/// Of the value that stands where visibilities do.
+fn axis_visibility(model: &Model, value: f64) -> Result<f64, Error> {
+    let absent = || Error::MissingChunk {
+        kind: "axis",
+        altitude: None,
+        visibility: None,
+    };
+    model.axis()?.ok_or_else(absent)?.visibility(value)
 }
 
 fn values(

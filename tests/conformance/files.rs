@@ -4,6 +4,7 @@ use welkin::format::{
     Chunk, ENCODING_ZSTD, Head, MAX_TAPS, Payload, PhaseFunction, Spectrum, encode, parse, recode,
 };
 
+use crate::axis;
 use crate::common;
 use crate::common::spectrum::with_spectrum;
 use crate::frames::{Start, restarted, with_checksum};
@@ -157,6 +158,7 @@ pub fn valid() -> Vec<Case> {
             ..case(name, shows, file)
         });
     }
+    cases.extend(axis::valid());
     cases.push(Case {
         needs: vec!["zstd"],
         raw: raw.clone(),

@@ -2,6 +2,7 @@
 
 use welkin::format::{ENCODING_ZSTD, Head, encode, parse, recode};
 
+use crate::axis;
 use crate::common;
 use crate::files::{minimal, small};
 use crate::{invalid_chunks, invalid_estimate, invalid_head, invalid_segments, invalid_spectrum};
@@ -22,6 +23,7 @@ impl Case {
             Some(&"transmittance") => "transmittance",
             Some(&"aerial-perspective") => "in_scattering",
             Some(&"polarisation") => "stokes",
+            Some(&"axis") => axis::QUANTITY,
             _ if self.name.starts_with("spectrum") => "relative_radiance_at",
             _ => "relative_radiance",
         }
@@ -57,6 +59,7 @@ pub fn all() -> Vec<Case> {
     cases.extend(invalid_segments::all());
     cases.extend(invalid_spectrum::all());
     cases.extend(invalid_estimate::all());
+    cases.extend(axis::invalid());
     cases
 }
 

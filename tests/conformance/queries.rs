@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 use welkin::format::parse;
 use welkin::{Conditions, Model};
 
+use crate::axis;
 use crate::common::oracle::{Oracle, Query};
 use crate::files::Case;
 
@@ -66,24 +67,41 @@ pub fn of(case: &Case) -> Vec<Value> {
     if !case.brief {
         queries.extend(refusals(&case.bytes));
     }
+    if case.needs.contains(&"axis") {
+        queries.extend(axis::queries(case));
+    }
     queries
 }
 
 /// The query of a file that must be refused.
 pub fn refused(quantity: &str, class: &str) -> Value {
-    let query = Query {
-        altitude: 0.0,
-        visibility: 50e3,
-        albedo: 0.2,
-        solar_elevation: 0.5,
-        solar_azimuth: 0.0,
-        direction: [0.0, 0.0, 1.0],
-    };
+    let query = plain(50e3);
     let asked = match quantity {
         "relative_radiance" | "relative_radiance_at" => value(quantity, &query, 500.0),
         _ => over(quantity, &query, 1000.0),
     };
     with_error(asked, class)
+}
+
+/// A value of the axis, which stands where visibilities do.
+pub fn of_axis(quantity: &str, axis: f64, answer: Result<f64, &str>) -> Value {
+    let asked = value(quantity, &plain(axis), 500.0);
+    match answer {
+        Ok(visibility) => with_values(asked, &[visibility], &[0.0]),
+        Err(class) => with_error(asked, class),
+    }
+}
+
+/// The zenith by day.
+fn plain(visibility: f64) -> Query {
+    Query {
+        altitude: 0.0,
+        visibility,
+        albedo: 0.2,
+        solar_elevation: 0.5,
+        solar_azimuth: 0.0,
+        direction: [0.0, 0.0, 1.0],
+    }
 }
 
 struct Ranges {

@@ -2,11 +2,14 @@
 
 use welkin::format::{Kind, ceil16, encode, parse};
 
+use crate::axis;
 use crate::common;
 use crate::files::{Case, small};
 
 /// A file and the class of what a verifier finds in it.
-pub fn all() -> Vec<(Case, &'static str)> {
+pub type Verdict = (Case, &'static str);
+
+pub fn all() -> Vec<Verdict> {
     let mut cases = Vec::new();
     let radiance = polarised();
     let aerial = lit_air();
@@ -138,6 +141,7 @@ pub fn all() -> Vec<(Case, &'static str)> {
         let bytes = with_metadata(text);
         add(name, shows, "value", &[], bytes.clone(), &bytes);
     }
+    cases.extend(axis::tolerated());
     cases
 }
 

@@ -438,6 +438,29 @@ typedef struct WelkinRanges {
 } WelkinRanges;
 
 /**
+ * A quantity that the visibilities of a model stand for. Name and unit are UTF-8 from whoever made the file,
+ * zero-terminated: escape control characters before showing them.
+ */
+typedef struct WelkinAxis {
+    /**
+     * Least and largest value.
+     */
+    double range[2];
+    /**
+     * How many nodes it has.
+     */
+    uint64_t nodes;
+    /**
+     * What it is called.
+     */
+    char name[72];
+    /**
+     * What it is measured in; empty for a number without unit.
+     */
+    char unit[40];
+} WelkinAxis;
+
+/**
  * The conditions that a scene can meet, and what it tolerates. Albedo is free. Set all bytes to zero, then struct_size
  * and the fields.
  */
@@ -819,6 +842,40 @@ size_t welkin_model_file_bytes(const struct WelkinModel *model);
  * Bytes of the file that were needed so far; 0 for null.
  */
 size_t welkin_model_touched_bytes(const struct WelkinModel *model);
+
+/**
+ * Writes which quantity the visibilities of the model stand for.
+ *
+ * Errors: WELKIN_STATUS_MISSING where they stand for themselves; those of a damaged file.
+ */
+WelkinStatus welkin_model_axis(const struct WelkinModel *model, struct WelkinAxis *axis, struct WelkinError *error);
+
+/**
+ * Writes the values of that quantity at the nodes, which increase or decrease: `values[count]` with `count` of
+ * welkin_model_axis. Errors as there.
+ */
+WelkinStatus welkin_model_axis_values(const struct WelkinModel *model,
+                                      double *values,
+                                      size_t count,
+                                      struct WelkinError *error);
+
+/**
+ * Writes the visibility (m) that stands for a value: what conditions take.
+ *
+ * Errors: WELKIN_STATUS_RANGE beyond the values; those of welkin_model_axis.
+ */
+WelkinStatus welkin_model_axis_visibility(const struct WelkinModel *model,
+                                          double value,
+                                          double *visibility,
+                                          struct WelkinError *error);
+
+/**
+ * Writes the value that a visibility (m) stands for. Errors as of welkin_model_axis_visibility.
+ */
+WelkinStatus welkin_model_axis_value(const struct WelkinModel *model,
+                                     double visibility,
+                                     double *value,
+                                     struct WelkinError *error);
 
 /**
  * Plans a scene: reads nothing of the model but its head.
@@ -2348,6 +2405,10 @@ WELKIN_LAYOUT(offsetof(WelkinSample, part) == 28, "WelkinSample.part");
 WELKIN_LAYOUT(sizeof(WelkinRanges) == 80, "size of WelkinRanges");
 WELKIN_LAYOUT(offsetof(WelkinRanges, wavelength) == 48, "WelkinRanges.wavelength");
 WELKIN_LAYOUT(offsetof(WelkinRanges, top) == 72, "WelkinRanges.top");
+WELKIN_LAYOUT(sizeof(WelkinAxis) == 136, "size of WelkinAxis");
+WELKIN_LAYOUT(offsetof(WelkinAxis, nodes) == 16, "WelkinAxis.nodes");
+WELKIN_LAYOUT(offsetof(WelkinAxis, name) == 24, "WelkinAxis.name");
+WELKIN_LAYOUT(offsetof(WelkinAxis, unit) == 96, "WelkinAxis.unit");
 WELKIN_LAYOUT(sizeof(WelkinMoon) == 40, "size of WelkinMoon");
 WELKIN_LAYOUT(offsetof(WelkinMoon, distance) == 32, "WelkinMoon.distance");
 WELKIN_LAYOUT(sizeof(WelkinBudget) == 72, "size of WelkinBudget");

@@ -332,6 +332,20 @@ public:
     Ranges ranges() const {
         return detail::result<Ranges>(welkin_model_ranges, get());
     }
+    // Which quantity the visibilities stand for; an error (missing) where they stand for themselves.
+    WelkinAxis axis() const { return detail::result<WelkinAxis>(welkin_model_axis, get()); }
+    std::vector<double> axis_values() const {
+        std::vector<double> values(static_cast<std::size_t>(axis().nodes));
+        detail::call(welkin_model_axis_values, get(), values.data(), values.size());
+        return values;
+    }
+    // The visibility (m) that stands for a value, and the other way round.
+    double axis_visibility(double value) const {
+        return detail::result<double>(welkin_model_axis_visibility, get(), value);
+    }
+    double axis_value(double visibility) const {
+        return detail::result<double>(welkin_model_axis_value, get(), visibility);
+    }
     bool is_polarised() const noexcept { return welkin_model_is_polarised(get()); }
     bool is_moonlit() const noexcept { return welkin_model_is_moonlit(get()); }
     bool has_ground() const noexcept { return welkin_model_has_ground(get()); }

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import against_tracer, altitudes, exponential, frames, haze, inversion, ozone, panels, transmittance, twilight
+from . import against_tracer, altitudes, exponential, frames, haze, inversion, ozone, ozone_axis, panels, transmittance, twilight
 from .ask import Commands
 
 FIGURES = {
@@ -22,6 +22,7 @@ FIGURES = {
     "12": against_tracer,
     "13": exponential,
     "haze": haze,
+    "ozone-axis": ozone_axis,
 }
 
 

@@ -34,11 +34,12 @@ class Scene:
 
 @dataclass(frozen=True)
 class Air:
-    """The air that is traced: as in the model, or varied."""
+    """The air that is traced: as in the model, or varied; or that of a recipe."""
 
     visibility: float = 59_400.0
     ozone: float | None = None
     aerosol_profile: str = "smooth"
+    recipe: str | None = None
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,17 @@ class Commands:
         self.kept.mkdir(parents=True, exist_ok=True)
         self._version = hashlib.sha256(self.fit.read_bytes()).hexdigest()
 
-    def model(self, quantity, scene, lines, wavelengths, distance=None):
-        """What the model says, by line of sight and wavelength."""
+    def make(self, recipe, *options):
+        """A model of one's own, with `welkin-fit make`."""
+        key = hashlib.sha256("\0".join([self._version, recipe, *options]).encode()).hexdigest()[:24]
+        out = self.kept / f"{key}.welkin"
+        if not out.exists():
+            run = [str(self.fit), "make", recipe, *options, "--work", str(self.kept / key), "--out", str(out)]
+            subprocess.run(run, stdout=sys.stderr, check=True)
+        return out
+
+    def model(self, quantity, scene, lines, wavelengths, distance=None, options=()):
+        """What the model says, by line of sight and wavelength; `options` name another one, or a value of its axis."""
         header = (
             "quantity,visibility_km,albedo,altitude_m,solar_elevation_deg,"
             "view_zenith_deg,view_azimuth_deg,wavelength_nm,distance_m"
@@ -74,7 +84,7 @@ class Commands:
         for (zenith, azimuth), metres in zip(_degrees(lines), _lengths(distance, len(lines))):
             rows += [f"{start},{zenith!r},{azimuth!r},{nm!r},{metres}" for nm in wavelengths]
         # A row that got no answer ends the command.
-        run = [str(self.welkin), "query", "--strict"]
+        run = [str(self.welkin), "query", "--strict", *options]
         answer = subprocess.run(run, input="\n".join(rows) + "\n", capture_output=True, text=True, check=False)
         if answer.returncode:
             raise RuntimeError(f"welkin query: {answer.stderr.strip()}")
@@ -91,11 +101,13 @@ class Commands:
         return [Traced(*part) for part in table.reshape(-1, len(scenes), len(lines), len(wavelengths)).swapaxes(0, 1)]
 
     def _air(self, air, wavelengths):
-        options = ["--aerosol-profile", air.aerosol_profile]
-        if air.ozone is not None:
-            options += ["--ozone", repr(air.ozone)]
-        nm = ",".join(map(str, wavelengths))
-        run = [str(self.fit), "atmosphere", "--visibility", repr(air.visibility / 1e3), "--wavelengths", nm, *options]
+        nm = ["--wavelengths", ",".join(map(str, wavelengths))]
+        if air.recipe is not None:
+            options = [air.recipe, "--set", f"ozone={air.ozone!r}", "--out", "-"]
+        else:
+            options = ["--visibility", repr(air.visibility / 1e3), "--aerosol-profile", air.aerosol_profile]
+            options += [] if air.ozone is None else ["--ozone", repr(air.ozone)]
+        run = [str(self.fit), "atmosphere", *options, *nm]
         return subprocess.run(run, capture_output=True, check=True, text=True).stdout
 
     @staticmethod

@@ -4,7 +4,7 @@ use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use welkin::output::Target;
-use welkin_fitter::make::{Bands, Quality, Request, Scene};
+use welkin_fitter::make::{Axis, Bands, Quality, Request, Scene};
 use welkin_fitter::recipe::Recipe;
 
 /// Makes a model file from a recipe, traces the air of the scene, and says how far the file is from it.
@@ -15,6 +15,10 @@ pub struct Args {
     /// The model file; - for standard output.
     #[arg(long)]
     out: PathBuf,
+    /// A number of the recipe that the model keeps as an axis, with its values at the nodes: ozone=100,200,300,400,500.
+    /// What can be changed: see `atmosphere --help`.
+    #[arg(long, value_name = "NAME=VALUE,…")]
+    axis: Option<String>,
     /// Lowest and highest observer, m.
     #[arg(long, value_name = "LOW..HIGH", value_parser = range, default_value = "0..99000")]
     altitudes: [f64; 2],
@@ -27,6 +31,9 @@ pub struct Args {
     /// How finely the air is traced and fitted.
     #[arg(long, value_enum, default_value = "good")]
     quality: QualityArg,
+    /// Phase functions of OPAC's particles: as the recipe says, or of spheres, by Lorenz-Mie theory.
+    #[arg(long, value_enum, default_value = "recipe")]
+    phase: PhaseArg,
     /// Folder for finished work units, from which an interrupted run goes on; without it one named after the recipe, in
     /// `work`.
     #[arg(long)]
@@ -37,6 +44,12 @@ pub struct Args {
 enum BandsArg {
     All,
     Rgb,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum PhaseArg {
+    Recipe,
+    Mie,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -65,12 +78,19 @@ fn range(text: &str) -> Result<[f64; 2]> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let recipe = find(&args.recipe)?;
+    let recipe = match args.phase {
+        PhaseArg::Recipe => recipe,
+        PhaseArg::Mie => recipe.with_mie()?,
+    };
     let work = match &args.work {
         Some(work) => work.clone(),
         None => Path::new("work").join(args.recipe.file_stem().unwrap_or("recipe".as_ref())),
     };
+    let axis = args.axis.as_deref();
+    let axis = axis.map(|text| Axis::parse(&recipe, text)).transpose()?;
     let request = Request {
         recipe,
+        axis,
         scene: Scene {
             altitudes: args.altitudes,
             elevations: args.elevations.map(f64::to_radians),

@@ -2,6 +2,7 @@
 
 pub mod assess;
 pub mod atmosphere;
+pub mod aureole;
 pub mod bench;
 pub mod build;
 pub mod chart;
@@ -9,6 +10,7 @@ pub mod cross_check;
 pub mod export;
 pub mod finite;
 pub mod import;
+pub mod lobes;
 pub mod make;
 pub mod measure;
 pub mod official;

@@ -168,8 +168,8 @@ pub fn total(
     albedo: f64,
 ) -> [f64; NW] {
     let rayleigh = rayleigh_phase(gatherer.polarising(), cosine);
-    let fine = gatherer.phase(0, cosine);
-    let coarse = gatherer.phase(1, cosine);
+    let fine = gatherer.phase(0).at(cosine);
+    let coarse = gatherer.phase(1).at(cosine);
     std::array::from_fn(|w| {
         let ground = albedo / (1.0 - albedo * f64::from(light.spherical_albedo[w]));
         f64::from(

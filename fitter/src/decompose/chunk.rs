@@ -3,7 +3,7 @@
 use super::normalise::{RelativeEstimates, SiteEstimates, levels, normalise};
 use crate::dataset::{Grid, Tensor};
 use crate::successive_orders::scattered_source::Sun;
-use crate::successive_orders::{FIELDS, Gatherer, NW, Spectrum, rayleigh_phase};
+use crate::successive_orders::{FIELDS, Gatherer, Lobes, NW, Spectrum, rayleigh_phase};
 use std::f64::consts::FRAC_PI_2;
 use welkin::estimate::Estimates;
 use welkin::geometry::Side;
@@ -22,7 +22,8 @@ pub struct Chunk {
     /// Root weights of the views and of the solar elevations.
     weight: [Vec<f32>; 2],
     polarising: Spectrum,
-    asymmetry: [Spectrum; 2],
+    /// Phase functions of the kinds of particles.
+    kinds: [Lobes; 2],
     spherical_albedo: Spectrum,
     importance: Spectrum,
     seed: u64,
@@ -66,7 +67,7 @@ impl Chunk {
             cosine: cosines(gatherer, grid, a),
             weight: [view_weights(gatherer, grid, a), elevation_weights(grid)],
             polarising: *gatherer.polarising(),
-            asymmetry: [gatherer.asymmetry(0), gatherer.asymmetry(1)],
+            kinds: [0, 1].map(|kind| gatherer.phase(kind).clone()),
             spherical_albedo: gatherer.light().spherical_albedo,
             importance: importance(&medium.atmosphere.wavelengths),
             seed,
@@ -84,7 +85,7 @@ impl Chunk {
             cosine: vec![0.0; count],
             weight: [vec![1.0; sites[0]], vec![1.0; sites[2]]],
             polarising: [0.0; NW],
-            asymmetry: [[0.0; NW]; 2],
+            kinds: [0, 1].map(|_| Lobes::one([0.0; NW])),
             spherical_albedo: [0.0; NW],
             importance: [1.0; NW],
             seed: 0,
@@ -127,8 +128,8 @@ impl Chunk {
         let c = self.cosine[site];
         let mut share = [
             rayleigh_phase(&[self.polarising[w]; NW], c)[0],
-            one_phase(self.asymmetry[0][w], c),
-            one_phase(self.asymmetry[1][w], c),
+            self.kinds[0].at_one(w, c),
+            self.kinds[1].at_one(w, c),
             1.0,
             self.interreflection(w, albedo),
         ];
@@ -146,11 +147,10 @@ impl Chunk {
 
     /// Phase function of every field and wavelength at a cosine of the angle to the sun; 1 for fields that have none.
     pub fn phase_functions(&self, cosine: f32) -> [Spectrum; FIELDS] {
-        let aerosol = |k: usize| self.asymmetry[k].map(|g| one_phase(g, cosine));
         [
             rayleigh_phase(&self.polarising, cosine),
-            aerosol(0),
-            aerosol(1),
+            self.kinds[0].at(cosine),
+            self.kinds[1].at(cosine),
             [1.0; NW],
             [1.0; NW],
         ]
@@ -191,11 +191,6 @@ impl Chunk {
         };
         self.weight[0][v] * self.weight[1][e] * near
     }
-}
-
-fn one_phase(g: f32, c: f32) -> f32 {
-    let x = 1.0 + g * g - 2.0 * g * c;
-    (1.0 - g * g) / (x * x.sqrt())
 }
 
 fn cosines(gatherer: &Gatherer, grid: &Grid, a: usize) -> Vec<f32> {

@@ -7,7 +7,7 @@
 
 use super::modes::Tensor;
 use super::weighted::{Weighted, decompose};
-use crate::successive_orders::{DEGREE, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
+use crate::successive_orders::{DEGREE, Lobes, Medium, Moments, NW, PER_SPHERE, Spectrum, grid};
 use crate::units::Solved;
 use faer::Mat;
 use grid::{ALTITUDES, COUNT, ORDERS, SUNS, TENSOR};
@@ -26,6 +26,9 @@ const FADING: f64 = 12_000.0;
 /// A source so many times its level and brighter counts by its relative error: where the ground lies in shadow and high
 /// air in the sun, and above ozone in the ultraviolet, it is a thousand times the level.
 const BRIGHT: f64 = 2.0;
+/// Species that a file has beside the molecules, and lobes of each that are worth it.
+const MOST_PARTICLES: usize = 15;
+const MOST_LOBES: usize = 3;
 /// Of the decomposition.
 const PASSES: usize = 12;
 /// Least light that is distinguished from none, relative to the sun.
@@ -206,6 +209,7 @@ struct Species {
 }
 
 /// Molecules first, then the particles in the order of the atmosphere; those with the same phase function are one.
+/// Tabulated phase functions are sums of as many Henyey-Greenstein functions as the format has place for.
 fn species(medium: &Medium) -> Vec<Species> {
     let mut out: Vec<Species> = vec![Species {
         phase: PhaseFunction::Rayleigh,
@@ -215,21 +219,55 @@ fn species(medium: &Medium) -> Vec<Species> {
             .map(|d| ((1.0 - d) / (1.0 + d / 2.0)).clamp(0.0, 1.0)),
         scattering: medium.parts.iter().map(|part| part.rayleigh).collect(),
     }];
+    let count = lobes_of_each(medium);
     for (k, part) in medium.parts.iter().enumerate() {
         for aerosol in &part.aerosols {
-            let known = out.iter().position(|s| {
-                s.phase == PhaseFunction::HenyeyGreenstein && s.parameter == aerosol.g
-            });
-            let index = known.unwrap_or_else(|| {
-                out.push(Species {
-                    phase: PhaseFunction::HenyeyGreenstein,
-                    parameter: aerosol.g,
-                    scattering: vec![[0.0; NW]; medium.parts.len()],
-                });
-                out.len() - 1
-            });
-            out[index].scattering[k] = aerosol.scattering;
+            let lobes = match &aerosol.table {
+                Some(table) => &table.positive_lobes(count),
+                None => &aerosol.lobes,
+            };
+            for lobe in lobes.iter() {
+                let scattering = std::array::from_fn(|w| lobe.weight[w] * aerosol.scattering[w]);
+                add_species(&mut out, medium.parts.len(), (k, lobe.g), scattering);
+            }
         }
     }
     out
+}
+
+/// How many lobes there may be for each tabulated phase function.
+fn lobes_of_each(medium: &Medium) -> usize {
+    let mut known: Vec<&Lobes> = vec![];
+    let (mut plain, mut tabulated) = (0, 0);
+    for aerosol in medium.parts.iter().flat_map(|part| &part.aerosols) {
+        if !known.contains(&&aerosol.lobes) {
+            known.push(&aerosol.lobes);
+            match aerosol.table {
+                Some(_) => tabulated += 1,
+                None => plain += 1,
+            }
+        }
+    }
+    let left = MOST_PARTICLES.saturating_sub(plain);
+    (left / tabulated.max(1)).clamp(1, MOST_LOBES)
+}
+
+fn add_species(
+    out: &mut Vec<Species>,
+    parts: usize,
+    (part, g): (usize, Spectrum),
+    scattering: Spectrum,
+) {
+    let known = |s: &Species| s.phase == PhaseFunction::HenyeyGreenstein && s.parameter == g;
+    let index = out.iter().position(known).unwrap_or_else(|| {
+        out.push(Species {
+            phase: PhaseFunction::HenyeyGreenstein,
+            parameter: g,
+            scattering: vec![[0.0; NW]; parts],
+        });
+        out.len() - 1
+    });
+    for (sum, s) in out[index].scattering[part].iter_mut().zip(scattering) {
+        *sum += s;
+    }
 }

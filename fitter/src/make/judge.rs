@@ -1,5 +1,8 @@
-//! A model against the unbiased tracer where it was fitted to nothing: between its altitudes, suns and wavelengths.
+//! A model against the unbiased tracer where it was fitted to nothing: between its altitudes, suns and wavelengths, and
+//! between the nodes of an axis of the recipe.
 
+use super::axis::Axis;
+use crate::air::Air;
 use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
 use crate::atmosphere::absorption_bands::AbsorptionBands;
@@ -41,6 +44,8 @@ struct Error {
     to_sun: f64,
     /// Angle from the horizon, rad.
     from_horizon: f64,
+    /// Whether the air is between two nodes of an axis.
+    is_between: bool,
 }
 
 /// Errors of a model.
@@ -55,19 +60,23 @@ pub struct Extent {
     pub walks: usize,
 }
 
-/// Judges `model` by random lines of sight through the air of `plan`.
-pub fn judge(model: &Model, plan: &Plan, extent: Extent) -> Result<Judgement> {
+/// Judges `model` by random lines of sight through the air of `plan`, and, where it has the nodes of `axis`, as many
+/// between each two of them.
+pub fn judge(model: &Model, plan: &Plan, axis: Option<&Axis>, extent: Extent) -> Result<Judgement> {
     let count = extent.lines;
     let wavelengths = wavelengths(model)?;
     let mut out = vec![];
-    let progress = bar(
-        count * plan.grid.visibilities.len(),
-        "judging by the tracer",
-    );
-    for (v, &visibility) in plan.grid.visibilities.iter().enumerate() {
+    let nodes = plan.grid.visibilities.iter();
+    let at_nodes = nodes.map(|&visibility| (visibility, plan.air.clone()));
+    let between = axis.map_or(Ok(vec![]), Axis::between)?;
+    let airs: Vec<(f64, Air)> = at_nodes.chain(between).collect();
+    let progress = bar(count * airs.len(), "judging by the tracer");
+    for (v, (visibility, air)) in airs.iter().enumerate() {
+        let visibility = *visibility;
+        let is_between = v >= plan.grid.visibilities.len();
         let beside = |&nm: &f64| Monochromatic::beside_lines(nm);
         let lights: Vec<Monochromatic> = wavelengths.iter().map(beside).collect();
-        let tracer = Tracer::new(&plan.air.at(visibility, &lights)?, Options::default())?;
+        let tracer = Tracer::new(&air.at(visibility, &lights)?, Options::default())?;
         for i in 0..count {
             let seed = SEED + 1000 * v as u64 + i as u64;
             let line = Line::random(&plan.grid, model, seed);
@@ -80,7 +89,10 @@ pub fn judge(model: &Model, plan: &Plan, extent: Extent) -> Result<Judgement> {
                 let [light, noise] = [truth.stokes[0], truth.error[0]];
                 if light > DARK && noise < TOO_NOISY * light {
                     let got = f64::from(sky.relative_radiance_at(line.direction(), nm)?);
-                    out.push(line.error(model, got / light - 1.0, noise / light));
+                    out.push(Error {
+                        is_between,
+                        ..line.error(model, got / light - 1.0, noise / light)
+                    });
                 }
             }
             progress.inc(1);
@@ -181,6 +193,7 @@ impl Line {
             solar_elevation: self.sun,
             to_sun: cosine.clamp(-1.0, 1.0).acos(),
             from_horizon: (self.view[0] + model.head().planet.dip(self.altitude)).abs(),
+            is_between: false,
         }
     }
 }
@@ -204,7 +217,7 @@ fn near_sun(sun: f64, angle: f64, position: f64) -> [f64; 2] {
 /// A name, and what belongs under it.
 type Class = (&'static str, fn(&Error) -> bool);
 
-const CLASSES: [Class; 6] = [
+const CLASSES: [Class; 7] = [
     ("all", |_| true),
     ("sun above 12°", |e| e.solar_elevation > 12f64.to_radians()),
     ("sun 0..12°", |e| {
@@ -215,6 +228,7 @@ const CLASSES: [Class; 6] = [
     ("within 3° of the horizon", |e| {
         e.from_horizon < 3f64.to_radians()
     }),
+    ("between values of the axis", |e| e.is_between),
 ];
 
 impl Judgement {

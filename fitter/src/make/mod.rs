@@ -1,11 +1,13 @@
 //! From a recipe to a model: what a scene needs of it, built and judged.
 //!
-//! Data flow: [`Recipe`] and [`Scene`] → [`Quality`] → [`Plan`] → [`build()`] → [`judge`].
+//! Data flow: [`Recipe`], [`Axis`] and [`Scene`] → [`Quality`] → [`Plan`] → [`build()`] → [`judge`].
 
+mod axis;
 pub mod judge;
 mod quality;
 mod scene;
 
+pub use axis::Axis;
 pub use quality::Quality;
 pub use scene::{Bands, Scene};
 
@@ -20,7 +22,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Instant;
 use welkin::Model;
-use welkin::format::{Payload, Selection, crop, encode, unpack};
+use welkin::format::{Payload, Selection, crop, encode, extend, unpack};
 use welkin::output::{Target, write};
 
 /// What is to be made.
@@ -28,6 +30,8 @@ use welkin::output::{Target, write};
 pub struct Request {
     /// The air.
     pub recipe: Recipe,
+    /// A number of the recipe that the model keeps as an axis, if any.
+    pub axis: Option<Axis>,
     /// Where the model is used.
     pub scene: Scene,
     /// How good it is.
@@ -37,7 +41,10 @@ pub struct Request {
 impl Request {
     /// What is traced, and how it is fitted.
     pub fn plan(&self) -> Result<(Plan, Fitting)> {
-        let air = Air::of(self.recipe.clone())?;
+        let air = match &self.axis {
+            Some(axis) => axis.air(),
+            None => Air::of(self.recipe.clone())?,
+        };
         let (mut plan, fitting) = self.quality.plan(air);
         self.scene.narrow(&mut plan.grid)?;
         plan.grid.check()?;
@@ -50,8 +57,9 @@ impl Request {
         let cores = rayon::current_num_threads();
         let seconds = self.quality.core_seconds(&plan, fitting) / cores as f64;
         Ok(format!(
-            "{} altitudes, {} suns: about {:.0} minutes on {cores} cores",
+            "{} altitudes, {} airs, {} suns: about {:.0} minutes on {cores} cores",
             plan.grid.altitudes.len(),
+            plan.grid.visibilities.len(),
             plan.grid.elevation_sites().len(),
             (seconds / 60.0).ceil()
         ))
@@ -70,8 +78,12 @@ impl Request {
             Bands::All => bytes,
             Bands::Rgb => colours_only(&bytes)?,
         };
+        let bytes = match self.axis.as_ref().and_then(Axis::chunk) {
+            Some(chunk) => extend(&bytes, &[chunk])?,
+            None => bytes,
+        };
         let model = Model::from_bytes(bytes.clone())?;
-        let judgement = judge::judge(&model, &plan, self.quality.judged())?;
+        let judgement = judge::judge(&model, &plan, self.axis.as_ref(), self.quality.judged())?;
         write(&[(out, &bytes)]).context("cannot write the model")?;
         writeln!(report, "{judgement}")?;
         writeln!(

@@ -71,6 +71,19 @@ pub struct Aerosol {
     pub humidity_percent: Option<f64>,
     pub optical_depth_550: Option<f64>,
     pub visibility_km: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub phase: Option<PhaseFunctions>,
+}
+
+/// How OPAC's particles scatter.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PhaseFunctions {
+    /// By Henyey-Greenstein functions.
+    #[default]
+    HenyeyGreenstein,
+    /// As the spheres that they are in OPAC.
+    Mie,
 }
 
 /// `[layers.NAME]`

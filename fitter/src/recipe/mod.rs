@@ -29,7 +29,7 @@ use crate::atmosphere::table::Curve;
 use crate::atmosphere::{Atmosphere, Constituent, Monochromatic};
 use crate::column::MAX_CONSTITUENTS;
 use anyhow::Result;
-use file::File;
+use file::{File, PhaseFunctions};
 use gas::Gas;
 use particles::{GREEN, KOSCHMIEDER, Particles};
 use shape::Shape;
@@ -236,6 +236,18 @@ impl Recipe {
         let mut file = self.file.clone();
         change::change(&mut file, parameter, value)?;
         Self::checked(file)
+    }
+
+    /// The recipe with OPAC's particles as spheres, by Lorenz-Mie theory, but for those whose sizes OPAC does not say.
+    pub fn with_mie(&self) -> Result<Self> {
+        let mut file = self.file.clone();
+        file.aerosol.phase = Some(PhaseFunctions::Mie);
+        Self::checked(file)
+    }
+
+    /// Whether OPAC's particles are spheres.
+    pub fn has_spheres(&self) -> bool {
+        self.file.aerosol.phase == Some(PhaseFunctions::Mie)
     }
 
     /// What may trace less exactly than usual.

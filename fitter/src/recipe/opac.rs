@@ -1,7 +1,9 @@
 //! The particles of OPAC (Hess, Koepke and Schult 1998) and its mixtures of them.
 
 use super::error::{RecipeError, field};
+use super::file::PhaseFunctions;
 use crate::atmosphere::table::{Curve, Table};
+use crate::particles::opac::Spheres;
 use anyhow::Result;
 
 /// Particles that do not take up water; the droplets of fog are wet as they are.
@@ -23,16 +25,26 @@ pub struct Component {
     extinction: Curve,
     albedo: Curve,
     asymmetry: Curve,
+    spheres: Option<Spheres>,
 }
 
 impl Component {
     /// Particles of this name at a relative humidity (percent, 0..99).
-    pub fn new(place: &str, name: &str, humidity: f64) -> Result<Self> {
+    pub fn new(place: &str, name: &str, humidity: f64, phase: PhaseFunctions) -> Result<Self> {
+        let spheres = match phase {
+            PhaseFunctions::HenyeyGreenstein => None,
+            PhaseFunctions::Mie => Spheres::new(name, humidity)?,
+        };
+        let with = |component: Self| Self {
+            spheres,
+            ..component
+        };
         if DRY.contains(&name) {
-            return Self::row(&table!("opac_dry.csv")?, name, &Blend::only());
+            return Self::row(&table!("opac_dry.csv")?, name, &Blend::only()).map(with);
         }
         if HYGROSCOPIC.contains(&name) {
-            return Self::row(&table!("opac_hygroscopic.csv")?, name, &Blend::at(humidity));
+            let (table, blend) = (table!("opac_hygroscopic.csv")?, Blend::at(humidity));
+            return Self::row(&table, name, &blend).map(with);
         }
         let known = [&DRY[..], &HYGROSCOPIC[..]].concat().join(", ");
         Err(field(
@@ -52,6 +64,7 @@ impl Component {
             extinction: Curve::new(logs, blend.of(&column("ext")?, logarithmic))?,
             albedo: Curve::new(wavelengths.clone(), blend.of(&column("ssa")?, linear))?,
             asymmetry: Curve::new(wavelengths, blend.of(&column("g_use")?, linear))?,
+            spheres: None,
         })
     }
 
@@ -68,6 +81,11 @@ impl Component {
     /// Asymmetry of the Henyey-Greenstein function that stands for its phase function.
     pub fn asymmetry(&self, wavelength: f64) -> f64 {
         self.asymmetry.at(wavelength)
+    }
+
+    /// The spheres whose scattering matrices count instead of that function.
+    pub fn spheres(&self) -> Option<&Spheres> {
+        self.spheres.as_ref()
     }
 }
 
@@ -194,7 +212,11 @@ mod tests {
 
     #[test]
     fn humidity_between_those_of_the_table_is_between() {
-        let extinction = |h| Component::new("", "waso", h).unwrap().extinction(550.0);
+        let extinction = |h| {
+            Component::new("", "waso", h, PhaseFunctions::default())
+                .unwrap()
+                .extinction(550.0)
+        };
         assert!(
             (extinction(75.0) / (extinction(70.0) * extinction(80.0)).sqrt() - 1.0).abs() < 1e-9
         );
@@ -212,7 +234,7 @@ mod tests {
     fn particles_are_those_of_the_models_air() {
         let table = table!("opac_channels.csv").unwrap();
         for (name, humidity) in [("waso", 50.0), ("inso", 0.0), ("soot", 0.0)] {
-            let component = Component::new("", name, humidity).unwrap();
+            let component = Component::new("", name, humidity, PhaseFunctions::default()).unwrap();
             for nm in [320.0, 440.0, 550.0, 700.0, 1000.0, 2000.0] {
                 let curve = |what: &str| table.curve("wavelength_nm", &format!("{name}_{what}"));
                 let ext = curve("ext_m2").unwrap().log_at(nm);

@@ -2,7 +2,7 @@
 
 use super::columns::Functions;
 use super::error::{RecipeError, field};
-use super::file::{Columns, Layer};
+use super::file::{Columns, Layer, PhaseFunctions};
 use super::opac::{Component, mixture};
 use crate::atmosphere::matrix::{Elements, Matrix};
 use crate::atmosphere::table::Curve;
@@ -45,8 +45,12 @@ struct PhaseTable {
 }
 
 impl Optics {
-    /// Those of the layer at `place`; `humidity` (percent) is that of the air about it.
-    pub fn new(place: &str, layer: &Layer, humidity: f64) -> Result<Self> {
+    /// Those of the layer at `place`; `humidity` (percent) is that of the air about it, `phase` how OPAC's scatter.
+    pub fn new(
+        place: &str,
+        layer: &Layer,
+        (humidity, phase): (f64, PhaseFunctions),
+    ) -> Result<Self> {
         if let Some(columns) = &layer.optics {
             return Ok(Self::Own(Own::new(place, columns, layer.phase.as_ref())?));
         }
@@ -64,7 +68,7 @@ impl Optics {
         };
         let place = format!("{place}.particles_per_cm3");
         let parts = numbers.into_iter().map(|(name, number)| {
-            let component = Component::new(&place, &name, humidity)?;
+            let component = Component::new(&place, &name, humidity, phase)?;
             Ok((name, number, component))
         });
         Ok(Self::Components(parts.collect::<Result<_>>()?))
@@ -78,24 +82,32 @@ impl Optics {
                 let one = |(name, number, component): &(String, f64, Component)| {
                     particles(name, *number, component, wavelengths)
                 };
-                Ok(parts.map(one).collect())
+                parts.map(one).collect()
             }
             Self::Own(own) => Ok(vec![own.scatterer(wavelengths)?]),
         }
     }
 }
 
-fn particles(name: &str, number: f64, component: &Component, wavelengths: &[f64]) -> Scatterer {
+fn particles(
+    name: &str,
+    number: f64,
+    component: &Component,
+    wavelengths: &[f64],
+) -> Result<Scatterer> {
     let each = |of: &dyn Fn(f64) -> f64| wavelengths.iter().map(|&w| of(w)).collect::<Vec<f64>>();
     let extinction = |w: f64| number * PER_CM3 * component.extinction(w);
-    Scatterer {
+    Ok(Scatterer {
         name: name.to_owned(),
-        phase: Phase::HenyeyGreenstein {
-            g: each(&|w| component.asymmetry(w)),
+        phase: match component.spheres() {
+            Some(spheres) => spheres.phase(wavelengths)?,
+            None => Phase::HenyeyGreenstein {
+                g: each(&|w| component.asymmetry(w)),
+            },
         },
         scattering: each(&|w| extinction(w) * component.albedo(w)),
         extinction: each(&extinction),
-    }
+    })
 }
 
 impl Own {

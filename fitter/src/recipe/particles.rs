@@ -37,9 +37,10 @@ impl Particles {
     /// All layers; `air` is the extinction of the gas without absorption at the ground, m⁻¹.
     pub fn all(file: &File, shapes: Vec<Shape>, altitudes: &[f64], air: f64) -> Result<Vec<Self>> {
         let humidity = file.aerosol.humidity_percent.unwrap_or(HUMIDITY);
+        let phase = file.aerosol.phase.unwrap_or_default();
         let mut layers = vec![];
         for ((name, layer), shape) in file.layers.iter().zip(shapes) {
-            let optics = Optics::new(&format!("layers.{name}"), layer, humidity)?;
+            let optics = Optics::new(&format!("layers.{name}"), layer, (humidity, phase))?;
             layers.push(Self {
                 name: name.clone(),
                 shape,

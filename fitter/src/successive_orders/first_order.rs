@@ -1,7 +1,7 @@
 //! Singly scattered sunlight along a ray.
 
 use super::scattered_source::{DARK, Stokes, Sun};
-use super::spectral_medium::{Aerosol, Medium, NW, PER_SPHERE, Spectrum, henyey_greenstein};
+use super::spectral_medium::{Aerosol, Medium, NW, PER_SPHERE, Spectrum};
 
 /// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one
 /// per constituent.
@@ -24,15 +24,22 @@ pub fn particles(medium: &Medium, kind: usize, sums: &[Spectrum]) -> Spectrum {
     weighted(all.map(|(aerosol, sum)| (&aerosol.scattering, sum)))
 }
 
-/// What the phase functions of particles add to those of their kinds, at a cosine of the scattering angle.
+/// What the phase functions of particles add to those of their kinds, at a cosine of the scattering angle; as far as it
+/// is smooth where they are tabulated.
 pub fn beside_kinds(medium: &Medium, sums: &[Spectrum], cosine: f32) -> Spectrum {
     let mut out = [0.0; NW];
-    let kinds = medium.kinds.map(|g| henyey_greenstein(&g, cosine));
-    for (aerosol, sum) in aerosols(medium, sums).filter(|(a, _)| a.g != medium.kinds[a.kind]) {
-        let own = henyey_greenstein(&aerosol.g, cosine);
+    for (aerosol, sum) in aerosols(medium, sums) {
+        let kind = &medium.kinds[aerosol.kind];
+        let difference = match &aerosol.beside {
+            Some(beside) => beside.at(cosine),
+            None if aerosol.lobes == *kind => continue,
+            None => {
+                let (own, kind) = (aerosol.lobes.at(cosine), kind.at(cosine));
+                std::array::from_fn(|w| own[w] - kind[w])
+            }
+        };
         for w in 0..NW {
-            let light = PER_SPHERE * aerosol.scattering[w] * sum[w];
-            out[w] += light * (own[w] - kinds[aerosol.kind][w]);
+            out[w] += PER_SPHERE * aerosol.scattering[w] * sum[w] * difference[w];
         }
     }
     out
@@ -58,19 +65,59 @@ fn weighted<'a>(terms: impl Iterator<Item = (&'a Spectrum, &'a Spectrum)>) -> Sp
 
 /// Q and U of single Rayleigh scattering with the line integral `dipole`, on a ray of zenith cosine `mu`.
 pub fn polarisation(polarising: &Spectrum, dipole: &Spectrum, mu: f64, sun: &Sun) -> [Spectrum; 2] {
+    polarised(|w| 0.75 * polarising[w] * dipole[w], mu, sun)
+}
+
+/// Q and U of light that is polarised across the plane of scattering, by `strength` times the squared sine of the angle.
+fn polarised(strength: impl Fn(usize) -> f32, mu: f64, sun: &Sun) -> [Spectrum; 2] {
     let ((ce, se), (ca, sa)) = (sun.elevation, sun.azimuth);
     let sine = ((1.0 - mu) * (1.0 + mu)).max(0.0).sqrt();
     // Components of the sun's direction along the ray's polarisation axes.
     let (along, across) = ((mu * ce * ca - sine * se) as f32, -(ce * sa) as f32);
-    let strength = |w: usize| 0.75 * polarising[w] * dipole[w];
     [
         std::array::from_fn(|w| strength(w) * (across * across - along * along)),
         std::array::from_fn(|w| strength(w) * -2.0 * along * across),
     ]
 }
 
+/// Adds Q and U of single scattering by particles whose scattering matrices are known.
+pub fn add_polarised_by_particles(
+    medium: &Medium,
+    sums: &[Spectrum],
+    (mu, sun): (f64, &Sun),
+    out: &mut Stokes,
+) {
+    let mut strength = [0.0; NW];
+    let mut any = false;
+    for (aerosol, sum) in aerosols(medium, sums) {
+        if let Some(table) = &aerosol.table {
+            any = true;
+            let polarising = table.polarising(sun.cosine(mu));
+            for w in 0..NW {
+                strength[w] += PER_SPHERE * aerosol.scattering[w] * sum[w] * polarising[w];
+            }
+        }
+    }
+    if any {
+        let [q, u] = polarised(|w| strength[w], mu, sun);
+        for w in 0..NW {
+            out[1][w] += q[w];
+            out[2][w] += u[w];
+        }
+    }
+}
+
+/// How sharp phase functions are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Peaks {
+    /// As they are.
+    Whole,
+    /// Tabulated ones without what a grid of directions does not resolve.
+    Resolved,
+}
+
 /// Stokes vector of all singly scattered light on a ray of zenith cosine `mu`, from its line integrals.
-pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes {
+pub fn stokes(medium: &Medium, sums: &[Spectrum], (mu, sun): (f64, &Sun), peaks: Peaks) -> Stokes {
     let cosine = sun.cosine(mu);
     let mut out = DARK;
     let dipole = rayleigh(medium, sums);
@@ -80,10 +127,15 @@ pub fn stokes(medium: &Medium, sums: &[Spectrum], mu: f64, sun: &Sun) -> Stokes 
         out[0][w] += dipole[w] * (0.75 * d * (1.0 + cosine * cosine) + 1.0 - d);
     }
     for (aerosol, sum) in aerosols(medium, sums) {
-        let phase = henyey_greenstein(&aerosol.g, cosine);
+        let phase = match (&aerosol.table, peaks) {
+            (None, _) => aerosol.lobes.at(cosine),
+            (Some(table), Peaks::Whole) => table.at(cosine),
+            (Some(table), Peaks::Resolved) => table.smooth(cosine),
+        };
         for w in 0..NW {
             out[0][w] += PER_SPHERE * aerosol.scattering[w] * sum[w] * phase[w];
         }
     }
+    add_polarised_by_particles(medium, sums, (mu, sun), &mut out);
     out
 }

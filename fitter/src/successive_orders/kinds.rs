@@ -4,61 +4,88 @@
 //! that scatters most; what their own adds to it must be stored with the multiply scattered light, which is meant to be
 //! smooth. So the kinds are chosen for small differences.
 
-use super::spectral_medium::{Aerosol, NW, Part, Spectrum};
+use super::lobes::Lobes;
+use super::spectral_medium::{Aerosol, NW, Part, parts};
 use crate::atmosphere::{Atmosphere, column};
+use anyhow::Result;
 
 /// Wavelength that decides, nm.
 const GREEN: f64 = 550.0;
 
 /// A phase function and how much light it scatters.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Member {
     g: f64,
     /// Vertical optical depth of scattering.
     depth: f64,
-    spectrum: Spectrum,
+    lobes: Lobes,
 }
 
-/// Assigns the particles of all `parts` to kinds; returns the asymmetry parameters of these.
-pub fn assign(atmosphere: &Atmosphere, parts: &mut [Part]) -> [Spectrum; 2] {
-    let distances = atmosphere.wavelengths.iter().map(|w| (w - GREEN).abs());
-    let green = distances
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map_or(0, |(w, _)| w);
-    let members = members(atmosphere, parts, green);
-    let [fine, coarse] = split(&members);
-    let [a, b] = [&fine, &coarse].map(|kind| dominant(kind).map_or([0.0; NW], |m| m.spectrum));
-    for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
-        aerosol.kind = usize::from(coarse.iter().any(|m| m.spectrum == aerosol.g));
+/// Two kinds of particles, and which belong to the second.
+pub struct Kinds {
+    /// Phase functions that they count with.
+    pub main: [Lobes; 2],
+    coarse: Vec<Lobes>,
+}
+
+impl Kinds {
+    /// Those of the particles of all these airs together, which have the same wavelengths: a file has one phase function
+    /// per kind.
+    pub fn of<'a>(airs: impl IntoIterator<Item = &'a Atmosphere>) -> Result<Self> {
+        let (mut members, mut green) = (vec![], 0);
+        for air in airs {
+            green = nearest_to_green(air);
+            note_members(air, &parts(air)?.0, green, &mut members);
+        }
+        members.sort_by(|a, b| a.g.total_cmp(&b.g));
+        let [fine, coarse] = split(&members, green);
+        let none = || Lobes::one([0.0; NW]);
+        let main = |kind| dominant(kind).map_or_else(none, |m| m.lobes.clone());
+        Ok(Self {
+            main: [&fine, &coarse].map(|kind| main(kind)),
+            coarse: coarse.into_iter().map(|m| m.lobes).collect(),
+        })
     }
-    [a, b]
+
+    /// Assigns the particles of `parts`, which are among those that the kinds are of.
+    pub fn assign(&self, parts: &mut [Part]) {
+        for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
+            aerosol.kind = usize::from(self.coarse.contains(&aerosol.lobes));
+        }
+    }
 }
 
-/// Different phase functions by increasing asymmetry parameter.
-fn members(atmosphere: &Atmosphere, parts: &[Part], green: usize) -> Vec<Member> {
-    let mut out: Vec<Member> = vec![];
-    for (part, constituent) in parts.iter().zip(&atmosphere.constituents) {
-        let height = column(&atmosphere.altitudes, &constituent.profile);
-        for Aerosol { scattering, g, .. } in &part.aerosols {
+/// Adds to `members` what an air has of each phase function.
+fn note_members(air: &Atmosphere, parts: &[Part], green: usize, members: &mut Vec<Member>) {
+    for (part, constituent) in parts.iter().zip(&air.constituents) {
+        let height = column(&air.altitudes, &constituent.profile);
+        for Aerosol {
+            scattering, lobes, ..
+        } in &part.aerosols
+        {
             let depth = height * f64::from(scattering[green]);
-            match out.iter_mut().find(|m| m.spectrum == *g) {
+            match members.iter_mut().find(|m| m.lobes == *lobes) {
                 Some(known) => known.depth += depth,
-                None => out.push(Member {
-                    g: f64::from(g[green]),
+                None => members.push(Member {
+                    g: lobes.asymmetry(green),
                     depth,
-                    spectrum: *g,
+                    lobes: lobes.clone(),
                 }),
             }
         }
     }
-    out.sort_by(|a, b| a.g.total_cmp(&b.g));
-    out
+}
+
+/// Index of the wavelength nearest to green.
+fn nearest_to_green(air: &Atmosphere) -> usize {
+    let distances = air.wavelengths.iter().map(|w| (w - GREEN).abs());
+    let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or(0, |(w, _)| w)
 }
 
 /// The division that costs least; the second kind is that of the sharper peaks.
-fn split(members: &[Member]) -> [Vec<Member>; 2] {
-    let cost = |at: &usize| price(&members[..*at]) + price(&members[*at..]);
+fn split(members: &[Member], green: usize) -> [Vec<Member>; 2] {
+    let cost = |at: &usize| price(&members[..*at], green) + price(&members[*at..], green);
     let best = (1..members.len().max(2)).min_by(|a, b| cost(a).total_cmp(&cost(b)));
     let at = best.unwrap_or(0).min(members.len());
     [members[..at].to_vec(), members[at..].to_vec()]
@@ -69,17 +96,14 @@ fn dominant(kind: &[Member]) -> Option<&Member> {
 }
 
 /// Squared differences of all phase functions to the dominant one, by what they scatter.
-fn price(kind: &[Member]) -> f64 {
+fn price(kind: &[Member], green: usize) -> f64 {
     let Some(best) = dominant(kind) else {
         return 0.0;
     };
-    kind.iter().map(|m| m.depth * difference(m.g, best.g)).sum()
-}
-
-/// Mean over the sphere of the squared difference of two Henyey-Greenstein functions: Σ (2l + 1)(gˡ − hˡ)².
-fn difference(g: f64, h: f64) -> f64 {
-    let product = |x: f64| (1.0 + x) / (1.0 - x).powi(2);
-    product(g * g) + product(h * h) - 2.0 * product(g * h)
+    let squares = kind.iter();
+    squares
+        .map(|m| m.depth * m.lobes.difference(&best.lobes, green))
+        .sum()
 }
 
 #[cfg(test)]
@@ -103,7 +127,8 @@ mod tests {
             for part in medium.parts.iter().filter(|p| !p.aerosols.is_empty()) {
                 let kinds: Vec<usize> = part.aerosols.iter().map(|a| a.kind).collect();
                 assert_eq!(kinds, [0, 1, 0]);
-                assert_eq!(medium.kinds, [part.aerosols[0].g, part.aerosols[1].g]);
+                let of = |k: usize| part.aerosols[k].lobes.clone();
+                assert_eq!(medium.kinds, [of(0), of(1)]);
             }
         }
     }
@@ -113,21 +138,13 @@ mod tests {
         let member = |g: f64, depth: f64| Member {
             g,
             depth,
-            spectrum: spectrum(&[g; NW]),
+            lobes: Lobes::one(spectrum(&[g; NW])),
         };
-        let [fine, coarse] = split(&[member(0.7, 1.0)]);
+        let [fine, coarse] = split(&[member(0.7, 1.0)], 0);
         assert_eq!([fine.len(), coarse.len()], [1, 0]);
-        let [fine, coarse] = split(&[]);
+        let [fine, coarse] = split(&[], 0);
         assert!(fine.is_empty() && coarse.is_empty());
-        let [fine, coarse] = split(&[member(0.3, 0.01), member(0.7, 1.0), member(0.9, 0.1)]);
+        let [fine, coarse] = split(&[member(0.3, 0.01), member(0.7, 1.0), member(0.9, 0.1)], 0);
         assert_eq!([fine.len(), coarse.len()], [2, 1]);
-    }
-
-    /// Against the sum itself.
-    #[test]
-    fn the_difference_of_phase_functions_is_their_series() {
-        let term = |l: i32| f64::from(2 * l + 1) * (0.6f64.powi(l) - 0.8f64.powi(l)).powi(2);
-        let series: f64 = (0..400).map(term).sum();
-        assert!((difference(0.6, 0.8) / series - 1.0).abs() < 1e-12);
     }
 }

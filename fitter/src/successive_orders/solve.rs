@@ -1,6 +1,6 @@
 //! Orders of scattering, one after the other, until what is left is a geometric tail.
 
-use super::first_order;
+use super::first_order::{self, Peaks};
 use super::moments::{
     ALTITUDES, COUNT, HARMONICS, Moments, SOLAR_UNITS, SUNS, TENSOR, altitudes, azimuth_harmonics,
     order_start, polar_harmonics, sun_coordinate, sun_node,
@@ -289,7 +289,7 @@ impl<'a> Solver<'a> {
             }
         }
         for ((sun, sum), out) in suns.iter().zip(sums.chunks_exact(parts)).zip(light) {
-            *out = first_order::stokes(self.medium, sum, direction.mu, sun);
+            *out = first_order::stokes(self.medium, sum, (direction.mu, sun), Peaks::Resolved);
         }
     }
 

@@ -1,9 +1,11 @@
 //! An atmosphere prepared for spectral loops: coefficients as fixed-length arrays over wavelength.
 
-use super::kinds;
+use super::kinds::Kinds;
+use super::lobes::Lobes;
+use super::phase_table::{AngleFunction, PhaseTable, beside};
 use crate::atmosphere::{Atmosphere, Phase};
 use crate::column::{Columns, MAX_CONSTITUENTS, SunColumns};
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 
 /// Wavelengths that are treated together.
 pub const NW: usize = 24;
@@ -22,12 +24,19 @@ const BLACK: f32 = 25.0;
 /// Isotropic share of a phase function, per steradian.
 pub const PER_SPHERE: f32 = 0.25 * std::f32::consts::FRAC_1_PI;
 
-/// A Henyey-Greenstein part of a constituent.
+/// Most lobes that stand for a tabulated phase function.
+pub const LOBES: usize = 5;
+
+/// Particles of a constituent.
 pub struct Aerosol {
     /// Scattering coefficient where the profile is 1, m⁻¹.
     pub scattering: Spectrum,
-    /// Asymmetry parameter.
-    pub g: Spectrum,
+    /// Their phase function, or what is nearest to it.
+    pub lobes: Lobes,
+    /// Their phase function if it is tabulated.
+    pub table: Option<PhaseTable>,
+    /// What it is beside that of its kind, as far as it is smooth; none where both are one lobe.
+    pub beside: Option<AngleFunction>,
     /// The kind that it counts among, an index into [`Medium::kinds`].
     pub kind: usize,
 }
@@ -38,9 +47,9 @@ pub struct Part {
     pub extinction: Spectrum,
     /// Rayleigh scattering coefficient, m⁻¹ where the profile is 1; zero if there is none.
     pub rayleigh: Spectrum,
-    /// Its Henyey-Greenstein parts.
+    /// Its particles.
     pub aerosols: Vec<Aerosol>,
-    /// Σ scattering · g^l for each degree l.
+    /// Σ scattering · moment of the phase function, which is g^l, for each degree l.
     pub legendre: Vec<Spectrum>,
 }
 
@@ -52,8 +61,8 @@ pub struct Medium {
     pub parts: Vec<Part>,
     /// Polarising share Δ = (1−ρ)/(1+ρ/2) of Rayleigh scattering.
     pub polarising: Spectrum,
-    /// Asymmetry parameters of the two kinds of particles that the model tells apart in single scattering.
-    pub kinds: [Spectrum; 2],
+    /// Phase functions of the two kinds of particles that the model tells apart in single scattering.
+    pub kinds: [Lobes; 2],
     sun: SunColumns,
     sun_radius: f64,
 }
@@ -75,61 +84,26 @@ impl Medium {
     /// Prepares `atmosphere`, which must have [`NW`] wavelengths, under a sun of angular radius `sun_radius` (rad; 0 is
     /// a point).
     pub fn new(atmosphere: Atmosphere, sun_radius: f64) -> Result<Self> {
-        ensure!(
-            atmosphere.wavelengths.len() == NW,
-            "the solver needs {NW} wavelengths"
-        );
-        ensure!(
-            atmosphere.constituents.len() <= MAX_CONSTITUENTS,
-            "too many constituents"
-        );
-        let mut polarising = [1.0; NW];
-        let mut parts = vec![];
-        for constituent in &atmosphere.constituents {
-            let mut part = Part {
-                extinction: spectrum(&constituent.extinction),
-                rayleigh: [0.0; NW],
-                aerosols: vec![],
-                legendre: vec![[0.0; NW]; DEGREE + 1],
-            };
-            for scatterer in &constituent.scatterers {
-                let scattering = spectrum(&scatterer.scattering);
-                match &scatterer.phase {
-                    Phase::Rayleigh { depolarisation } => {
-                        part.rayleigh = scattering;
-                        for (d, rho) in polarising.iter_mut().zip(depolarisation) {
-                            *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
-                        }
-                    }
-                    Phase::HenyeyGreenstein { g } => {
-                        let g = spectrum(g);
-                        for (l, sum) in part.legendre.iter_mut().enumerate() {
-                            for w in 0..NW {
-                                sum[w] += scattering[w] * g[w].powi(l as i32);
-                            }
-                        }
-                        part.aerosols.push(Aerosol {
-                            scattering,
-                            g,
-                            kind: 0,
-                        });
-                    }
-                    Phase::Tabulated(_) => bail!(
-                        "{}: the solver by orders takes no tabulated scattering matrices; use the tracer",
-                        scatterer.name
-                    ),
-                }
+        let kinds = Kinds::of([&atmosphere])?;
+        Self::in_kinds(atmosphere, sun_radius, &kinds)
+    }
+
+    /// The same with kinds of particles that it shares with other air.
+    pub fn in_kinds(atmosphere: Atmosphere, sun_radius: f64, kinds: &Kinds) -> Result<Self> {
+        let (mut parts, polarising) = parts(&atmosphere)?;
+        kinds.assign(&mut parts);
+        for aerosol in parts.iter_mut().flat_map(|part| &mut part.aerosols) {
+            let (own, kind) = (&aerosol.lobes, &kinds.main[aerosol.kind]);
+            if aerosol.table.is_some() || own.count().max(kind.count()) > 1 {
+                aerosol.beside = Some(beside(aerosol.table.as_ref(), own, kind));
             }
-            parts.push(part);
         }
-        let sun = SunColumns::new(&atmosphere);
-        let kinds = kinds::assign(&atmosphere, &mut parts);
         Ok(Self {
+            sun: SunColumns::new(&atmosphere),
             atmosphere,
             parts,
             polarising,
-            kinds,
-            sun,
+            kinds: kinds.main.clone(),
             sun_radius,
         })
     }
@@ -193,6 +167,80 @@ impl Medium {
             }
         }
         sums
+    }
+}
+
+/// What an atmosphere of [`NW`] wavelengths is made of, all particles of the first kind, and the polarising share of
+/// Rayleigh scattering.
+pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
+    ensure!(
+        atmosphere.wavelengths.len() == NW,
+        "the solver needs {NW} wavelengths"
+    );
+    ensure!(
+        atmosphere.constituents.len() <= MAX_CONSTITUENTS,
+        "too many constituents"
+    );
+    let mut polarising = [1.0; NW];
+    let mut parts = vec![];
+    for constituent in &atmosphere.constituents {
+        let mut part = Part {
+            extinction: spectrum(&constituent.extinction),
+            rayleigh: [0.0; NW],
+            aerosols: vec![],
+            legendre: vec![[0.0; NW]; DEGREE + 1],
+        };
+        for scatterer in &constituent.scatterers {
+            let scattering = spectrum(&scatterer.scattering);
+            match &scatterer.phase {
+                Phase::Rayleigh { depolarisation } => {
+                    part.rayleigh = scattering;
+                    for (d, rho) in polarising.iter_mut().zip(depolarisation) {
+                        *d = ((1.0 - rho) / (1.0 + rho / 2.0)) as f32;
+                    }
+                }
+                Phase::HenyeyGreenstein { g } => {
+                    part.aerosols.push(henyey_greenstein_part(
+                        scattering,
+                        spectrum(g),
+                        &mut part.legendre,
+                    ));
+                }
+                Phase::Tabulated(matrix) => {
+                    let table = PhaseTable::new(matrix.clone());
+                    for (sum, moment) in part.legendre.iter_mut().zip(table.moments()) {
+                        for w in 0..NW {
+                            sum[w] += scattering[w] * moment[w];
+                        }
+                    }
+                    part.aerosols.push(Aerosol {
+                        scattering,
+                        lobes: table.lobes(LOBES),
+                        table: Some(table),
+                        beside: None,
+                        kind: 0,
+                    });
+                }
+            }
+        }
+        parts.push(part);
+    }
+    Ok((parts, polarising))
+}
+
+/// Adds its moments to `legendre`.
+fn henyey_greenstein_part(scattering: Spectrum, g: Spectrum, legendre: &mut [Spectrum]) -> Aerosol {
+    for (l, sum) in legendre.iter_mut().enumerate() {
+        for w in 0..NW {
+            sum[w] += scattering[w] * g[w].powi(l as i32);
+        }
+    }
+    Aerosol {
+        scattering,
+        lobes: Lobes::one(g),
+        table: None,
+        beside: None,
+        kind: 0,
     }
 }
 

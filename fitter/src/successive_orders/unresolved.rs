@@ -5,6 +5,7 @@
 //! it was scattered first on the straight way of the sunlight: its phase function is the product of both, the degrees
 //! that the moments have subtracted, and how much there is follows from the columns of air towards the sun.
 
+use super::lobes::Lobe;
 use super::moments::{DEGREES, HARMONICS, azimuth_harmonics, order_start, polar_harmonics};
 use super::scattered_source::Sun;
 use super::spectral_medium::{
@@ -73,6 +74,23 @@ fn add_pair(
     cosine: f32,
     resolved: &[f32; DEGREE + 1],
 ) {
+    let rate: Spectrum =
+        std::array::from_fn(|w| a.scattering[w] * b.scattering[w] * PER_SPHERE * sum[w]);
+    for a in a.lobes.iter() {
+        for b in b.lobes.iter() {
+            add_lobes(out, &rate, [a, b], cosine, resolved);
+        }
+    }
+}
+
+/// Twice by Henyey-Greenstein functions is once by one of the product of their asymmetries.
+fn add_lobes(
+    out: &mut Spectrum,
+    rate: &Spectrum,
+    [a, b]: [&Lobe; 2],
+    cosine: f32,
+    resolved: &[f32; DEGREE + 1],
+) {
     let g: Spectrum = std::array::from_fn(|w| a.g[w] * b.g[w]);
     let phase = henyey_greenstein(&g, cosine);
     for w in 0..NW {
@@ -80,8 +98,7 @@ fn add_pair(
             .iter()
             .rev()
             .fold(0.0, |sum, term| sum * g[w] + term);
-        let rate = a.scattering[w] * b.scattering[w] * PER_SPHERE;
-        out[w] += rate * sum[w] * (phase[w] - known);
+        out[w] += a.weight[w] * b.weight[w] * rate[w] * (phase[w] - known);
     }
 }
 

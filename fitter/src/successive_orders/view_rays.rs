@@ -1,10 +1,11 @@
 //! View rays through a solved light field: the fields that the model stores.
 
-use super::first_order;
+use super::first_order::{self, Peaks};
+use super::lobes::Lobes;
 use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
 use super::solve::LightField;
-use super::spectral_medium::{Medium, NW, Spectrum, henyey_greenstein};
+use super::spectral_medium::{Medium, NW, Spectrum};
 use super::unresolved::TwiceScattered;
 use crate::column::planet;
 use welkin::geometry::{Planet, Side};
@@ -17,7 +18,7 @@ pub const POLARISED: usize = 4;
 /// Light along a view ray, divided by what the evaluator multiplies back.
 ///
 /// Singly scattered light is stored without its phase function; particles share that of their kind, and the small
-/// difference goes to the multiply scattered light.
+/// difference goes to the multiply scattered light. So does the polarisation by particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fields {
     /// Single Rayleigh scattering, over its phase function.
@@ -134,7 +135,7 @@ impl<'a> Gatherer<'a> {
         for (i, (sums, mut light)) in sunlit.chunks_exact(parts).zip(multiple).enumerate() {
             let sun = &suns[i];
             twice[i].add_to(&mut light[0][0], mu, sun);
-            out.push(self.assemble(sums, light, sun.cosine(mu)));
+            out.push(self.assemble(sums, light, (mu, sun)));
         }
         out
     }
@@ -160,7 +161,7 @@ impl<'a> Gatherer<'a> {
             }
         }
         twice.add_to(&mut light[0][0], mu, sun);
-        let mut out = first_order::stokes(self.medium, &sums, mu, sun);
+        let mut out = first_order::stokes(self.medium, &sums, (mu, sun), Peaks::Whole);
         for (s, total) in out.iter_mut().enumerate() {
             for w in 0..NW {
                 let ground = albedo / (1.0 - albedo * self.light.spherical_albedo[w]);
@@ -170,9 +171,10 @@ impl<'a> Gatherer<'a> {
         out
     }
 
-    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], cosine: f32) -> Fields {
+    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], (mu, sun): (f64, &Sun)) -> Fields {
         let [mut multiple, ground] = light;
-        let beside = first_order::beside_kinds(self.medium, sums, cosine);
+        first_order::add_polarised_by_particles(self.medium, sums, (mu, sun), &mut multiple);
+        let beside = first_order::beside_kinds(self.medium, sums, sun.cosine(mu));
         for w in 0..NW {
             multiple[0][w] += beside[w];
         }
@@ -190,13 +192,8 @@ impl<'a> Gatherer<'a> {
         &self.medium.polarising
     }
 
-    /// Henyey-Greenstein phase function of a kind of particles.
-    pub fn phase(&self, kind: usize, cosine: f32) -> Spectrum {
-        henyey_greenstein(&self.asymmetry(kind), cosine)
-    }
-
-    /// Asymmetry parameter of a kind of particles; 0 where the atmosphere has none.
-    pub fn asymmetry(&self, kind: usize) -> Spectrum {
-        self.medium.kinds[kind]
+    /// Phase function of a kind of particles; 1 where the atmosphere has none.
+    pub fn phase(&self, kind: usize) -> &Lobes {
+        &self.medium.kinds[kind]
     }
 }

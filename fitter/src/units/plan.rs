@@ -8,7 +8,7 @@ use crate::dataset::{
 };
 use crate::spectrum::training::Training;
 use crate::successive_orders::{
-    Gatherer, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
+    Gatherer, Kinds, LightField, Medium, SOLAR_ANGULAR_RADIUS, Settings, solve,
 };
 use anyhow::{Context, Result};
 use std::path::Path;
@@ -166,6 +166,20 @@ impl Plan {
         self.store_of(work, Kind::Tensor)
     }
 
+    /// The air of a visibility (m), with the kinds of particles of all nodes.
+    fn medium(&self, visibility: f64) -> Result<Medium> {
+        let air = self.atmosphere(visibility)?;
+        let nodes = self.air.visibilities();
+        if nodes.len() < 2 {
+            return Medium::new(air, SOLAR_ANGULAR_RADIUS);
+        }
+        let all: Vec<Atmosphere> = nodes
+            .iter()
+            .map(|&node| self.atmosphere(node))
+            .collect::<Result<_>>()?;
+        Medium::in_kinds(air, SOLAR_ANGULAR_RADIUS, &Kinds::of(&all)?)
+    }
+
     /// The light field of a visibility (m). `progress` is told the share that is done.
     pub fn solve(
         &self,
@@ -174,7 +188,7 @@ impl Plan {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Solved> {
         let store = self.store_of(work, Kind::Light)?;
-        let medium = Medium::new(self.atmosphere(visibility)?, SOLAR_ANGULAR_RADIUS)?;
+        let medium = self.medium(visibility)?;
         let values = store.unit(&Kind::Light.unit(visibility, None), || {
             Ok(solve(&medium, self.settings, progress).to_values())
         })?;

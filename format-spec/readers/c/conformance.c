@@ -177,11 +177,23 @@ static welkin_error answer_radiance(const welkin_sky *sky, const query *q)
     return WELKIN_OK;
 }
 
+/* A value stands where visibilities do. */
+static welkin_error answer_axis(const welkin_file *file, const query *q)
+{
+    welkin_axis axis;
+    double visibility;
+    welkin_error error = welkin_axis_prepare(&axis, file);
+    if (!error) error = welkin_axis_visibility(&axis, q->conditions.visibility, &visibility);
+    if (!error) printf("%.12g", visibility);
+    return error;
+}
+
 static welkin_error answer(const welkin_file *file, const query *q, unsigned mode, float *scratch, size_t floats)
 {
     int stokes = is(q, "stokes") || is(q, "stokes_at");
     welkin_sky sky;
     welkin_error error;
+    if (is(q, "axis_visibility")) return answer_axis(file, q);
     if (is(q, "transmittance") || is(q, "transmittance_at")) return answer_transmittance(file, q);
     if (is(q, "in_scattering") || is(q, "in_scattering_at")) return answer_in_scattering(file, q, scratch, floats);
     if (is(q, "in_scattering_stokes") || is(q, "in_scattering_stokes_at")) return answer_in_scattering_stokes(file, q, scratch, floats);

@@ -68,8 +68,16 @@ static void refuse_aerial(const welkin_aerial_perspective *aerial)
     FAILS(welkin_in_scattering_stokes(aerial, 500, direction, 1e4, first, second, third), STATE);
 }
 
+static void refuse_axis(const welkin_axis *axis)
+{
+    double visibility;
+    FAILS(welkin_axis_visibility(axis, 300, &visibility), STATE);
+    CHECK(welkin_axis_value(axis, 0) == 0 && axis->name[0] == 0);
+}
+
 static void refuse_file(welkin_file *file)
 {
+    welkin_axis axis;
     welkin_sky sky;
     welkin_transmittance_profile air;
     welkin_aerial_perspective aerial;
@@ -80,6 +88,8 @@ static void refuse_file(welkin_file *file)
     refuse_air(&air);
     FAILS(welkin_aerial_perspective_prepare(&aerial, file, &good, scratch, scratch_floats), STATE);
     refuse_aerial(&aerial);
+    FAILS(welkin_axis_prepare(&axis, file), STATE);
+    refuse_axis(&axis);
     FAILS(welkin_wavelength_range(file, values), STATE);
     FAILS(welkin_radiance_at(file, first, 550, values), STATE);
     FAILS(welkin_stokes_at(file, first, second, third, 550, values), STATE);
@@ -114,8 +124,11 @@ static void fail_prepare(const welkin_file *file)
     size_t least = welkin_scratch_floats(file, WELKIN_POLARISED);
     welkin_conditions bad = good;
     welkin_sky sky;
+    welkin_axis axis;
     unsigned flag;
     int i;
+    FAILS(welkin_axis_prepare(&axis, file), MISSING);
+    refuse_axis(&axis);
     CHECK(!welkin_prepare(&sky, file, &good, WELKIN_POLARISED, scratch, scratch_floats));
     CHECK(!welkin_stokes(&sky, direction, first, second, third));
     FAILS(welkin_prepare(&sky, file, &good, WELKIN_POLARISED, scratch, least - 1), SCRATCH);

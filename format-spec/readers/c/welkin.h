@@ -123,6 +123,17 @@ typedef struct welkin_file {
     int unpacked;
 } welkin_file;
 
+/* What the visibilities stand for: a quantity that the file's maker chose. */
+#define WELKIN_AXIS_NAME 64 /* bytes, at most */
+#define WELKIN_AXIS_UNIT 32
+typedef struct welkin_axis {
+    char name[WELKIN_AXIS_NAME + 1], unit[WELKIN_AXIS_UNIT + 1]; /* UTF-8; empty unit: a number without */
+
+    /* private */
+    const welkin_file *file;
+    const unsigned char *values;
+} welkin_axis;
+
 typedef struct welkin_conditions {
     double altitude;        /* m; from -500 up to 0 it counts as 0 */
     double visibility;      /* m */
@@ -228,6 +239,16 @@ WELKIN_API welkin_error welkin_unpack(welkin_file *file, welkin_decompress *deco
 WELKIN_API double welkin_wavelength(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_altitude(const welkin_file *file, uint32_t index);
 WELKIN_API double welkin_visibility(const welkin_file *file, uint32_t index);
+
+/* Reads and checks what the visibilities stand for, if that is another quantity: WELKIN_ERROR_MISSING in a file without
+ * such an axis. Name and unit are text from strangers. The file must outlive the axis. */
+WELKIN_API welkin_error welkin_axis_prepare(welkin_axis *axis, const welkin_file *file);
+
+/* The value at a node, 0 beyond the last. They increase strictly, or decrease strictly. */
+WELKIN_API double welkin_axis_value(const welkin_axis *axis, uint32_t index);
+
+/* The visibility, m, that stands for a value: what conditions take. WELKIN_ERROR_RANGE beyond the values. */
+WELKIN_API welkin_error welkin_axis_visibility(const welkin_axis *axis, double value, double *visibility);
 
 /* First and last wavelength that can be asked, nm: of the spectrum's cells, or in a file without one of the nodes. */
 WELKIN_API welkin_error welkin_wavelength_range(const welkin_file *file, double range[2]);
@@ -386,7 +407,8 @@ enum {
     WELKIN__SOURCE_BASIS = 8,
     WELKIN__SPECTRUM = 9,
     WELKIN__ESTIMATE = 10,
-    WELKIN__KINDS = 11
+    WELKIN__AXIS = 11,
+    WELKIN__KINDS = 12
 };
 
 /* ---- bytes ---- */
@@ -995,6 +1017,101 @@ static welkin_error welkin__read_spectrum(const welkin_file *f, welkin_spectrum 
     if (s->terms < s->cells || s->terms > 65536 || examples > 1024) return WELKIN_ERROR_VALUE;
     if (entry.raw != welkin__spectrum_length(f, s, examples)) return WELKIN_ERROR_VALUE;
     return welkin__place_spectrum(f, p, examples, s);
+}
+
+/* ---- axis ---- */
+
+static int welkin__is_text(const unsigned char *p, size_t n)
+{
+    size_t i = 0, step;
+    for (; i < n; i += step) {
+        step = welkin__utf8_sequence(p + i, n - i);
+        if (step == 0) return 0;
+    }
+    return 1;
+}
+
+/* All values increase, or all decrease. */
+static int welkin__is_monotonic(const unsigned char *p, uint32_t n)
+{
+    uint32_t i, up = 0, down = 0;
+    for (i = 0; i + 1 < n; i++) {
+        double a = welkin__f64(p + 8 * (size_t)i), b = welkin__f64(p + 8 * (size_t)i + 8);
+        up += a < b;
+        down += a > b;
+    }
+    return up + 1 == n || down + 1 == n;
+}
+
+static welkin_error welkin__read_axis(const welkin_file *f, welkin_axis *axis)
+{
+    welkin__entry entry;
+    const unsigned char *p, *text;
+    uint32_t nodes = f->visibilities, name, unit;
+    welkin_error error = welkin__find(f, WELKIN__AXIS, WELKIN__NONE, WELKIN__NONE, &entry);
+    if (!error) error = welkin__payload(f, &entry, &p);
+    if (error) return error;
+    if (entry.raw < 16 || welkin__u32(p) != nodes) return WELKIN_ERROR_VALUE;
+    name = welkin__u32(p + 4);
+    unit = welkin__u32(p + 8);
+    if (name < 1 || name > WELKIN_AXIS_NAME || unit > WELKIN_AXIS_UNIT) return WELKIN_ERROR_VALUE;
+    if (entry.raw != 16 + 8 * (uint64_t)nodes + name + unit) return WELKIN_ERROR_VALUE;
+    text = p + 16 + 8 * (size_t)nodes;
+    if (!welkin__f64s_are_within(p + 16, nodes, -1e30, 1e30) || !welkin__is_monotonic(p + 16, nodes)) return WELKIN_ERROR_VALUE;
+    if (!welkin__is_text(text, name) || !welkin__is_text(text + name, unit)) return WELKIN_ERROR_VALUE;
+    memcpy(axis->name, text, name);
+    memcpy(axis->unit, text + name, unit);
+    axis->values = p + 16;
+    axis->file = f;
+    return WELKIN_OK;
+}
+
+WELKIN_API welkin_error welkin_axis_prepare(welkin_axis *axis, const welkin_file *file)
+{
+    welkin_error error;
+    memset(axis, 0, sizeof *axis);
+    error = file->bytes ? welkin__read_axis(file, axis) : WELKIN_ERROR_STATE;
+    if (error) memset(axis, 0, sizeof *axis);
+    return error;
+}
+
+WELKIN_API double welkin_axis_value(const welkin_axis *axis, uint32_t index)
+{
+    if (!axis->file || index >= axis->file->visibilities) return 0;
+    return welkin__f64(axis->values + 8 * (size_t)index);
+}
+
+/* Between two nodes, t of the way. */
+static double welkin__axis_between(const welkin_axis *axis, uint32_t i, double t)
+{
+    double v = welkin_visibility(axis->file, i), w = welkin_visibility(axis->file, i + 1), between;
+    if (t <= 0) return v;
+    if (t >= 1) return w;
+    between = 1 / ((1 - t) / v + t / w);
+    return between < v ? v : between > w ? w : between; /* rounding */
+}
+
+WELKIN_API welkin_error welkin_axis_visibility(const welkin_axis *axis, double value, double *visibility)
+{
+    uint32_t last, i;
+    double first, end, low, high, slack;
+    if (!axis->file) return WELKIN_ERROR_STATE;
+    last = axis->file->visibilities - 1;
+    first = welkin_axis_value(axis, 0);
+    end = welkin_axis_value(axis, last);
+    low = first < end ? first : end;
+    high = first < end ? end : first;
+    slack = 1e-9 * (fabs(low) > fabs(high) ? fabs(low) : fabs(high));
+    if (!welkin__within(value, low - slack, high + slack)) return WELKIN_ERROR_RANGE;
+    value = value < low ? low : value > high ? high : value;
+    *visibility = welkin_visibility(axis->file, last);
+    for (i = 0; i < last; i++) {
+        double p = welkin_axis_value(axis, i), q = welkin_axis_value(axis, i + 1);
+        if (first < end ? value > q : value < q) continue;
+        *visibility = welkin__axis_between(axis, i, (value - p) / (q - p));
+        break;
+    }
+    return WELKIN_OK;
 }
 
 /* ---- estimates ---- */

@@ -1,5 +1,6 @@
 //! `Model`: what a file says, and everything that is prepared from it.
 
+pub mod axis;
 pub mod budget;
 mod general;
 pub mod opening;

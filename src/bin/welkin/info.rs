@@ -52,7 +52,7 @@ fn describe(model: &Model) -> Value {
     let head = model.head();
     let metadata: Value = serde_json::from_str(&head.metadata).unwrap_or(Value::Null);
     let chunks: Vec<Value> = model.directory().iter().map(|e| chunk(model, e)).collect();
-    json!({
+    let mut description = json!({
         "format_version": VERSION_MAJOR,
         "file_bytes": model.file_bytes(),
         "head_bytes": model.head_bytes(),
@@ -79,7 +79,16 @@ fn describe(model: &Model) -> Value {
         "worst_polarisation_error_p99": worst(model, Kind::Polarisation, |e| e.error_p99),
         "metadata": metadata,
         "chunks": chunks,
-    })
+    });
+    // A damaged one is welkin verify's business.
+    if let Ok(Some(axis)) = model.axis() {
+        description["axis"] = json!({
+            "name": axis.name(),
+            "unit": axis.unit(),
+            "values": axis.values(),
+        });
+    }
+    description
 }
 
 fn rounded(value: f64) -> f64 {

@@ -30,6 +30,7 @@ mod naming;
 mod octahedral;
 mod outputs;
 mod parallel;
+mod parameter;
 mod picture;
 mod plan;
 mod polarised;

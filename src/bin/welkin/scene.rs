@@ -6,6 +6,7 @@ use welkin::{Albedo, Conditions, Model};
 
 use crate::albedo::Ground;
 use crate::failure::{Result, plain};
+use crate::parameter;
 use crate::sun::Sun;
 use crate::turbidity;
 
@@ -27,6 +28,9 @@ pub struct Scene {
     /// 2.1.
     #[arg(long, value_name = "RATIO")]
     turbidity: Option<f64>,
+    /// Value of the quantity that the model's file has in place of the visibility, in its unit: welkin info tells which.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true, conflicts_with_all = ["visibility", "turbidity"])]
+    parameter: Option<f64>,
     /// Albedo of the ground, 0 to 1: a number; by wavelength (nm) a list such as 400:0.05,690:0.06,740:0.5, or a CSV table
     /// with the columns wavelength_nm and albedo. Linear between wavelengths and constant beyond.
     #[arg(long, default_value = "0.2", value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
@@ -109,10 +113,11 @@ impl Scene {
     /// Everything but the sun.
     pub fn air(&self, model: &Model) -> Result<Conditions> {
         let standard = Conditions::default();
-        let visibility = match (self.visibility, self.turbidity) {
-            (Some(km), _) => 1e3 * km,
-            (None, Some(ratio)) => turbidity::visibility(model, ratio, self.clamp)?,
-            (None, None) => {
+        let visibility = match (self.visibility, self.turbidity, self.parameter) {
+            (Some(km), ..) => 1e3 * km,
+            (None, Some(ratio), _) => turbidity::visibility(model, ratio, self.clamp)?,
+            (None, None, Some(value)) => parameter::visibility(model, value, self.clamp)?,
+            (None, None, None) => {
                 let [hazy, clear] = model.visibility_range();
                 standard.visibility.clamp(hazy, clear)
             }
@@ -127,7 +132,7 @@ impl Scene {
 
     /// Whether the air is described at all.
     pub fn has_visibility(&self) -> bool {
-        self.visibility.is_some() || self.turbidity.is_some()
+        self.visibility.is_some() || self.turbidity.is_some() || self.parameter.is_some()
     }
 
     /// With `--clamp` the nearest that the model reaches; says on standard error what it moved. Otherwise all must be

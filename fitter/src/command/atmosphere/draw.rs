@@ -69,7 +69,9 @@ fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, panel: &Panel) -> Drawn
     let (x, y) = (panel.x.0..panel.x.1, panel.y.0..panel.y.1);
     match panel.log {
         (true, false) => on(area, panel, x.log_scale(), y),
-        _ => on(area, panel, x, y.log_scale()),
+        (false, false) => on(area, panel, x, y),
+        (true, true) => on(area, panel, x.log_scale(), y.log_scale()),
+        (false, true) => on(area, panel, x, y.log_scale()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `welkin-fit atmosphere`: air as a file, for other codes and for `trace`; and what a recipe makes of it.
 
 mod curves;
-mod draw;
+pub mod draw;
 mod summary;
 
 use super::variation::VariationArgs;

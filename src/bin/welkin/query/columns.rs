@@ -4,6 +4,7 @@ use csv::ByteRecord;
 use welkin::Conditions;
 
 use super::quantity::{Quantity, Question, Ray};
+use super::shared::Shared;
 use crate::albedo::Ground;
 use crate::cells;
 use crate::failure::{Failure, Result, plain};
@@ -11,9 +12,10 @@ use crate::failure::{Failure, Result, plain};
 const QUANTITY: &str = "quantity";
 const ERROR: &str = "error";
 const DISTANCE: &str = "distance_m";
+const VISIBILITY: &str = "visibility_km";
 const ALBEDO: &str = "albedo";
 const NUMBERS: [&str; 6] = [
-    "visibility_km",
+    VISIBILITY,
     ALBEDO,
     "altitude_m",
     "solar_elevation_deg",
@@ -27,23 +29,26 @@ pub struct Columns {
     /// Cells of a row.
     pub count: usize,
     quantity: usize,
-    /// That of the albedo may be absent where it is given for all rows.
+    /// Those of visibility and albedo may be absent where they are given for all rows.
     numbers: [Option<usize>; 6],
     /// Not in the table where bands are asked for.
     wavelength: Option<usize>,
     distance: Option<usize>,
     /// In place of the column.
     ground: Option<Ground>,
+    /// In place of the column, m.
+    visibility: Option<f64>,
 }
 
 impl Columns {
     /// `values` are the columns of the answers: those of bands need no wavelength in the table.
-    pub fn find(
-        header: &ByteRecord,
-        values: &[String],
-        bands: bool,
-        ground: Option<&Ground>,
-    ) -> Result<Self> {
+    pub fn find(header: &ByteRecord, values: &[String], shared: &Shared) -> Result<Self> {
+        let bands = shared.bands.is_some();
+        let is_given = |name: &str| match name {
+            VISIBILITY => shared.visibility.is_some(),
+            ALBEDO => shared.ground.is_some(),
+            _ => false,
+        };
         if values.iter().any(|name| name == ERROR) {
             let text = format!("a band cannot be called \"{ERROR}\": that is the column of errors");
             return Err(Failure::message(text));
@@ -66,7 +71,7 @@ impl Columns {
         };
         let mut numbers = [None; 6];
         for (index, name) in numbers.iter_mut().zip(NUMBERS) {
-            *index = match name == ALBEDO && ground.is_some() {
+            *index = match is_given(name) {
                 true => None,
                 false => Some(wanted(name)?),
             };
@@ -80,7 +85,8 @@ impl Columns {
                 false => Some(wanted(WAVELENGTH)?),
             },
             distance: position(header, DISTANCE)?,
-            ground: ground.cloned(),
+            ground: shared.ground.cloned(),
+            visibility: shared.visibility,
         })
     }
 
@@ -125,7 +131,11 @@ impl Columns {
         if let Some(ground) = &self.ground {
             numbers[1] = ground.at(wavelength);
         }
-        question(quantity, numbers, wavelength, distance)
+        let mut question = question(quantity, numbers, wavelength, distance)?;
+        if let Some(visibility) = self.visibility {
+            question.conditions.visibility = visibility;
+        }
+        Ok(question)
     }
 }
 

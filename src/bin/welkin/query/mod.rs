@@ -21,6 +21,7 @@ use csv::ByteRecord;
 use crate::Source;
 use crate::albedo::Ground;
 use crate::failure::{Failure, Result};
+use crate::parameter;
 use crate::sensor::{self, Sensor};
 use block::Block;
 use bounded::Bounded;
@@ -42,6 +43,10 @@ pub struct Options {
     /// wavelength, so --bands and --wavelengths take a number only.
     #[arg(long, value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
     albedo: Option<Ground>,
+    /// Value in all rows, in place of the column visibility_km, of the quantity that the model's file has in place of the
+    /// visibility, in its unit: welkin info tells which.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    parameter: Option<f64>,
     /// Move conditions that the model does not reach to its nearest.
     #[arg(long)]
     clamp: bool,
@@ -65,8 +70,11 @@ pub fn run(options: &Options) -> Result<()> {
         .map_err(|error| Failure::message(format!("cannot start threads: {error}")))?;
     let sensor = options.sensor.sensor(&model)?;
     let output = io::stdout().lock();
+    let visibility = options.parameter;
+    let visibility = visibility.map(|value| parameter::visibility(&model, value, options.clamp));
     let shared = Shared::new(&model, options.clamp, sensor.map(|s| s.bands.clone()))
-        .over(options.albedo.as_ref());
+        .over(options.albedo.as_ref())
+        .in_air(visibility.transpose()?);
     let summary = answer(&shared, sensor, &threads, input, output)?;
     if summary.moved {
         // Nobody is left to tell when standard error is closed.
@@ -119,7 +127,7 @@ fn answer_columns<'a>(
         .buffer_capacity(BUFFER)
         .from_reader(Bounded::new(input, block::MOST_BYTES));
     let header = reader.byte_headers().map_err(unreadable)?.clone();
-    let columns = Columns::find(&header, names, shared.bands.is_some(), shared.ground)?;
+    let columns = Columns::find(&header, names, shared)?;
     let mut writer = csv::WriterBuilder::new()
         .buffer_capacity(BUFFER)
         .from_writer(output);

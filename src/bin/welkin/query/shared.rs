@@ -22,6 +22,8 @@ pub struct Shared<'a> {
     pub bands: Option<Bands>,
     /// In place of the albedo of rows.
     pub ground: Option<&'a Ground>,
+    /// In place of the visibility of rows, m.
+    pub visibility: Option<f64>,
     /// Solar spectral irradiance at the wavelengths of the model.
     pub irradiance: Vec<f32>,
     moved: AtomicBool,
@@ -40,6 +42,7 @@ impl<'a> Shared<'a> {
             clamp,
             bands,
             ground: None,
+            visibility: None,
             moved: AtomicBool::new(false),
             point_query: OnceLock::new(),
             polarised: OnceLock::new(),
@@ -50,6 +53,12 @@ impl<'a> Shared<'a> {
     /// The same where all rows have this ground.
     pub fn over(mut self, ground: Option<&'a Ground>) -> Self {
         self.ground = ground;
+        self
+    }
+
+    /// The same where all rows have this visibility, m.
+    pub fn in_air(mut self, visibility: Option<f64>) -> Self {
+        self.visibility = visibility;
         self
     }
 

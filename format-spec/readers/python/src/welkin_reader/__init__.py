@@ -1,5 +1,6 @@
 """Reads welkin files: models of the radiance of the clear sky. Needs numpy only."""
 
+from ._axis import Axis
 from ._zstd import AVAILABLE as ZSTD
 from .errors import (
     ChecksumError,
@@ -19,6 +20,7 @@ from .model import Model, from_bytes, open
 from .sky import Conditions, Sky
 
 __all__ = [
+    "Axis",
     "ChecksumError",
     "Conditions",
     "DirectionError",

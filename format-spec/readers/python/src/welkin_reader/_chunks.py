@@ -7,6 +7,7 @@ import numpy as np
 
 from . import _head
 from ._aerial_perspective import decode_source, decode_source_basis
+from ._axis import decode_axis
 from ._estimate import decode_estimate
 from ._head import NONE, Cursor, require, require_within, round_up
 from ._spectrum import decode_spectrum
@@ -24,6 +25,7 @@ _NAMES = {
     _head.SOURCE_BASIS: "source basis",
     _head.SPECTRUM: "spectrum",
     _head.ESTIMATE: "estimate",
+    _head.AXIS: "axis",
 }
 
 
@@ -112,6 +114,7 @@ def _decode(payload, entry, head):
         _head.SOURCE_BASIS: decode_source_basis,
         _head.SPECTRUM: decode_spectrum,
         _head.ESTIMATE: decode_estimate,
+        _head.AXIS: decode_axis,
     }
     return decoders[entry.kind](Payload(payload), entry, head)
 

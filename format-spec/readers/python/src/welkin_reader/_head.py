@@ -31,7 +31,7 @@ ABSORBERS_SHIFT = 16
 
 RADIANCE, COLUMN, RADIANCE_BASIS, TRANSMITTANCE = 1, 2, 3, 4
 SOURCE, POLARISATION, POLARISATION_BASIS, SOURCE_BASIS, SPECTRUM = 5, 6, 7, 8, 9
-ESTIMATE = 10
+ESTIMATE, AXIS = 10, 11
 
 # Which kinds belong to an altitude, to a visibility, and have a rank.
 WITH_ALTITUDE = {RADIANCE, COLUMN, POLARISATION}
@@ -334,7 +334,7 @@ def _read_directory(data, head_length, file_length, counts, has_estimates):
         require(entry.offset == round_up(end, 64), "a chunk is out of its place")
         end = entry.offset + entry.stored_length
         require(end <= file_length, "a chunk reaches beyond the file")
-        if not RADIANCE <= entry.kind <= ESTIMATE:
+        if not RADIANCE <= entry.kind <= AXIS:
             continue
         _check_entry(entry, counts, has_estimates)
         key = (entry.kind, entry.altitude, entry.visibility)

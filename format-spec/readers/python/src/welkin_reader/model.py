@@ -85,6 +85,13 @@ class Model:
         return _ends(self._head.visibility)
 
     @property
+    def axis(self):
+        """The quantity that the visibilities stand for, an `Axis`, or None if they stand for themselves."""
+        if self._head.chunk(_head.AXIS) is None:
+            return None
+        return self._chunks.get(_head.AXIS)
+
+    @property
     def solar_elevation_range(self):
         """Lowest and highest elevation of the sun, rad."""
         return self._head.elevation_min, self._head.elevation_max
