@@ -444,7 +444,7 @@ fn the_logs_of_the_set_are_read() {
     assert_eq!(log.readings.len(), 81);
     assert_eq!(log.readings[0].1, 808.06);
     let (time, median) = log.median();
-    assert_eq!((time.clock().as_str(), median), ("10:32:51", 812.9));
+    assert_eq!((time.clock().as_str(), median), ("10:32:51", 814.52));
 }
 
 #[test]
