@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod command;
+mod said;
 
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::process::ExitCode;
@@ -99,10 +100,7 @@ fn main() -> ExitCode {
         // Whoever read the output has gone.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!(
-                "error: {}",
-                welkin::output::printable(&format!("{error:#}"))
-            );
+            eprintln!("error: {}", welkin::output::printable(&said::said(&error)));
             ExitCode::from(2)
         }
     }

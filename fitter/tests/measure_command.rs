@@ -242,6 +242,86 @@ fn the_command_reports_and_draws() {
     );
 }
 
+#[test]
+fn options_that_mean_nothing_are_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let scan = plain_scan(folder.path());
+    let refused = |option: &str, value: &str| {
+        let output = run(folder.path(), &["kider", NAME, option, value]);
+        let text = complaint(&output);
+        assert!(text.contains(option), "{option} {value}: {text}");
+    };
+    for north in ["nan", "400", "inf"] {
+        refused("--north", north);
+    }
+    refused("--without", "500");
+    refused("--without", "3,81");
+    // The middle of the night, if the clock is taken for one of the Gulf.
+    refused("--utc-offset", "4");
+    // Said before anything is fitted.
+    let nowhere = ["kider", NAME, "--csv", "none/out.csv"];
+    assert!(complaint(&run(folder.path(), &nowhere)).contains("none/out.csv"));
+    let one = ["kider", NAME, "--csv", "out", "--png", "out"];
+    assert!(complaint(&run(folder.path(), &one)).contains("one file"));
+    assert!(!folder.path().join("out").exists());
+    for factor in ["nan", "0", "-1"] {
+        let output = run(repository(), &["irradiance", ".", "--sky-factor", factor]);
+        assert!(complaint(&output).contains("--sky-factor"), "{factor}");
+    }
+    // The folder of the scan by another name.
+    assert_eq!(folders(&scan).unwrap(), [scan.as_path()]);
+    let dotted = scan.join("..").join(NAME).join(".");
+    assert_eq!(folders(&dotted).unwrap(), [dotted.as_path()]);
+    let inside = run(&scan, &["kider", ".", "--from", "400", "--to", "700"]);
+    assert!(complaint(&inside).contains("no wavelengths in some band"));
+}
+
+/// Sets the radiance of whole samples to 0.
+fn darken(scan: &Path, samples: &[usize]) {
+    for &index in samples {
+        let path = scan.join(plain_name(index));
+        let text = fs::read_to_string(&path).unwrap();
+        let dark = |line: &str| match line.split_once('\t') {
+            Some((nm, value)) if value.starts_with(|c: char| c.is_ascii_digit()) => {
+                format!("{nm}\t0.0\n")
+            }
+            _ => format!("{line}\n"),
+        };
+        fs::write(&path, text.lines().map(dark).collect::<String>()).unwrap();
+    }
+}
+
+#[test]
+fn what_is_no_light_is_counted_or_refused() {
+    let folder = TempDir::new().unwrap();
+    let model = Model::default_model().unwrap();
+    let scan = write_scan(folder.path(), &model, &TRUTH);
+    darken(&scan, &[40, 75]);
+    let arguments = [
+        "kider", ".", "--to", "700", "--step", "100", "--csv", "out.csv",
+    ];
+    let output = run(folder.path(), &arguments);
+    assert!(output.status.success(), "{output:?}");
+    let what = "8 of 320 values are not above 0, at samples (bands): 40 (4), 75 (4)";
+    let said = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+    assert!(said.iter().all(|text| text.contains(what)), "{said:?}");
+    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let lines = table.lines();
+    let left_out: Vec<&str> = lines.filter(|l| l.contains("left_out_of_sample")).collect();
+    assert_eq!(left_out.len(), 2, "{table}");
+    assert!(
+        left_out[1].ends_with(",left_out_of_sample,75,4,,,"),
+        "{table}"
+    );
+    fs::remove_file(folder.path().join("out.csv")).unwrap();
+
+    // One in twenty of the 80 is four.
+    darken(&scan, &[10, 20, 30]);
+    let text = complaint(&run(folder.path(), &arguments));
+    assert!(text.contains("20 of 320") && text.contains(NAME), "{text}");
+    assert!(!folder.path().join("out.csv").exists());
+}
+
 /// A scan that is the same everywhere.
 fn plain_scan(folder: &Path) -> PathBuf {
     let scan = folder.join(NAME);
@@ -364,7 +444,7 @@ fn the_logs_of_the_set_are_read() {
     assert_eq!(log.readings.len(), 81);
     assert_eq!(log.readings[0].1, 808.06);
     let (time, median) = log.median();
-    assert_eq!((time.clock().as_str(), median), ("10:32:51", 812.9));
+    assert_eq!((time.clock().as_str(), median), ("10:32:51", 814.52));
 }
 
 #[test]

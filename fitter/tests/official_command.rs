@@ -1,7 +1,7 @@
 //! `welkin-fit official`, `import` and `export` as a user meets them: what is wrong is said, and nothing is lost.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 use welkin_fitter::official::Writer;
 use welkin_fitter::official::layout::{Axes, Channels, Header, RadianceBreaks};
@@ -91,6 +91,53 @@ fn rows_are_answered_or_refused_by_their_number() {
     assert!(bad.contains("row 2") && bad.contains("direction"), "{bad}");
     let bad = complaint(&evaluate("0,0,0,0,0,1,30,0,50,0,NaN,inf\n"));
     assert!(bad.contains("row 1") && bad.contains("wavelength"), "{bad}");
+    let bad = complaint(&evaluate("0,0,0,0,0,1,30,0,fog,0,525,inf\n"));
+    assert!(bad.contains("row 1: visibility: \"fog\""), "{bad}");
+    let spaced = evaluate("0, 0, 0, 0, 0, 1, 30, 0, 50, 0, 525, inf\n");
+    assert!(spaced.status.success(), "{spaced:?}");
+    let none = evaluate("");
+    assert!(none.stdout.is_empty());
+    assert!(complaint(&none).contains("rows.csv: no row"), "{none:?}");
+    let empty = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .current_dir(folder.path())
+        .args(["official", "evaluate", "sky.dat", "--at", "-"])
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert!(complaint(&empty).contains("empty"), "{empty:?}");
+}
+
+#[test]
+fn nothing_is_said_twice() {
+    let folder = TempDir::new().unwrap();
+    std::fs::create_dir(folder.path().join("d")).unwrap();
+    for arguments in [
+        &["export", "prague", "d", "--out", "x.dat"][..],
+        &["official", "info", "d"],
+    ] {
+        let text = complaint(&run(folder.path(), arguments));
+        let (path, reason) = (
+            text.matches("d: ").count(),
+            text.matches("directory").count(),
+        );
+        assert_eq!((path, reason), (1, 1), "{text}");
+    }
+}
+
+#[test]
+fn an_export_goes_to_a_file_of_its_own() {
+    let folder = TempDir::new().unwrap();
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/default.welkin");
+    std::fs::copy(model, folder.path().join("own.welkin")).unwrap();
+    let export = |out: &str| {
+        let arguments = ["export", "prague", "own.welkin", "--out", out];
+        complaint(&run(folder.path(), &arguments))
+    };
+    for stream in ["-", "/dev/null"] {
+        assert!(export(stream).contains("must be a file"), "{stream}");
+    }
+    assert!(export("./own.welkin").contains("the model that is read"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]

@@ -3,8 +3,9 @@
 use anyhow::{Context, Result, ensure};
 use clap::Subcommand;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use welkin::Model;
+use welkin::output::{Target, printable};
 use welkin_fitter::official::export::{Plan, export};
 
 /// Turns a welkin file into one of another model.
@@ -26,7 +27,7 @@ struct Prague {
     /// The welkin file.
     #[arg(default_value = "models/default.welkin")]
     file: PathBuf,
-    /// Where the dataset goes.
+    /// Where the dataset goes: a file, as it is read back before it appears.
     #[arg(long)]
     out: PathBuf,
     /// Observer altitudes, m, separated by commas.
@@ -96,8 +97,24 @@ pub fn run(args: &Args) -> Result<()> {
         "--raised must be 0..=1000 m"
     );
     plan.raised = args.raised;
-    let name = welkin::output::printable(&args.file.display().to_string()).to_string();
+    check_target(&args.out, &args.file)?;
+    let name = printable(&args.file.display().to_string()).to_string();
     let model = Model::open(&args.file).context(name)?;
     let report = export(&model, &plan, &args.out)?;
     Ok(write!(std::io::stdout(), "{report}")?)
+}
+
+/// Refuses what keeps no bytes, and the model itself.
+fn check_target(out: &Path, model: &Path) -> Result<()> {
+    ensure!(
+        !Target::new(out).is_stream(),
+        "--out must be a file: a dataset is written in parts and read back before it appears"
+    );
+    let same = match (out.canonicalize(), model.canonicalize()) {
+        (Ok(out), Ok(model)) => out == model,
+        // What is not there yet is no model.
+        _ => false,
+    };
+    ensure!(!same, "--out is the model that is read");
+    Ok(())
 }

@@ -3,16 +3,16 @@
 use anyhow::{Context, Result, ensure};
 use clap::{Args as ClapArgs, Subcommand};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use welkin::Model;
-use welkin::output::replace_file;
+use welkin::output::{check, printable, replace_files};
 use welkin_fitter::dataset::Store;
 use welkin_fitter::measured::broadband::{Air, Broadband};
 use welkin_fitter::measured::fisheye::Sheet;
 use welkin_fitter::measured::fit::{Choice, Fitted, fit};
 use welkin_fitter::measured::scan::{Scan, folders};
-use welkin_fitter::measured::site::Site;
-use welkin_fitter::measured::{global_fit, near_infrared, scan_report};
+use welkin_fitter::measured::site::{Site, Sun};
+use welkin_fitter::measured::{global_fit, near_infrared, pattern, scan_report};
 
 /// Compares the model with measured skies.
 #[derive(ClapArgs)]
@@ -39,10 +39,10 @@ struct SiteArgs {
     /// Degrees, east positive.
     #[arg(long, default_value_t = Site::RHODES_HALL.longitude)]
     longitude: f64,
-    /// Above the sea, m; the ground of the model is there.
+    /// Of the instrument above the sea, m; the ground of the model is at sea level.
     #[arg(long, default_value_t = Site::RHODES_HALL.altitude)]
     altitude: f64,
-    /// What the clock of the measurements is ahead of UTC, h.
+    /// What the clock of the measurements is ahead of UTC, h; west of Greenwich it is negative.
     #[arg(long, default_value_t = Site::RHODES_HALL.utc_offset)]
     utc_offset: f64,
 }
@@ -57,10 +57,10 @@ struct KiderArgs {
     /// Only scans of this day, YYYY-MM-DD.
     #[arg(long)]
     day: Option<String>,
-    /// Shortest wavelength, nm: below 400 the instrument has little signal.
+    /// Middle of the first band, nm: below 400 the instrument has little signal.
     #[arg(long, default_value_t = 400.0)]
     from: f64,
-    /// Longest wavelength, nm.
+    /// No middle of a band is beyond, nm.
     #[arg(long, default_value_t = 800.0)]
     to: f64,
     /// Width and distance of the bands that are compared, nm.
@@ -177,11 +177,25 @@ fn say(text: &str) -> Result<()> {
 
 /// Most bands of a fit.
 const MOST_BANDS: f64 = 1000.0;
+/// What a sky may be brighter than the model's by.
+const MOST_SKY_FACTOR: f64 = 10.0;
+
+/// Scans were made by day: a sun that is down tells that place or clock are wrong.
+fn is_up(sun: &Sun) -> Result<()> {
+    let elevation = sun.elevation.to_degrees();
+    ensure!(
+        elevation > 0.0,
+        "the sun was at {elevation:.1}° then: --utc-offset must be what its clock is ahead of UTC (negative in the \
+         west), and --latitude and --longitude where it stood"
+    );
+    Ok(())
+}
 
 impl KiderArgs {
     fn run(&self) -> Result<()> {
         let site = self.site.site()?;
         let choice = self.choice(&site)?;
+        self.check_targets()?;
         let model = open(&self.model)?;
         let mut fits: Vec<(Scan, Vec<Vec<f64>>, Fitted)> = vec![];
         let mut table = String::from(scan_report::HEAD);
@@ -191,22 +205,41 @@ impl KiderArgs {
                 continue;
             }
             let sun = site.sun(&scan.middle())?;
+            is_up(&sun).with_context(|| format!("{}", folder.display()))?;
             let fitted = fit(&model, &scan, sun, &choice)
                 .with_context(|| format!("{}", folder.display()))?;
             say(&(scan_report::summary(&scan, &fitted) + "\n"))?;
+            if fitted.left_out.count() > 0 {
+                let name = folder.display().to_string();
+                eprintln!("warning: {}: {}", printable(&name), fitted.left_out);
+            }
             table += &scan_report::csv(&scan, &choice, &fitted);
             let bands = choice.wavelengths.iter();
             let measured = bands.map(|&nm| scan.band(nm, choice.step)).collect();
             fits.push((scan, measured, fitted));
         }
         ensure!(!fits.is_empty(), "no scan of this day");
+        let mut files: Vec<(&Path, Vec<u8>)> = vec![];
         if let Some(path) = &self.csv {
-            replace_file(path, table.as_bytes())?;
+            files.push((path.as_path(), table.into_bytes()));
         }
         if let Some(path) = &self.png {
             let rows: Vec<_> = fits.iter().map(|(s, m, f)| (s, m.as_slice(), f)).collect();
-            replace_file(path, &Sheet::new(&rows).png()?)?;
+            files.push((path.as_path(), Sheet::new(&rows).png()?));
         }
+        let files: Vec<(&Path, &[u8])> = files.iter().map(|(p, b)| (*p, b.as_slice())).collect();
+        Ok(replace_files(&files)?)
+    }
+
+    /// Fits take minutes: where their results cannot go is said before.
+    fn check_targets(&self) -> Result<()> {
+        for path in [&self.csv, &self.png].into_iter().flatten() {
+            check(path)?;
+        }
+        ensure!(
+            self.csv.is_none() || self.csv != self.png,
+            "--csv and --png name one file"
+        );
         Ok(())
     }
 
@@ -223,6 +256,15 @@ impl KiderArgs {
         ensure!(
             (0.0..180.0).contains(&self.around_sun),
             "--around-sun must lie in 0..180"
+        );
+        ensure!(
+            self.north.is_none_or(|north| north.abs() <= 360.0),
+            "--north must lie in -360..360"
+        );
+        ensure!(
+            self.without.iter().all(|&sample| sample < pattern::SAMPLES),
+            "--without: samples are counted from 0 to {}",
+            pattern::SAMPLES - 1
         );
         let first = (!self.keep_first).then_some(0);
         Ok(Choice {
@@ -253,6 +295,10 @@ impl IrradianceArgs {
         ensure!(
             (0.0..=10.0).contains(&self.water),
             "--water must lie in 0..10"
+        );
+        ensure!(
+            self.sky_factor > 0.0 && self.sky_factor <= MOST_SKY_FACTOR,
+            "--sky-factor must be above 0 and at most {MOST_SKY_FACTOR}"
         );
         let ends = model.visibility_range();
         let mut air = Air {

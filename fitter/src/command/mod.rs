@@ -16,6 +16,7 @@ pub mod measure;
 pub mod official;
 pub mod picture;
 mod plan;
+pub mod rows;
 pub mod spectrum;
 pub mod trace;
 pub mod units;

@@ -1,5 +1,6 @@
 //! `welkin-fit official`: looks into files of the official model and evaluates them exactly.
 
+use super::rows::numbers;
 use anyhow::{Context, Result, ensure};
 use clap::Subcommand;
 use std::fs::File;
@@ -34,7 +35,7 @@ struct Evaluate {
     /// The file (.dat).
     file: PathBuf,
     /// CSV with the columns x,y,z (m), dx,dy,dz, solar_elevation, solar_azimuth (degrees), visibility (km), albedo,
-    /// wavelength (nm), distance (m, inf for none); - for standard input.
+    /// wavelength (nm), distance (m, inf for none), named so in the first line; - for standard input.
     #[arg(long)]
     at: PathBuf,
     /// What observers are raised by, m.
@@ -117,6 +118,20 @@ fn input(path: &Path) -> Result<Box<dyn Read>> {
 }
 
 const COLUMNS: usize = 12;
+const NAMES: [&str; COLUMNS] = [
+    "x",
+    "y",
+    "z",
+    "dx",
+    "dy",
+    "dz",
+    "solar_elevation",
+    "solar_azimuth",
+    "visibility",
+    "albedo",
+    "wavelength",
+    "distance",
+];
 
 fn evaluate(args: &Evaluate) -> Result<()> {
     let data = open(&args.file)?;
@@ -124,14 +139,11 @@ fn evaluate(args: &Evaluate) -> Result<()> {
         Some(_) => Some(data.transmittance()?),
         None => None,
     };
-    let mut rows = csv::Reader::from_reader(input(&args.at)?);
+    let name = || printable(&args.at.display().to_string()).to_string();
+    let rows = numbers(input(&args.at)?, NAMES).with_context(name)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     writeln!(out, "radiance,polarisation,transmittance")?;
-    for (i, row) in rows.deserialize::<Vec<f64>>().enumerate() {
-        let row = row.with_context(|| format!("row {}", i + 1))?;
-        let row: [f64; COLUMNS] = row.try_into().map_err(|row: Vec<f64>| {
-            anyhow::anyhow!("row {}: {} columns, expected {COLUMNS}", i + 1, row.len())
-        })?;
+    for (i, row) in rows.into_iter().enumerate() {
         let answers = answer(&data, transmittance.as_ref(), args.raised, row)
             .with_context(|| format!("row {}", i + 1))?;
         let text = answers.map(|a| a.map_or(String::new(), |a| format!("{a:e}")));

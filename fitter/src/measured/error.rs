@@ -29,6 +29,11 @@ pub enum MeasuredError {
         /// What is wrong with it.
         detail: String,
     },
+    /// A scan of which too many values are no light.
+    Dark {
+        /// Which, and how many are taken.
+        detail: String,
+    },
     /// Files that do not make one measurement.
     Incomplete {
         /// File or folder.
@@ -78,6 +83,7 @@ impl fmt::Display for MeasuredError {
             Self::Name { path, detail } | Self::Incomplete { path, detail } => {
                 write!(f, "{}: {detail}", path.display())
             }
+            Self::Dark { detail } => f.write_str(detail),
             Self::Line { path, line, detail } => {
                 write!(f, "{}, line {line}: {detail}", path.display())
             }

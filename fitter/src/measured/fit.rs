@@ -2,6 +2,7 @@
 //! instrument, by least squares of the logarithm of radiance.
 
 use super::least_squares::{Parameter, minimise};
+use super::left_out::{LeftOut, is_light};
 use super::model_sky::{between, direction, radiance};
 use super::scan::Scan;
 use super::site::Sun;
@@ -53,6 +54,8 @@ pub struct Fitted {
     pub north: f64,
     /// All that was compared.
     pub residuals: Vec<Residual>,
+    /// What could not be.
+    pub left_out: LeftOut,
     /// Of all samples and wavelengths, with the factor.
     pub radiance: Vec<Vec<f64>>,
 }
@@ -96,12 +99,14 @@ pub fn fit(model: &Model, scan: &Scan, sun: Sun, choice: &Choice) -> Result<Fitt
         measured: bands().map(|&nm| scan.band(nm, choice.step)).collect(),
         inside,
     };
+    let left_out = LeftOut::of(&problem.measured, &choice.without);
+    left_out.check()?;
     let mut at = problem.start()?;
     // What is too near to the sun depends on the north.
     for _ in 0..3 {
         at = problem.nearest(at)?;
     }
-    problem.fitted(at)
+    problem.fitted(at, left_out)
 }
 
 impl Problem<'_> {
@@ -181,7 +186,7 @@ impl Problem<'_> {
             {
                 continue;
             }
-            let lit = |&w: &usize| self.measured[w][i] > 0.0;
+            let lit = |&w: &usize| is_light(self.measured[w][i]);
             used.extend((0..self.measured.len()).filter(lit).map(|w| (i, w)));
         }
         used
@@ -228,7 +233,7 @@ impl Problem<'_> {
         Ok(used.iter().map(error).collect())
     }
 
-    fn fitted(&self, at: Point) -> Result<Fitted> {
+    fn fitted(&self, at: Point, left_out: LeftOut) -> Result<Fitted> {
         let used = self.used(at[2]);
         let errors = self.residuals(&at, &used)?;
         let sun = self.sun_direction();
@@ -248,6 +253,7 @@ impl Problem<'_> {
                     error,
                 })
                 .collect(),
+            left_out,
             radiance: self.model_radiance(&at)?.into_iter().map(scaled).collect(),
         })
     }

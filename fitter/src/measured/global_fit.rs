@@ -38,7 +38,8 @@ pub fn readings(path: &Path, site: &Site) -> Result<(Vec<Reading>, usize)> {
         }
     }
     if out.is_empty() {
-        let detail = "no log of light under a sun of 10° or more";
+        let detail =
+            "no log of light under a sun of 10° or more; is --utc-offset that of its clock?";
         return Err(MeasuredError::incomplete(path, detail).into());
     }
     let low = files.len() - out.len();

@@ -8,6 +8,7 @@ pub mod fisheye;
 pub mod fit;
 pub mod global_fit;
 pub mod least_squares;
+pub mod left_out;
 pub mod model_sky;
 pub mod near_infrared;
 pub mod pattern;

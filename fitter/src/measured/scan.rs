@@ -111,11 +111,12 @@ impl Scan {
 
 /// Folders of scans: the folder itself, or those in it, at most two folders deep, in the order of time.
 pub fn folders(folder: &Path) -> Result<Vec<PathBuf>, MeasuredError> {
+    let is_name = |name: &str| CaptureTime::parse(name).is_some();
     let is_scan = |path: &Path| {
         let name = path.file_name().and_then(|name| name.to_str());
-        path.is_dir() && name.is_some_and(|name| CaptureTime::parse(name).is_some())
+        path.is_dir() && name.is_some_and(is_name)
     };
-    if is_scan(folder) {
+    if folder.is_dir() && folder_name(folder).is_ok_and(|name| is_name(&name)) {
         return Ok(vec![folder.to_owned()]);
     }
     let mut found = vec![];

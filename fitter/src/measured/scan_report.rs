@@ -40,7 +40,8 @@ pub const HEAD: &str = "scan,by,at,count,mean_ln,median_abs_ln,rms_ln\n";
 /// Width of the bins of angles from the sun, degrees.
 const BIN: f64 = 15.0;
 
-/// A line for all, for every wavelength (nm), for angles from the sun in bins of 15° and for every elevation.
+/// A line for all, for every wavelength (nm), for angles from the sun in bins of 15° and for every elevation; and for
+/// every sample of which something was left out, how many bands of it.
 pub fn csv(scan: &Scan, choice: &Choice, fitted: &Fitted) -> String {
     let date = &scan.start;
     let name = format!(
@@ -79,6 +80,9 @@ pub fn csv(scan: &Scan, choice: &Choice, fitted: &Fitted) -> String {
             (elevation - ring).abs() < 1.0
         });
     }
+    for (sample, count) in &fitted.left_out.samples {
+        out += &format!("{name},left_out_of_sample,{sample},{count},,,\n");
+    }
     out
 }
 
@@ -92,9 +96,13 @@ pub fn summary(scan: &Scan, fitted: &Fitted) -> String {
     } = fitted.conditions;
     let spread = Spread::of(fitted.residuals.iter().map(|r| r.error));
     let (median, rms) = spread.map_or((f64::NAN, f64::NAN), |s| (s.median, s.rms));
+    let but = match fitted.left_out.count() {
+        0 => String::new(),
+        _ => format!("; left out: {}", fitted.left_out),
+    };
     format!(
         "{}-{:02}-{:02} {}: sun {:.2}°, visibility {:.1} km, albedo {albedo:.2}, measured / model {:.3}, north \
-         {:+.1}°; median |ln| {median:.3}, rms {rms:.3}",
+         {:+.1}°; median |ln| {median:.3}, rms {rms:.3}{but}",
         scan.start.year,
         scan.start.month,
         scan.start.day,

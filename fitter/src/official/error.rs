@@ -62,6 +62,8 @@ pub enum OfficialError {
     Missing(Section),
     /// A condition that is not finite.
     Condition(&'static str),
+    /// A condition that may be infinite, but not below 0.
+    Negative(&'static str),
     /// A view direction of no length, or not finite.
     Direction,
 }
@@ -100,6 +102,7 @@ impl fmt::Display for OfficialError {
             } => write!(f, "{what} in the {section} section: {detail}"),
             Self::Missing(section) => write!(f, "the file has no whole {section} section"),
             Self::Condition(what) => write!(f, "{what} is not a finite number"),
+            Self::Negative(what) => write!(f, "{what} must be ≥ 0"),
             Self::Direction => f.write_str("the view direction is zero or not finite"),
         }
     }

@@ -249,7 +249,7 @@ impl Transmittance {
     /// (rad), a distance (m) and a visibility (m).
     ///
     /// # Errors
-    /// [`OfficialError::Condition`] for what is not a number.
+    /// [`OfficialError::Condition`] for what is not a number, [`OfficialError::Negative`] for a distance below 0.
     pub fn at(
         &self,
         altitude: f64,
@@ -260,11 +260,14 @@ impl Transmittance {
         let conditions = [
             ("the altitude", altitude.is_finite()),
             ("the zenith angle", theta.is_finite()),
-            ("the distance", distance >= 0.0),
+            ("the distance", !distance.is_nan()),
             ("the visibility", visibility.is_finite()),
         ];
         if let Some((what, _)) = conditions.iter().find(|(_, sound)| !sound) {
             return Err(OfficialError::Condition(what));
+        }
+        if distance < 0.0 {
+            return Err(OfficialError::Negative("the distance"));
         }
         let end = FarEnd::new(altitude, theta, distance);
         let mut root = vec![0.0; self.channels.count];

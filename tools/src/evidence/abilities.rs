@@ -76,7 +76,7 @@ pub fn write(official: Option<&Path>) -> Result<()> {
                 albedo,
             }))
         },
-        ["300 to 2500 nm", "yes", "between any two points", "yes"],
+        ["300 to 1100 nm", "yes", "between any two points", "yes"],
     );
     add(
         "Preetham et al. 1999",
