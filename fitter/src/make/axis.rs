@@ -291,7 +291,8 @@ mod tests {
         assert!(average("sun_distance=0.98,1.02").contains("the sun"));
         assert!(average("pressure=800,1000").contains("lines"));
         assert!(average("water=1,2").contains("lines"));
-        assert!(refusal("fog", "visibility=0.5,1").contains("extinction"));
+        assert!(refusal("fog", "layers.fog.visibility=0.5,1").contains("extinction"));
+        assert!(axis("fog", "visibility=0.5,1").is_ok());
         assert!(average("ozone=300").contains("two values"));
         assert!(average("ozone=300,300").contains("two values"));
         assert!(average("ozone=300,many").contains("NAME=VALUE"));

@@ -15,6 +15,7 @@ use crate::air::Air;
 use crate::build::build;
 use crate::fitting::Fitting;
 use crate::recipe::Recipe;
+use crate::round_trip::RoundingExceedsFit;
 use crate::units::Plan;
 use anyhow::{Context, Result};
 use std::fmt::Write;
@@ -72,7 +73,7 @@ impl Request {
         let (plan, fitting) = self.plan()?;
         fs::create_dir_all(work).with_context(|| format!("cannot create {}", work.display()))?;
         let path = work.join("whole.welkin");
-        let mut report = build(&plan, fitting, work, &Target::new(&path))?;
+        let mut report = fitted(&plan, fitting, work, &Target::new(&path))?;
         let bytes = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
         let bytes = match self.scene.bands {
             Bands::All => bytes,
@@ -93,6 +94,23 @@ impl Request {
             started.elapsed().as_secs_f64()
         )?;
         Ok(report)
+    }
+}
+
+/// Builds with fewer components, where so many cancel each other that half precision spoils them: of few altitudes and
+/// suns.
+fn fitted(plan: &Plan, mut fitting: Fitting, work: &Path, out: &Target) -> Result<String> {
+    /// Fewer would be too few for any sky.
+    const LEAST: usize = 12;
+    loop {
+        let built = build(plan, fitting, work, out);
+        let spoilt = |e: &anyhow::Error| e.downcast_ref::<RoundingExceedsFit>().is_some();
+        match built {
+            Err(error) if spoilt(&error) && fitting.options.rank > LEAST => {
+                fitting.options.rank = (fitting.options.rank * 3 / 4).max(LEAST);
+            }
+            built => return built,
+        }
     }
 }
 
