@@ -164,7 +164,9 @@ cfg_if::cfg_if! {
         };
         pub use sky::{ColourSpace, Sky, xyz_to_linear_srgb};
         pub use spectrum::{SpectralInterpolation, between_wavelengths};
-        pub use sun::{DiscBuffers, DiscHeader, SOLAR_ANGULAR_RADIUS, SolarDisc};
-        pub use transmittance::{AirBuffers, AirHeader, Transmittance};
+        pub use sun::buffers::{DiscBuffers, DiscHeader};
+        pub use sun::{SOLAR_ANGULAR_RADIUS, SolarDisc};
+        pub use transmittance::Transmittance;
+        pub use transmittance::buffers::{AirBuffers, AirHeader};
     }
 }

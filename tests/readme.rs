@@ -1,9 +1,10 @@
 //! The examples of README.md and the book, run; and a check that they are those.
 #![cfg(feature = "default-model")]
 
+use welkin::Albedo;
 use welkin::Response;
-use welkin::{Albedo, Conditions, Model, PolarisationFrame};
 use welkin::{BakedSky, Budget, Channels, Directions, PointQuery};
+use welkin::{Conditions, Model, PolarisationFrame};
 
 /// Code without comments, spaces, and the commas that a formatter adds.
 fn compact(code: &str) -> String {

@@ -2,10 +2,6 @@
 
 use zerocopy::{Immutable, IntoBytes};
 
-use super::colour_segments::ColourAerialPerspective;
-use super::ray_lattice::RayLattice;
-use crate::error::Result;
-
 /// Where the air around a camera is looked up: 144 bytes with the layout that std140 and std430 give these fields.
 ///
 /// ```
@@ -105,17 +101,5 @@ impl AerialBuffers {
     /// The table as it is uploaded, in the byte order of this machine.
     pub fn table_bytes(&self) -> &[u8] {
         self.table.as_bytes()
-    }
-}
-
-impl ColourAerialPerspective {
-    /// The air around a camera (m, in the frame of [`CameraVolume`](crate::CameraVolume)), for volumes that are filled
-    /// elsewhere. Some hundred rays are marched; what lies between them is interpolated.
-    ///
-    /// # Errors
-    /// As [`ColourAerialPerspective::linear_srgb_along`], for rays in all directions: a camera high above the air sees
-    /// some that are beyond reach.
-    pub fn buffers(&self, camera: [f64; 3]) -> Result<AerialBuffers> {
-        RayLattice::new(self, camera)?.buffers()
     }
 }

@@ -24,6 +24,18 @@ const DISTANCES: usize = 40;
 /// What logarithms are bounded by: no light, and nothing that comes through.
 const DARK: f32 = 1e-30;
 
+impl ColourAerialPerspective {
+    /// The air around a camera (m, in the frame of [`CameraVolume`](crate::CameraVolume)), for volumes that are filled
+    /// elsewhere. Some hundred rays are marched; what lies between them is interpolated.
+    ///
+    /// # Errors
+    /// As [`ColourAerialPerspective::linear_srgb_along`], for rays in all directions: a camera high above the air sees
+    /// some that are beyond reach.
+    pub fn buffers(&self, camera: [f64; 3]) -> Result<AerialBuffers> {
+        RayLattice::new(self, camera)?.buffers()
+    }
+}
+
 /// A camera and the axes that its rays are measured against.
 pub(super) struct RayLattice<'a> {
     aerial: &'a ColourAerialPerspective,

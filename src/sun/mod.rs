@@ -3,7 +3,7 @@
 //! `cap` knows where the disc is and what of it is above the horizon, `depths` the air before it, `limb_darkening` how
 //! bright it is without air; `quadrature` sums over it.
 
-mod buffers;
+pub(crate) mod buffers;
 mod cap;
 mod depths;
 mod limb_darkening;
@@ -19,7 +19,6 @@ use crate::kernel::math::finite;
 use crate::model::Model;
 use crate::sky::{MOST_WAVELENGTHS, check_length};
 use crate::spectrum::SpectralInterpolation;
-pub use buffers::{DiscBuffers, DiscHeader};
 use cap::Cap;
 use depths::Depths;
 use quadrature::each_line;

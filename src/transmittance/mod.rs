@@ -1,11 +1,10 @@
 //! The air alone: transmittance between any two points. Format specification, section 7.6.
 
-mod buffers;
+pub(crate) mod buffers;
 mod layers;
 mod segment;
 mod spectral_transmittance;
 
-pub use buffers::{AirBuffers, AirHeader};
 pub(crate) use layers::{Amounts, Layers, Line, Piece, QUADS};
 pub(crate) use segment::{Segment, dot};
 
