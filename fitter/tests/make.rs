@@ -10,7 +10,7 @@ use welkin_fitter::recipe::Recipe;
 
 fn request(bands: Bands) -> Request {
     Request {
-        recipe: Recipe::named("urban").unwrap(),
+        recipe: Recipe::named("continental-clean").unwrap(),
         axis: None,
         scene: Scene {
             altitudes: [0.0, 0.0],
@@ -35,7 +35,7 @@ fn made() -> &'static Made {
     static MADE: OnceLock<Made> = OnceLock::new();
     MADE.get_or_init(|| {
         let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("urban.welkin");
+        let out = folder.path().join("clean.welkin");
         let report = request(Bands::All)
             .make(&folder.path().join("work"), &Target::new(&out))
             .unwrap();
@@ -59,7 +59,7 @@ fn conditions() -> Conditions {
 #[test]
 fn the_model_has_the_air_and_the_ranges_of_the_request() {
     let head = made().model.head();
-    let visibility = Recipe::named("urban")
+    let visibility = Recipe::named("continental-clean")
         .unwrap()
         .visibility()
         .unwrap()
@@ -68,7 +68,7 @@ fn the_model_has_the_air_and_the_ranges_of_the_request() {
     assert_eq!(head.altitudes, [0.0]);
     let [low, high] = made().model.solar_elevation_range().map(f64::to_degrees);
     assert!((low - 5.0).abs() < 1e-9 && (high - 40.0).abs() < 1e-9);
-    assert!(head.metadata.contains("Urban"), "{}", head.metadata);
+    assert!(head.metadata.contains("Continental clean"), "{}", head.metadata);
     assert!(made().report.contains("against the unbiased tracer"));
 }
 
@@ -79,9 +79,9 @@ fn the_unbiased_tracer_confirms_a_draft() {
     println!("{judgement}");
     let errors = judgement.quantiles().unwrap();
     assert!(errors.count > 200);
-    assert!(errors.median < 0.03, "{}", errors.median);
+    assert!(errors.median < 0.02, "{}", errors.median);
     // A wrong air, or a wrong ground, would be off everywhere.
-    assert!(errors.p95 < 0.15, "{}", errors.p95);
+    assert!(errors.p95 < 0.08, "{}", errors.p95);
 }
 
 /// The second time nothing is traced; only what is written differs.
