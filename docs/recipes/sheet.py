@@ -16,9 +16,9 @@ SIZE = 136
 LABEL = 28
 COLUMNS = ["recipe", "visibility, km", "bytes", "core-seconds", "values", "median, %", "p95", "p99", "largest"]
 NOTE = """\
-# Printed by `bash docs/recipes/sheet` on {day}, while other work went on: drafts for 0 to 3 km and suns from −4° to 60°,
-# and their errors against the unbiased tracer, noise of up to 1 % included, at wavelengths beside lines from 315 to
-# 1050 nm. Core-seconds are those of all of it, the judgement too.
+# Printed by `bash docs/recipes/sheet` on {day}, while other work went on: drafts for 0 to 3 km and suns from −4° to
+# 60°, and their errors against the unbiased tracer, noise of up to 1 % included, at wavelengths beside lines from 315
+# to 1050 nm. Core-seconds are those of all of it, the judgement too.
 """
 
 
