@@ -68,7 +68,11 @@ fn the_model_has_the_air_and_the_ranges_of_the_request() {
     assert_eq!(head.altitudes, [0.0]);
     let [low, high] = made().model.solar_elevation_range().map(f64::to_degrees);
     assert!((low - 5.0).abs() < 1e-9 && (high - 40.0).abs() < 1e-9);
-    assert!(head.metadata.contains("Continental clean"), "{}", head.metadata);
+    assert!(
+        head.metadata.contains("Continental clean"),
+        "{}",
+        head.metadata
+    );
     assert!(made().report.contains("against the unbiased tracer"));
 }
 
