@@ -34,6 +34,7 @@ __all__ = [
     "open",
     "stream",
     "Model",
+    "ModelAxis",
     "Plan",
     "SkySum",
     "phase_angle_between",
