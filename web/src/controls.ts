@@ -84,7 +84,8 @@ class NumberControl {
   readonly #number: HTMLInputElement;
   readonly #range: HTMLInputElement;
   readonly #none: HTMLInputElement | null = null;
-  #shown = "";
+  #shown: number | null = NaN;
+  #shownAutomatic = NaN;
 
   constructor(
     private readonly slider: Slider,
@@ -98,7 +99,7 @@ class NumberControl {
     const set = (value: number, isMoving: boolean) => change({ [key]: value }, isMoving);
     this.#number.addEventListener("change", () => {
       const value = this.#number.valueAsNumber;
-      this.#shown = "";
+      this.#shown = NaN;
       if (Number.isFinite(value)) set(Math.min(Math.max(value, low), high), false);
       else change({}, false);
     });
@@ -126,9 +127,9 @@ class NumberControl {
     const value = view[this.slider.key];
     const shown = value ?? automatic;
     // What stays is not touched: a frame has little time.
-    const state = `${value === null} ${shown.toFixed(3)}`;
-    if (state === this.#shown) return;
-    this.#shown = state;
+    if (value === this.#shown && (value !== null || shown === this.#shownAutomatic)) return;
+    this.#shown = value;
+    this.#shownAutomatic = shown;
     if (this.#none) this.#none.checked = value === null;
     this.#number.disabled = this.#range.disabled = value === null;
     const text = `${Number(shown.toFixed(3))}`;

@@ -17,6 +17,8 @@ const COARSE: Resolution = [24, 8, 16];
 const FINE: Resolution = [48, 24, 32];
 /** How long something moves after it moved last, ms. */
 const REST = 150;
+/** Numbers that nobody reads so fast wait that long while something moves, ms: text costs the browser a layout. */
+const READING = 100;
 /** Measures that the browser keeps. */
 const MOST_MEASURES = 2000;
 
@@ -36,11 +38,14 @@ class Page {
   readonly #renderer: Renderer;
   readonly #sky = new Latest();
   readonly #look = new Latest();
-  #shown = "";
+  #shown: Scene | null = null;
   #isMoving = false;
+  #moved = 0;
   #rest = 0;
+  #written = 0;
   #frame = 0;
   #measures = 0;
+  #hasPicture = false;
   #ratio = 1;
   #exposure = 0;
   #place: [number, number] | null = null;
@@ -63,7 +68,7 @@ class Page {
   /** Starts anew after a failure. */
   async retry(): Promise<void> {
     hideFailure();
-    this.#shown = "";
+    this.#shown = null;
     if (!this.#limits) {
       this.#skies.close();
       this.#skies = new Skies("worker.js", showTraffic);
@@ -74,18 +79,27 @@ class Page {
   }
 
   change(change: Partial<View>, isMoving: boolean): void {
-    this.#view = { ...this.#view, ...change };
+    Object.assign(this.#view, change);
     this.#isMoving = isMoving;
-    clearTimeout(this.#rest);
-    if (isMoving) this.#rest = window.setTimeout(() => this.#settle(), REST);
+    this.#moved = performance.now();
+    if (isMoving) this.#rest ||= window.setTimeout(this.#settle, REST);
     else history.replaceState(null, "", `#${toHash(this.#view)}`);
     setState("loading");
     this.#update();
   }
 
-  #settle(): void {
-    this.change({}, false);
-  }
+  /** Where nothing moved for a while, and for two frames, which may take longer. */
+  readonly #settle = (): void => {
+    const moved = this.#moved;
+    this.#rest = 0;
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        if (!this.#isMoving) return;
+        if (this.#moved === moved && performance.now() - moved >= REST) this.change({}, false);
+        else this.#rest ||= window.setTimeout(this.#settle, REST);
+      }),
+    );
+  };
 
   #scene(): Scene {
     const { sunElevation, visibility, altitude, albedo, ground, quantity, polariser } = this.#view;
@@ -107,11 +121,10 @@ class Page {
     void this.#sky
       .run(async () => {
         const scene = this.#scene();
-        const key = JSON.stringify(scene);
-        if (key === this.#shown) return;
+        if (isSame(scene, this.#shown)) return;
         const tables = await this.#skies.sky(scene);
         this.#renderer.upload(tables);
-        this.#shown = key;
+        this.#shown = scene;
         this.#measure("prepare", tables.prepared);
         this.#measure("bake", tables.baked);
         hideFailure();
@@ -127,27 +140,29 @@ class Page {
 
   /** With the next frame. */
   #draw(): void {
-    if (this.#frame !== 0) return;
-    this.#frame = requestAnimationFrame(() => {
-      this.#frame = 0;
-      if (this.#renderer.hasSky) this.#paint();
-    });
+    if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#paint);
   }
 
-  #paint(): void {
-    const start = performance.now();
+  readonly #paint = (): void => {
+    this.#frame = 0;
+    if (!this.#renderer.hasSky) return;
     this.#frameOf(aspect(this.#view.projection));
     this.#renderer.draw(this.#view);
-    // What is read, not seen, waits for the rest.
+    const now = performance.now();
+    if (!this.#isMoving || now - this.#written >= READING) this.#write(now);
+    if (!this.#hasPicture) performance.mark("first-picture");
+    this.#hasPicture = true;
+    if (!this.#isMoving && this.#sky.isIdle && isSame(this.#scene(), this.#shown)) setState("ready");
+  };
+
+  /** What is read, not seen. */
+  #write(now: number): void {
+    this.#written = now;
     if (!this.#isMoving) this.#exposure = this.#renderer.exposure(this.#view);
     this.#controls?.show(this.#view, this.#exposure);
+    if (this.#isMoving) return;
     const text = sentence(this.#view, this.#exposure);
-    if (!this.#isMoving && scene.textContent !== text) scene.textContent = text;
-    this.#measure("draw", performance.now() - start);
-    if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
-    if (!this.#isMoving && this.#sky.isIdle && this.#shown === JSON.stringify(this.#scene())) {
-      setState("ready");
-    }
+    if (scene.textContent !== text) scene.textContent = text;
   }
 
   #frameOf(ratio: number): void {
@@ -219,6 +234,12 @@ class Page {
     note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°.`);
     this.change({ sunElevation: elevation, sunAzimuth: azimuth > 180 ? azimuth - 360 : azimuth }, false);
   }
+}
+
+function isSame(a: Scene, b: Scene | null): boolean {
+  if (b === null) return false;
+  for (const key in a) if (a[key as keyof Scene] !== b[key as keyof Scene]) return false;
+  return true;
 }
 
 function sentence(view: View, exposure: number): string {

@@ -1,22 +1,16 @@
 // Draws the sky with WebGL2.
 
-import { aspect, cameraAxes } from "./directions";
+import { aspect, cameraMatrix } from "./directions";
 import { Failure } from "./failure";
 import type { SkyTables } from "./protocol";
 import { FRAGMENT, VERTEX } from "./shader";
+import { Uniforms } from "./uniforms";
 import { BALANCES, PROJECTIONS, QUANTITIES, TONES, type View } from "./view";
 
 const RADIANS = Math.PI / 180;
 /** Luminance of scene white at exposure value 0 (ISO 100), cd m⁻², and what a sky's mean is of white. */
 const WHITE_AT_EV_0 = 1.2;
 const SKY = 0.36;
-
-const NAMES = [
-  "roots", "degrees", "size", "projection", "axes", "half_field", "horizon", "ends", "intervals", "sun", "quantity",
-  "polariser", "has_polariser", "white", "tone", "is_daylight",
-] as const;
-
-type Places = Record<(typeof NAMES)[number], WebGLUniformLocation | null>;
 
 export interface Pixels {
   width: number;
@@ -28,11 +22,12 @@ export interface Pixels {
 export class Renderer {
   readonly #gl: WebGL2RenderingContext;
   readonly #canvas: HTMLCanvasElement;
-  #places!: Places;
+  #uniforms!: Uniforms;
   #textures: WebGLTexture[] = [];
   #tables: SkyTables | null = null;
   /** Of the canvas on the page; to ask it in each frame would lay the page out each time. */
   #cssHeight: number;
+  readonly #axes = new Float32Array(9);
 
   constructor(canvas: HTMLCanvasElement) {
     const gl = canvas.getContext("webgl2", { antialias: false, depth: false, preserveDrawingBuffer: true });
@@ -102,24 +97,24 @@ export class Renderer {
     const tables = this.#tables;
     if (!tables) return;
     const gl = this.#gl;
-    const at = this.#places;
+    const u = this.#uniforms;
     const h = tables.header;
-    gl.viewport(0, 0, width, height);
-    gl.uniform2f(at.size, width, height);
-    gl.uniform1i(at.projection, PROJECTIONS.indexOf(view.projection));
-    gl.uniformMatrix3fv(at.axes, false, cameraAxes(view).flat());
-    gl.uniform1f(at.half_field, Math.tan((view.field * RADIANS) / 2));
-    gl.uniform4f(at.horizon, h[0]!, h[1]!, h[2]!, h[3]!);
-    gl.uniform3f(at.ends, h[4]!, h[5]!, h[6]!);
-    gl.uniform3i(at.intervals, h[7]!, h[8]!, h[9]!);
-    gl.uniform2f(at.sun, Math.cos(view.sunAzimuth * RADIANS), Math.sin(view.sunAzimuth * RADIANS));
     const hasDegrees = tables.degrees !== null;
-    gl.uniform1i(at.quantity, hasDegrees ? QUANTITIES.indexOf(view.quantity) : 0);
-    gl.uniform1i(at.has_polariser, Number(hasDegrees && view.polariser !== null));
-    gl.uniform1f(at.polariser, (view.polariser ?? 0) * RADIANS);
-    gl.uniform1f(at.white, WHITE_AT_EV_0 * 2 ** this.exposure(view));
-    gl.uniform1i(at.tone, tone);
-    gl.uniform1i(at.is_daylight, Number(BALANCES[0] === view.balance));
+    gl.viewport(0, 0, width, height);
+    u.put("size", width, height);
+    u.put("projection", PROJECTIONS.indexOf(view.projection));
+    u.array("axes", cameraMatrix(view, this.#axes));
+    u.put("half_field", Math.tan((view.field * RADIANS) / 2));
+    u.put("horizon", h[0]!, h[1]!, h[2]!, h[3]!);
+    u.put("ends", h[4]!, h[5]!, h[6]!);
+    u.put("intervals", h[7]!, h[8]!, h[9]!);
+    u.put("sun", Math.cos(view.sunAzimuth * RADIANS), Math.sin(view.sunAzimuth * RADIANS));
+    u.put("quantity", hasDegrees ? QUANTITIES.indexOf(view.quantity) : 0);
+    u.put("has_polariser", Number(hasDegrees && view.polariser !== null));
+    u.put("polariser", (view.polariser ?? 0) * RADIANS);
+    u.put("white", WHITE_AT_EV_0 * 2 ** this.exposure(view));
+    u.put("tone", tone);
+    u.put("is_daylight", Number(BALANCES[0] === view.balance));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
@@ -139,10 +134,9 @@ export class Renderer {
       throw new Failure(`The sky's shader does not run here: ${[gl.getProgramInfoLog(program), ...logs].join(" ")}`);
     }
     gl.useProgram(program);
-    const places = NAMES.map((name) => [name, gl.getUniformLocation(program, name)] as const);
-    this.#places = Object.fromEntries(places) as Places;
-    gl.uniform1i(this.#places.roots, 0);
-    gl.uniform1i(this.#places.degrees, 1);
+    this.#uniforms = new Uniforms(gl, program);
+    this.#uniforms.put("roots", 0);
+    this.#uniforms.put("degrees", 1);
     this.#textures = [gl.createTexture(), gl.createTexture()];
     const nothing = new Float32Array(4);
     for (const unit of [0, 1]) this.#texture(unit, 1, 1, nothing);

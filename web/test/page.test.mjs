@@ -293,43 +293,59 @@ test("the first picture needs little, and a walk through the sliders only what i
   await page.context().close();
 });
 
-/** CPU milliseconds of the page's main thread for each frame while a slider moves, the least of three runs: what else
- * the machine does only adds to it. */
+const RUNS = 15;
+const FRAMES = 20;
+
+/** CPU milliseconds of the page's main thread for each frame while a slider moves, all that the browser does there
+ * included: the median of runs, as what else the machine does adds to some. */
 async function frames(page, id) {
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
   const state = async () => {
     const { metrics } = await session.send("Performance.getMetrics");
-    const draws = await page.evaluate(() => performance.getEntriesByName("draw").length);
-    return [metrics.find(({ name }) => name === "TaskDuration").value, draws];
+    return [metrics.find(({ name }) => name === "TaskDuration").value, await page.evaluate(() => globalThis.drawn)];
   };
   const runs = [];
-  for (let run = 0; run < 3; run++) {
+  for (let run = 0; run < RUNS; run++) {
     const before = await state();
-    await page.evaluate(async (id) => {
-      const slider = document.getElementById(id);
-      for (let i = 0; i < 60; i++) {
-        slider.value = `${0.3 + 0.005 * i}`;
-        slider.dispatchEvent(new Event("input"));
-        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      }
-    }, id);
-    await ready(page);
+    await page.evaluate(
+      async ({ id, run, count }) => {
+        const slider = document.getElementById(id);
+        for (let i = 0; i < count; i++) {
+          slider.value = `${0.3 + 0.001 * (count * run + i)}`;
+          slider.dispatchEvent(new Event("input"));
+          await new Promise(requestAnimationFrame);
+        }
+      },
+      { id, run, count: FRAMES },
+    );
     const after = await state();
-    const drawn = after[1] - before[1];
-    runs.push({ drawn, milliseconds: (1e3 * (after[0] - before[0])) / drawn });
+    runs.push({ drawn: after[1] - before[1], milliseconds: (1e3 * (after[0] - before[0])) / FRAMES });
   }
-  return runs.reduce((a, b) => (b.milliseconds < a.milliseconds ? b : a));
+  await ready(page);
+  runs.sort((a, b) => a.milliseconds - b.milliseconds);
+  const [least, median, most] = [runs[0], runs[RUNS >> 1], runs.at(-1)].map((run) => run.milliseconds);
+  return { least, median, most, drawn: runs.reduce((sum, run) => sum + run.drawn, 0) };
 }
 
 test("a frame takes little of the page's thread", async () => {
   const { page } = await newPage(browser);
+  await page.addInitScript(() => {
+    const { drawArrays } = WebGL2RenderingContext.prototype;
+    globalThis.drawn = 0;
+    WebGL2RenderingContext.prototype.drawArrays = function (...args) {
+      globalThis.drawn++;
+      return drawArrays.apply(this, args);
+    };
+  });
   await open(page, server.url, `size=${SIZE}`);
   const found = { turning: await frames(page, "sunAzimuth-slider"), rising: await frames(page, "sunElevation-slider") };
-  const lines = Object.entries(found).map(([name, f]) => `${name},${f.drawn},${f.milliseconds.toFixed(2)}`);
-  writeFileSync(`${OUT}frames.csv`, `what,frames,cpu_ms_a_frame\n${lines.join("\n")}\n`);
+  const line = ([name, f]) => [name, f.drawn, ...[f.least, f.median, f.most].map((v) => v.toFixed(2))].join(",");
+  const lines = Object.entries(found).map(line);
+  writeFileSync(`${OUT}frames.csv`, `what,frames,least_cpu_ms_a_frame,median,most\n${lines.join("\n")}\n`);
   console.log(`  ${lines.join("\n  ")}`);
-  assert.ok(Object.values(found).every((f) => f.drawn >= 60 && f.milliseconds <= 4), lines.join("; "));
+  // Every step of the slider was drawn.
+  assert.ok(Object.values(found).every((f) => f.drawn >= RUNS * FRAMES && f.median <= 4), lines.join("; "));
   await page.context().close();
 });
 
