@@ -29,6 +29,12 @@ export function cameraMatrix(view: View, out: Float32Array): Float32Array {
   return out;
 }
 
+/** Towards the sun. */
+export function sunVector({ sunElevation, sunAzimuth }: View): Vector {
+  const [height, azimuth] = [sunElevation * RADIANS, sunAzimuth * RADIANS];
+  return [Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)];
+}
+
 /** Components along the camera's axes at a place, both −1 to 1 to the right and upwards; null outside a fish-eye. */
 function local(view: View, right: number, above: number): Vector | null {
   if (view.projection === "lat-long") {

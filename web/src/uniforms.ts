@@ -12,6 +12,7 @@ const FLOATS: Record<number, Set> = {
 const INTEGERS: Record<number, Set> = {
   1: (gl, at, v) => gl.uniform1i(at, v[0]!),
   3: (gl, at, v) => gl.uniform3i(at, v[0]!, v[1]!, v[2]!),
+  4: (gl, at, v) => gl.uniform4i(at, v[0]!, v[1]!, v[2]!, v[3]!),
 };
 
 class Uniform {
@@ -20,9 +21,9 @@ class Uniform {
   readonly #set: Set;
 
   constructor(gl: WebGL2RenderingContext, program: WebGLProgram, { name, type, size }: WebGLActiveInfo) {
-    const integers: number[] = [gl.INT, gl.INT_VEC3, gl.BOOL, gl.SAMPLER_2D];
+    const integers: number[] = [gl.INT, gl.INT_VEC3, gl.INT_VEC4, gl.BOOL, gl.SAMPLER_2D];
     const parts = new Map<number, number>([
-      [gl.FLOAT_VEC2, 2], [gl.FLOAT_VEC3, 3], [gl.FLOAT_VEC4, 4], [gl.FLOAT_MAT3, 9], [gl.INT_VEC3, 3],
+      [gl.FLOAT_VEC2, 2], [gl.FLOAT_VEC3, 3], [gl.FLOAT_VEC4, 4], [gl.FLOAT_MAT3, 9], [gl.INT_VEC3, 3], [gl.INT_VEC4, 4],
     ]);
     const count = parts.get(type) ?? 1;
     this.#at = gl.getUniformLocation(program, name);

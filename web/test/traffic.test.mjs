@@ -1,0 +1,57 @@
+// What the first picture takes, and what walks through the sliders fetch.
+
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { launch, newPage, open } from "./browser.mjs";
+import { says } from "./page_text.mjs";
+import { serve } from "./server.mjs";
+import { csv, markdown, walks } from "./walks.mjs";
+
+const FOLDER = new URL("../dist", import.meta.url).pathname;
+const OUT = new URL("../out/", import.meta.url).pathname;
+
+let browser, server;
+
+before(async () => {
+  mkdirSync(OUT, { recursive: true });
+  server = await serve(FOLDER);
+  browser = await launch();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+test("the first picture comes within a second, of little", async () => {
+  const loads = [];
+  for (let i = 0; i < 3; i++) {
+    const { page, complaints } = await newPage(browser);
+    server.log.length = 0;
+    await open(page, server.url, "");
+    const bytes = (isModel) =>
+      server.log.filter(({ name }) => name.endsWith(".welkin") === isModel).reduce((sum, entry) => sum + entry.bytes, 0);
+    const milliseconds = await page.evaluate(() => performance.getEntriesByName("first-picture")[0].startTime);
+    loads.push({ milliseconds: Math.round(milliseconds), code: bytes(false), model: bytes(true) });
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  }
+  const lines = loads.map(({ milliseconds, code, model }) => `${milliseconds},${code},${model}`);
+  writeFileSync(`${OUT}first.csv`, `milliseconds,code_bytes,model_bytes\n${lines.join("\n")}\n`);
+  console.log(`  ${lines.join("\n  ")}`);
+  assert.ok(loads.every(({ code, model }) => code <= 300_000 && model <= 150_000), lines.join("; "));
+  // A machine that has more to do takes longer for some.
+  assert.ok(Math.min(...loads.map(({ milliseconds }) => milliseconds)) <= 1000, lines.join("; "));
+});
+
+test("walks through the sliders fetch only what is new", async () => {
+  const { rows, complaints } = await walks(browser, server);
+  writeFileSync(`${OUT}walks.csv`, csv(rows));
+  console.log(markdown(rows));
+  assert.deepEqual(complaints, []);
+  const cheap = rows.filter(({ step }) => /^(sun|albedo)/.test(step));
+  assert.ok(cheap.length > 10 && cheap.every(({ requests }) => requests === 0), JSON.stringify(cheap));
+  assert.ok(rows.every(({ bytes }) => bytes <= 600_000), JSON.stringify(rows));
+  assert.ok(says("walks", markdown(rows)), "README.md says something else: WRITE=1 node --test test/traffic.test.mjs");
+});
