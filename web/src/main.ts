@@ -9,6 +9,7 @@ import type { Limits, Resolution, SkyTables, Traffic } from "./protocol";
 import { chart, describe } from "./reading";
 import { Renderer } from "./renderer";
 import { Latest, Skies } from "./skies";
+import { moonAt } from "./moon";
 import { sunAt } from "./sun";
 import { fromHash, START, toHash, type View } from "./view";
 import { isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
@@ -235,7 +236,8 @@ class Page {
     note("The link to this view is on the clipboard.");
   }
 
-  placeSun(): void {
+  /** Where they stand at a date, a time and a place. */
+  placeLights(hasMoon: boolean): void {
     const [instant, latitude, longitude] = ["instant", "latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
     const date = new Date(`${instant!.value}Z`);
     const place = { latitude: latitude!.valueAsNumber, longitude: longitude!.valueAsNumber };
@@ -247,9 +249,18 @@ class Page {
     }
     const { elevation, azimuth } = sunAt(date, place);
     const lowest = ((this.#limits?.elevations[0] ?? 0) * 180) / Math.PI;
+    const signed = (azimuth: number) => (azimuth > 180 ? azimuth - 360 : azimuth);
+    const moon = hasMoon ? moonAt(date, place) : null;
     const depth = elevation < lowest ? ": too deep for its light" : "";
-    note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°${depth}.`);
-    this.change({ sunElevation: elevation, sunAzimuth: azimuth > 180 ? azimuth - 360 : azimuth }, false);
+    note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°${depth}${moon ? `, the moon at ${moon.elevation.toFixed(1)}°` : ""}.`);
+    this.change(
+      {
+        sunElevation: elevation,
+        sunAzimuth: signed(azimuth),
+        ...(moon && { moonElevation: moon.elevation, moonAzimuth: signed(moon.azimuth), moonPhase: moon.phase }),
+      },
+      false,
+    );
   }
 }
 
@@ -329,7 +340,8 @@ function listen(page: Page): void {
   on("link", () => page.link());
   on("png", () => page.png());
   on("exr", () => page.exr());
-  on("place-sun", () => page.placeSun());
+  on("place-sun", () => page.placeLights(false));
+  on("place-both", () => page.placeLights(true));
   byId("controls", HTMLFormElement).addEventListener("submit", (event) => event.preventDefault());
   byId("full-spectrum", HTMLInputElement).addEventListener("change", () => page.point(page.place));
   canvas.addEventListener("keydown", (event) => onKey(page, event));
