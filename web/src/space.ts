@@ -43,7 +43,9 @@ uniform vec2 space_layers;  // coordinate of the first, and their distance
 uniform ivec4 space_counts; // intervals: layers, up, down, azimuths
 const float DEEPEST = -0.2095; // rad, below which a model has no sun
 
-vec3 beyond(vec3 v) {
+vec3 beyond(vec3 direction) {
+  // Devices take sines and cosines lightly, and grazing rays do not forgive that.
+  vec3 v = direction / length(direction);
   float nearest = eye * length(v.xy);
   if (v.z >= 0.0 || nearest >= 1.0) return vec3(0.0);
   float half_chord = sqrt((1.0 - nearest) * (1.0 + nearest));

@@ -13,7 +13,7 @@ if (wasm.open_file(0) !== 0) throw new Error("the model does not open");
 const COUNT = 20;
 function measure(resolution, polarised, grounded, altitude) {
   const once = (i) => {
-    const error = wasm.prepare(0, altitude, 59400, 0.2, 0.3 + 0.01 * i, polarised) || wasm.bake(0, ...resolution, polarised, grounded);
+    const error = wasm.prepare(0, altitude, 59400, 0.2, 0.3 + 0.01 * i, -1, polarised) || wasm.bake(0, ...resolution, polarised, grounded);
     if (error !== 0) throw new Error(`error ${error}`);
   };
   for (let i = 0; i < 5; i++) once(i);

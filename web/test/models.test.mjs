@@ -58,9 +58,9 @@ test("a sun that is too deep leaves the night, and says so", () =>
 const SPACE = [
   ["altitude=100000&projection=lat-long", ["--altitude", "100000", "--projection", "lat-long"]],
   ["altitude=400000&projection=lat-long&sunAzimuth=50", ["--altitude", "400000", "--projection", "lat-long", "--sun-azimuth", "50"]],
-  ["altitude=400000&projection=lat-long&sunElevation=-15", ["--altitude", "400000", "--projection", "lat-long", "--sun-elevation", "-15"]],
+  ["altitude=400000&projection=lat-long&sunElevation=-5", ["--altitude", "400000", "--projection", "lat-long", "--sun-elevation", "-5"]],
   ["altitude=2500000&projection=lat-long&sunElevation=55&visibility=30", ["--altitude", "2500000", "--projection", "lat-long", "--sun-elevation", "55", "--visibility", "30"]],
-  ["altitude=20000000&projection=lat-long&sunElevation=-40", ["--altitude", "20000000", "--projection", "lat-long", "--sun-elevation", "-40"]],
+  ["altitude=5000000&projection=lat-long&sunElevation=-40&ground=black", ["--altitude", "5000000", "--projection", "lat-long", "--sun-elevation", "-40"]],
   ["altitude=800000&projection=side&ground=black", ["--altitude", "800000", "--projection", "side"]],
 ];
 
@@ -68,7 +68,7 @@ test("the air from outside is the library's", () =>
   withView("", async (page) => {
     for (const [hash, args] of SPACE) {
       await open(page, server.url, `size=${SIZE}&${hash}`);
-      await compare(page, hash.includes("black") || args.includes("-40") || args.includes("-15") ? args : [...args, "--ground"]);
+      await compare(page, hash.includes("black") ? args : [...args, "--ground"]);
     }
   }));
 
@@ -91,7 +91,7 @@ test("Hosek and Wilkie's sky is that of another reader of their data", () =>
       await open(page, server.url, `${view}&compare=hosek&divider=0`);
       const { width, planes } = readExr(await download(page, "exr"));
       // Between the pixels that the place is next to.
-      const [x, y] = [width / 2 - (azimuth / 360) * width, (zenith / 180) * HEIGHT];
+      const [x, y] = [width / 2 - (azimuth / 360) * width, (zenith / 180) * HEIGHT].map(Math.round);
       const near = (plane) => {
         const at = [[-1, -1], [0, -1], [-1, 0], [0, 0]].map(([i, j]) => plane[(y + j) * width + ((x + i + width) % width)]);
         return at.reduce((a, b) => a + b) / 4;

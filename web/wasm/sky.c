@@ -304,7 +304,7 @@ welkin_error bake_space(uint32_t index, double visibility, double albedo, double
     const float values[SPACE_HEADER] = {(float)g.dip, (float)g.up_end, (float)g.down_end, (float)g.azimuth_end,
                                         (float)g.first, (float)g.step, (float)g.layers, 0};
     memcpy(header, values, sizeof values);
-    return space_fill(&g, &s->file, &c, grounded, s->scratch, floats, table);
+    return space_fill(&g, &s->file, &c, grounded, step / 6, s->scratch, floats, table);
 }
 
 /* Optical thickness of molecules and particles over that of molecules, at the wavelength next to 550 nm: the library's

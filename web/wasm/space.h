@@ -38,7 +38,7 @@ static void space_layout(space_grid *g, const welkin_file *f, double low, double
     g->azimuth_end = welkin__asinh(WELKIN__PI / WELKIN__AZIMUTH_SCALE);
     g->first = space_coordinate(low);
     span = space_coordinate(high) - g->first;
-    g->layers = (uint32_t)fmin(fmax(ceil(span / step), 1), most);
+    g->layers = (uint32_t)fmin(fmax(ceil(span / step), 3), most);
     g->step = span / g->layers;
 }
 
@@ -74,7 +74,7 @@ static welkin_error space_row(const space_grid *g, const welkin_sky *sky, const 
 
 /* Fills [layer][row][column][4]. The scratch is that of a sky. */
 static welkin_error space_fill(const space_grid *g, const welkin_file *f, const welkin_conditions *conditions,
-                               int is_grounded, float *scratch, size_t floats, float *out)
+                               int is_grounded, double ground_step, float *scratch, size_t floats, float *out)
 {
     static ground under;
     welkin_conditions c = *conditions;
@@ -83,7 +83,7 @@ static welkin_error space_fill(const space_grid *g, const welkin_file *f, const 
     welkin_error error = WELKIN_OK;
     c.altitude = welkin_altitude(f, f->altitudes - 1);
     c.solar_elevation = (low + high) / 2;
-    if (is_grounded) error = ground_prepare(&under, f, &c, (high - low) / 2 + g->dip, 0.025);
+    if (is_grounded) error = ground_prepare(&under, f, &c, (high - low) / 2 + g->dip, ground_step);
     for (layer = 0; layer <= g->layers && !error; layer++) {
         welkin_sky sky;
         c.solar_elevation = fmin(fmax(space_sun(g, layer), f->elevation_min), f->elevation_max);
