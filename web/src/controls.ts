@@ -1,7 +1,7 @@
 // The form: what can be set, as numbers, sliders and lists.
 
 import type { Limits } from "./protocol";
-import { BALANCES, GROUNDS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
+import { BALANCES, DISCS, GROUNDS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
 
 export type Change = (change: Partial<View>, isMoving: boolean) => void;
 
@@ -36,6 +36,7 @@ const CHOICES: Choice[] = [
     names: { up: "Fish-eye, zenith", side: "Fish-eye, horizon", "lat-long": "Whole sphere", perspective: "Perspective" },
   },
   { key: "quantity", label: "Shows", names: { radiance: "Light", dolp: "Degree of polarisation" } },
+  { key: "disc", label: "Sun's disc", names: { hidden: "Hidden", shown: "Shown" } },
   { key: "tone", label: "Tone curve", names: { linear: "Linear", filmic: "Filmic", aces: "ACES" } },
   { key: "ground", label: "Ground", names: { lit: "In sun and skylight", black: "Black" } },
   { key: "balance", label: "White balance", names: { daylight: "Daylight film", d65: "As measured" } },
@@ -46,6 +47,7 @@ const KNOWN: Record<Words, readonly string[]> = {
   tone: TONES,
   balance: BALANCES,
   ground: GROUNDS,
+  disc: DISCS,
 };
 
 function sliders({ altitudes, visibilities, elevations }: Limits): Slider[] {

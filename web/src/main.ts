@@ -88,7 +88,7 @@ class Page {
   }
 
   #scene(): Scene {
-    const { sunElevation, visibility, altitude, albedo, ground, quantity, polariser } = this.#view;
+    const { sunElevation, visibility, altitude, albedo, ground, disc, quantity, polariser } = this.#view;
     return {
       altitude,
       visibility: 1e3 * visibility,
@@ -97,6 +97,7 @@ class Page {
       polarised: quantity === "dolp" || polariser !== null,
       // The degree of polarisation is that of the sky's light alone.
       grounded: ground === "lit" && quantity !== "dolp",
+      disc: disc === "shown" && quantity !== "dolp",
       resolution: this.#isMoving ? COARSE : FINE,
     };
   }

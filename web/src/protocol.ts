@@ -15,6 +15,8 @@ export interface Scene {
   polarised: boolean;
   /** Whether the ground is seen; it is black if not. */
   grounded: boolean;
+  /** Whether the sun's disc is seen. */
+  disc: boolean;
   resolution: Resolution;
 }
 
@@ -25,6 +27,8 @@ export interface SkyTables {
   root: Float32Array;
   /** Q/I and U/(I sin azimuth) of X, Y, Z and nothing, by row and column; absent without polarisation. */
   degrees: Float32Array | null;
+  /** The header of the sun's disc and its coefficients, as `wasm/sun.h` has them; absent without it. */
+  disc: Float32Array | null;
   /** Geometric mean of the luminance of the upper hemisphere, cd m⁻². */
   mean: number;
   /** How long the worker took, ms: to prepare the sky, and to fill the tables. */

@@ -1,5 +1,6 @@
 // The reader in WebAssembly, with types.
 
+import { DISC_ROWS, DISC_TERMS } from "./disc";
 import { Failure, unusable } from "./failure";
 import type { Limits, Scene, SkyTables, Spectrum } from "./protocol";
 import type { Destination, Range } from "./ranged_file";
@@ -19,6 +20,7 @@ interface Exports {
     grounded: number,
     spectral: number,
   ): number;
+  plan_disc(index: number): number;
   range_total(): number;
   range_list(): number;
   prepare(
@@ -30,6 +32,8 @@ interface Exports {
     polarised: number,
   ): number;
   bake(index: number, up: number, down: number, azimuths: number, polarised: number, grounded: number): number;
+  bake_disc(index: number): number;
+  disc_at(): number;
   table_at(): number;
   header_at(): number;
   mean_of(index: number): number;
@@ -39,6 +43,8 @@ interface Exports {
 }
 
 const HEADER = 12;
+/** Of the disc: header, and coefficients by elevation. */
+const DISC = 4 + 4 * DISC_TERMS * DISC_ROWS;
 /** Wavelengths of a spectrum between the nodes, nm. */
 const FIRST = 300;
 const STEP = 5;
@@ -109,6 +115,7 @@ export class ReaderFile implements Destination {
     const { altitude, visibility } = scene;
     const [polarised, grounded] = [Number(scene.polarised), Number(scene.grounded)];
     this.#check(this.wasm.plan(this.index, altitude, visibility, polarised, grounded, Number(spectral)));
+    if (scene.disc) this.#check(this.wasm.plan_disc(this.index));
     const total = this.wasm.range_total();
     const list = new Float64Array(this.wasm.memory.buffer, this.wasm.range_list(), 2 * total);
     return Array.from({ length: total }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
@@ -118,9 +125,10 @@ export class ReaderFile implements Destination {
     this.#check(this.wasm.prepare(this.index, altitude, visibility, albedo, elevation, Number(polarised)));
   }
 
-  bake({ resolution, polarised, grounded }: Scene): Omit<SkyTables, "prepared" | "baked"> {
+  bake({ resolution, polarised, grounded, disc }: Scene): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, azimuths] = resolution;
     this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised), Number(grounded)));
+    if (disc) this.#check(this.wasm.bake_disc(this.index));
     const nodes = (up + down + 2) * (azimuths + 1);
     const floats = (at: number, length: number) => new Float32Array(this.wasm.memory.buffer, at, length).slice();
     const table = this.wasm.table_at();
@@ -128,6 +136,7 @@ export class ReaderFile implements Destination {
       header: floats(this.wasm.header_at(), HEADER),
       root: floats(table, 4 * nodes),
       degrees: polarised ? floats(table + 16 * nodes, 8 * nodes) : null,
+      disc: disc ? floats(this.wasm.disc_at(), DISC) : null,
       mean: this.wasm.mean_of(this.index),
     };
   }

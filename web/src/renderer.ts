@@ -1,5 +1,6 @@
 // Draws the sky with WebGL2.
 
+import { DISC_ROWS, DISC_TERMS, discBox, discParts, sunDirection } from "./disc";
 import { aspect, cameraAxes } from "./directions";
 import { Failure } from "./failure";
 import type { SkyTables } from "./protocol";
@@ -10,10 +11,13 @@ const RADIANS = Math.PI / 180;
 /** Luminance of scene white at exposure value 0 (ISO 100), cd m⁻², and what a sky's mean is of white. */
 const WHITE_AT_EV_0 = 1.2;
 const SKY = 0.36;
+/** Textures: square roots, degrees, (2 is the target of `light`), the sun's disc. */
+const DISC_UNIT = 5;
+const UNITS = [0, 1, DISC_UNIT];
 
 const NAMES = [
   "roots", "degrees", "size", "projection", "axes", "half_field", "horizon", "ends", "intervals", "sun", "quantity",
-  "polariser", "has_polariser", "white", "tone", "is_daylight",
+  "polariser", "has_polariser", "white", "tone", "is_daylight", "disc", "disc_axis", "disc_sun", "disc_box", "disc_parts",
 ] as const;
 
 type Places = Record<(typeof NAMES)[number], WebGLUniformLocation | null>;
@@ -66,6 +70,7 @@ export class Renderer {
     const [rows, columns] = [tables.header[7]! + tables.header[8]! + 2, tables.header[9]! + 1];
     this.#texture(0, columns, rows, tables.root);
     if (tables.degrees) this.#texture(1, 2 * columns, rows, tables.degrees);
+    if (tables.disc) this.#texture(DISC_UNIT, DISC_TERMS, DISC_ROWS, tables.disc.subarray(4));
     this.#tables = tables;
   }
 
@@ -120,7 +125,21 @@ export class Renderer {
     gl.uniform1f(at.white, WHITE_AT_EV_0 * 2 ** this.exposure(view));
     gl.uniform1i(at.tone, tone);
     gl.uniform1i(at.is_daylight, Number(BALANCES[0] === view.balance));
+    this.#placeDisc(view, width, height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  #placeDisc(view: View, width: number, height: number): void {
+    const { disc, header } = this.#tables!;
+    const [gl, at] = [this.#gl, this.#places];
+    if (!disc) return gl.uniform4f(at.disc_axis, 0, 0, 0, 1);
+    const sun = sunDirection(view, header[10]);
+    const box = discBox(view, sun);
+    const pixels = box.map((edge, i) => ((edge + 1) / 2) * (i % 2 === 0 ? width : height));
+    gl.uniform4f(at.disc_axis, disc[0]!, disc[1]!, disc[2]!, disc[3]!);
+    gl.uniform3f(at.disc_sun, ...sun);
+    gl.uniform4f(at.disc_box, pixels[0]!, pixels[1]!, pixels[2]!, pixels[3]!);
+    gl.uniform1i(at.disc_parts, discParts(box, width, height));
   }
 
   #build(): void {
@@ -143,9 +162,11 @@ export class Renderer {
     this.#places = Object.fromEntries(places) as Places;
     gl.uniform1i(this.#places.roots, 0);
     gl.uniform1i(this.#places.degrees, 1);
-    this.#textures = [gl.createTexture(), gl.createTexture()];
+    gl.uniform1i(this.#places.disc, DISC_UNIT);
+    this.#textures = [];
     const nothing = new Float32Array(4);
-    for (const unit of [0, 1]) this.#texture(unit, 1, 1, nothing);
+    for (const unit of UNITS) this.#textures[unit] = gl.createTexture();
+    for (const unit of UNITS) this.#texture(unit, 1, 1, nothing);
   }
 
   #texture(unit: number, width: number, height: number, values: Float32Array): void {

@@ -1,6 +1,8 @@
 // The sky in a shader. Directions are those of `directions.ts`, the table's coordinates those of `welkin.h` (the
 // comment above its baked skies), colours and tone curves those of `welkin render`.
 
+import { DISC_SHADER } from "./disc";
+
 export const VERTEX = `#version 300 es
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
@@ -31,8 +33,9 @@ const float PI = 3.14159265358979;
 `;
 
 const DIRECTIONS = `
-bool look(out vec3 local) {
-  vec2 place = gl_FragCoord.xy / size * 2.0 - 1.0;
+// Of a place in pixels.
+bool look(vec2 pixel, out vec3 local) {
+  vec2 place = pixel / size * 2.0 - 1.0;
   if (projection == 2) {
     vec2 angle = vec2(place.x * PI, place.y * 0.5 * PI);
     local = vec3(cos(angle.y) * sin(angle.x), sin(angle.y), cos(angle.y) * cos(angle.x));
@@ -177,7 +180,7 @@ vec3 develop(vec3 rgb) {
 const MAIN = `
 void main() {
   vec3 local;
-  if (!look(local)) {
+  if (!look(gl_FragCoord.xy, local)) {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }
@@ -189,9 +192,10 @@ void main() {
     return;
   }
   if (has_polariser) xyz = pass(v, xyz, light);
+  xyz += (has_polariser ? 0.5 : 1.0) * disc_mean();
   vec3 rgb = linear_srgb(xyz);
   colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
 }
 `;
 
-export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, FILM, MAIN].join("");
+export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, DISC_SHADER, FILM, MAIN].join("");

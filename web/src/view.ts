@@ -4,6 +4,7 @@ export const PROJECTIONS = ["up", "side", "lat-long", "perspective"] as const;
 export const QUANTITIES = ["radiance", "dolp"] as const;
 export const TONES = ["linear", "filmic", "aces"] as const;
 export const GROUNDS = ["lit", "black"] as const;
+export const DISCS = ["hidden", "shown"] as const;
 export const BALANCES = ["daylight", "d65"] as const;
 
 export type Projection = (typeof PROJECTIONS)[number];
@@ -18,6 +19,7 @@ export interface View {
   altitude: number;
   albedo: number;
   ground: (typeof GROUNDS)[number];
+  disc: (typeof DISCS)[number];
   /** EV at ISO 100; automatic if null. */
   exposure: number | null;
   projection: Projection;
@@ -40,6 +42,7 @@ export const START: View = {
   altitude: 0,
   albedo: 0.2,
   ground: "lit",
+  disc: "hidden",
   exposure: null,
   projection: "up",
   viewAzimuth: 0,
@@ -69,7 +72,14 @@ export const BOUNDS: Record<NumberKey, readonly [low: number, high: number]> = {
   size: [16, 2048],
 };
 
-const WORDS = { projection: PROJECTIONS, quantity: QUANTITIES, tone: TONES, balance: BALANCES, ground: GROUNDS } as const;
+const WORDS = {
+  projection: PROJECTIONS,
+  quantity: QUANTITIES,
+  tone: TONES,
+  balance: BALANCES,
+  ground: GROUNDS,
+  disc: DISCS,
+} as const;
 
 /** The part of an address after #, with what differs from the start. */
 export function toHash(view: View): string {

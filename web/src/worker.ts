@@ -86,7 +86,7 @@ async function sky(scene: Scene): Promise<SkyTables> {
 
 async function look(question: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
   const model = opened(question.spectral ? spectra : colours);
-  await model.prepare({ ...question.scene, polarised: true, grounded: false }, question.spectral);
+  await model.prepare({ ...question.scene, polarised: true, grounded: false, disc: false }, question.spectral);
   return model.file.look(question.direction, question.spectral);
 }
 
@@ -94,7 +94,8 @@ async function answer(question: Question): Promise<void> {
   if (question.kind === "open") return say(await open(question));
   if (question.kind === "look") return say({ kind: "look", id: question.id, spectrum: await look(question) });
   const tables = await sky(question.scene);
-  const transfer = [tables.header.buffer, tables.root.buffer, ...(tables.degrees ? [tables.degrees.buffer] : [])];
+  const { header, root, degrees, disc } = tables;
+  const transfer = [header, root, degrees, disc].flatMap((values) => (values ? [values.buffer] : []));
   say({ kind: "sky", id: question.id, tables }, transfer);
 }
 

@@ -105,6 +105,38 @@ test("perspective and polariser are the library's above its flat landscape", asy
   await page.context().close();
 });
 
+/** Sum of a plane of an EXR. */
+const total = (plane) => plane.reduce((a, b) => a + b, 0);
+
+test("the sun's disc is the library's, however large pixels are", async (t) => {
+  const { page, complaints } = await newPage(browser);
+  for (const [link, args, part] of [
+    ["sunElevation=20", []],
+    ["sunElevation=0.1", ["--sun-elevation", "0.1"]],
+    ["sunElevation=90", ["--sun-elevation", "90"]],
+    ["projection=side&sunElevation=5&altitude=3000", ["--projection", "side", "--sun-elevation", "5", "--altitude", "3000", "--ground"]],
+    ["projection=lat-long&sunAzimuth=-180&ground=black", ["--projection", "lat-long", "--sun-azimuth", "-180"]],
+    // The disc fills much of this picture, its lower part is behind the horizon, which is below the upper 3/4.
+    ["projection=perspective&sunElevation=0.05&pitch=0.25&field=1&altitude=2&exposure=11",
+      ["--terrain", "flat", "--sun-elevation", "0.05", "--pitch", "0.25", "--field-of-view", "1", "--altitude", "0", "--exposure", "11"], 0.75],
+  ]) {
+    await t.test(link, async () => {
+      await open(page, server.url, `size=${SIZE}&disc=shown&${link}`);
+      await compare(page, ["--sun", ...args], { part });
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#exr").click()]);
+      const mine = readExr(readFileSync(await download.path()));
+      const theirs = readExr(render("exr", ["--size", `${SIZE}`, "--sun", ...args]));
+      // What is left of green and blue in the light of a sun that sets is as good as nothing.
+      const most = Math.max(...Object.values(theirs.planes).map(total));
+      const off = ["R", "G", "B"].map((name) => (total(mine.planes[name]) - total(theirs.planes[name])) / most);
+      console.log(`  ${link}: light off by ${off.map((share) => `${(100 * share).toFixed(2)} %`).join(", ")}`);
+      assert.ok(off.every((share) => Math.abs(share) < 0.02), `${off}`);
+    });
+  }
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
 test("a slider moves the picture, and the link brings it back", async () => {
   const { page } = await newPage(browser);
   await open(page, server.url, `size=${SIZE}`);

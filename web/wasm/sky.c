@@ -10,6 +10,7 @@
 #include "welkin.h"
 
 #include "ground.h"
+#include "sun.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
@@ -33,6 +34,7 @@ static float header[HEADER];
 static double ranges[2 * MOST_RANGES];
 static uint32_t range_count;
 static double answers[4 * WELKIN_MAX_WAVELENGTHS];
+static float disc[SUN_HEADER + SUN_FLOATS];
 
 /* Memory for the bytes of a file of this length, all zero; null if there is none. */
 EXPORT(reserve) unsigned char *reserve(uint32_t index, uint32_t length)
@@ -124,6 +126,9 @@ welkin_error plan(uint32_t index, double altitude, double visibility, int polari
     for (i = 0; polarised && i < scene.radiances; i++) want(&scene.polarisation[i].entry);
     return WELKIN_OK;
 }
+
+/* Adds what the sun's disc needs. */
+EXPORT(plan_disc) welkin_error plan_disc(uint32_t index) { return want_kind(&slots[index].file, WELKIN__TRANSMITTANCE); }
 
 EXPORT(range_total) uint32_t range_total(void) { return range_count; }
 EXPORT(range_list) double *range_list(void) { return ranges; }
@@ -268,6 +273,14 @@ welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths,
     s->mean_luminance = mean_luminance(&baked);
     return WELKIN_OK;
 }
+
+/* The disc over the prepared sky: its header, and its table. */
+EXPORT(bake_disc) welkin_error bake_disc(uint32_t index)
+{
+    return sun_fill(&slots[index].file, &slots[index].conditions, disc + SUN_HEADER, disc);
+}
+
+EXPORT(disc_at) float *disc_at(void) { return disc; }
 
 EXPORT(table_at) float *table_at(void) { return table; }
 EXPORT(header_at) float *header_at(void) { return header; }
