@@ -92,7 +92,9 @@ vec3 disc_mean() {
   step /= float(disc_parts);
   for (int i = 0; i < disc_parts; i++) {
     for (int j = 0; j < disc_parts; j++) {
-      if (look(low + step * (vec2(i, j) + 0.5), local)) sum += spread(local) * disc_light(axes * local);
+      if (!look(low + step * (vec2(i, j) + 0.5), local)) continue;
+      vec3 v = axes * local;
+      if (is_open(v)) sum += spread(local) * disc_light(v);
     }
   }
   return whole > 0.0 ? sum * step.x * step.y / whole : vec3(0.0);

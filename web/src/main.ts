@@ -9,6 +9,7 @@ import { chart, describe } from "./reading";
 import { Renderer } from "./renderer";
 import { Latest, Skies } from "./skies";
 import { sunAt } from "./sun";
+import { COARSE_AIR, EYE, FINE_AIR } from "./terrain";
 import { fromHash, START, toHash, type View } from "./view";
 
 const FILES = { colours: "sky.welkin", spectra: "default.welkin", code: "welkin.wasm" };
@@ -89,8 +90,9 @@ class Page {
 
   #scene(): Scene {
     const { sunElevation, visibility, altitude, albedo, ground, disc, quantity, polariser } = this.#view;
+    const hasLand = hasLandscape(this.#view);
     return {
-      altitude,
+      altitude: hasLand ? Math.max(altitude, EYE) : altitude,
       visibility: 1e3 * visibility,
       albedo,
       elevation: (sunElevation * Math.PI) / 180,
@@ -98,6 +100,7 @@ class Page {
       // The degree of polarisation is that of the sky's light alone.
       grounded: ground === "lit" && quantity !== "dolp",
       disc: disc === "shown" && quantity !== "dolp",
+      air: hasLand ? (this.#isMoving ? COARSE_AIR : FINE_AIR) : null,
       resolution: this.#isMoving ? COARSE : FINE,
     };
   }
@@ -109,6 +112,11 @@ class Page {
       .run(async () => {
         const scene = this.#scene();
         const key = JSON.stringify(scene);
+        if (scene.air) {
+          const land = await this.#skies.land(scene.altitude, scene.elevation, (this.#view.sunAzimuth * Math.PI) / 180);
+          this.#renderer.uploadLand(land);
+          this.#draw();
+        }
         if (key === this.#shown) return;
         const tables = await this.#skies.sky(scene);
         this.#renderer.upload(tables);
@@ -220,6 +228,11 @@ class Page {
     note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°.`);
     this.change({ sunElevation: elevation, sunAzimuth: azimuth > 180 ? azimuth - 360 : azimuth }, false);
   }
+}
+
+/** The degree of polarisation is that of the sky alone. */
+function hasLandscape({ terrain, quantity }: View): boolean {
+  return terrain === "ridges" && quantity !== "dolp";
 }
 
 function sentence(view: View, exposure: number): string {

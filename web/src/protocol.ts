@@ -1,5 +1,7 @@
 // What the page and its worker say to each other.
 
+import type { Air, AirSize, Land } from "./terrain";
+
 /** Intervals above the horizon, below it, and of the azimuth. */
 export type Resolution = readonly [up: number, down: number, azimuths: number];
 
@@ -17,6 +19,8 @@ export interface Scene {
   grounded: boolean;
   /** Whether the sun's disc is seen. */
   disc: boolean;
+  /** How finely the air before a landscape is tabulated; null without one. */
+  air: AirSize | null;
   resolution: Resolution;
 }
 
@@ -29,6 +33,7 @@ export interface SkyTables {
   degrees: Float32Array | null;
   /** The header of the sun's disc and its coefficients, as `wasm/sun.h` has them; absent without it. */
   disc: Float32Array | null;
+  air: Air | null;
   /** Geometric mean of the luminance of the upper hemisphere, cd m⁻². */
   mean: number;
   /** How long the worker took, ms: to prepare the sky, and to fill the tables. */
@@ -56,11 +61,13 @@ export type Spectrum = Float64Array;
 export type Question =
   | { kind: "open"; id: number; colours: string; spectra: string; code: string }
   | { kind: "sky"; id: number; scene: Scene }
+  | { kind: "land"; id: number; altitude: number; elevation: number; azimuth: number }
   | { kind: "look"; id: number; scene: Scene; direction: [number, number, number]; spectral: boolean };
 
 export type Answer =
   | { kind: "opened"; id: number; limits: Limits }
   | { kind: "sky"; id: number; tables: SkyTables }
+  | { kind: "land"; id: number; land: Land }
   | { kind: "look"; id: number; spectrum: Spectrum }
   | { kind: "failed"; id: number; message: string }
   | { kind: "traffic"; traffic: Traffic };

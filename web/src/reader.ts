@@ -4,6 +4,7 @@ import { DISC_ROWS, DISC_TERMS } from "./disc";
 import { Failure, unusable } from "./failure";
 import type { Limits, Scene, SkyTables, Spectrum } from "./protocol";
 import type { Destination, Range } from "./ranged_file";
+import { AIR_DISTANCES, AIR_HEADER, type Air, type AirSize, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -32,6 +33,17 @@ interface Exports {
     polarised: number,
   ): number;
   bake(index: number, up: number, down: number, azimuths: number, polarised: number, grounded: number): number;
+  plan_air(index: number, visibility: number): number;
+  bake_air(index: number, rows: number, columns: number, highest: number): number;
+  air_at(): number;
+  air_header_at(): number;
+  sunlight_at(): number;
+  terrain_open(index: number): number;
+  terrain_look(index: number, camera: number): number;
+  terrain_shade(elevation: number, azimuth: number): void;
+  terrain_normals_at(): number;
+  terrain_slopes_at(): number;
+  terrain_shadows_at(): number;
   bake_disc(index: number): number;
   disc_at(): number;
   table_at(): number;
@@ -74,6 +86,10 @@ export class Reader {
 
 export class ReaderFile implements Destination {
   #base = 0;
+  /** The altitude for which ridges are there, and the tangent of the highest elevation of one. */
+  #camera: number | null = null;
+  #highest = 0;
+  #landscape: { altitude: number; elevation: number; azimuth: number } | null = null;
 
   constructor(
     private readonly wasm: Exports,
@@ -116,6 +132,7 @@ export class ReaderFile implements Destination {
     const [polarised, grounded] = [Number(scene.polarised), Number(scene.grounded)];
     this.#check(this.wasm.plan(this.index, altitude, visibility, polarised, grounded, Number(spectral)));
     if (scene.disc) this.#check(this.wasm.plan_disc(this.index));
+    if (scene.air) this.#check(this.wasm.plan_air(this.index, visibility));
     const total = this.wasm.range_total();
     const list = new Float64Array(this.wasm.memory.buffer, this.wasm.range_list(), 2 * total);
     return Array.from({ length: total }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
@@ -125,20 +142,58 @@ export class ReaderFile implements Destination {
     this.#check(this.wasm.prepare(this.index, altitude, visibility, albedo, elevation, Number(polarised)));
   }
 
-  bake({ resolution, polarised, grounded, disc }: Scene): Omit<SkyTables, "prepared" | "baked"> {
+  bake({ resolution, polarised, grounded, disc, air, altitude }: Scene): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, azimuths] = resolution;
     this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised), Number(grounded)));
     if (disc) this.#check(this.wasm.bake_disc(this.index));
+    const before = air && this.#air(air, altitude);
     const nodes = (up + down + 2) * (azimuths + 1);
-    const floats = (at: number, length: number) => new Float32Array(this.wasm.memory.buffer, at, length).slice();
+    const floats = (at: number, length: number) => this.#floats(at, length);
     const table = this.wasm.table_at();
     return {
       header: floats(this.wasm.header_at(), HEADER),
       root: floats(table, 4 * nodes),
       degrees: polarised ? floats(table + 16 * nodes, 8 * nodes) : null,
       disc: disc ? floats(this.wasm.disc_at(), DISC) : null,
+      air: before,
       mean: this.wasm.mean_of(this.index),
     };
+  }
+
+  /** The air before the landscape, for a camera so high (m). */
+  #air([rows, columns]: AirSize, altitude: number): Air {
+    this.#ridges(altitude);
+    this.#check(this.wasm.bake_air(this.index, rows, columns, Math.min(Math.atan(this.#highest) + 0.01, 1.5)));
+    return {
+      header: this.#floats(this.wasm.air_header_at(), AIR_HEADER),
+      table: this.#floats(this.wasm.air_at(), 8 * rows * columns * AIR_DISTANCES),
+      sunlight: this.#floats(this.wasm.sunlight_at(), 4 * SUNLIGHT_COLUMNS * SUNLIGHT_ROWS),
+    };
+  }
+
+  #ridges(altitude: number): void {
+    if (this.#camera === altitude) return;
+    if (!this.wasm.terrain_open(this.index)) throw unusable("scratch", this.url);
+    this.#highest = this.wasm.terrain_look(this.index, altitude);
+    this.#camera = altitude;
+  }
+
+  /** What differs from the landscape that was asked for last. */
+  land(altitude: number, elevation: number, azimuth: number): Land {
+    const last = this.#landscape;
+    this.#ridges(altitude);
+    const isShaded = last?.elevation === elevation && last?.azimuth === azimuth;
+    if (!isShaded) this.wasm.terrain_shade(elevation, azimuth);
+    this.#landscape = { altitude, elevation, azimuth };
+    return {
+      normals: last ? null : this.#floats(this.wasm.terrain_normals_at(), 2 * COLUMNS * RINGS),
+      slopes: last?.altitude === altitude ? null : this.#floats(this.wasm.terrain_slopes_at(), COLUMNS * RINGS),
+      shadows: isShaded ? null : this.#floats(this.wasm.terrain_shadows_at(), CELLS * CELLS),
+    };
+  }
+
+  #floats(at: number, length: number): Float32Array {
+    return new Float32Array(this.wasm.memory.buffer, at, length).slice();
   }
 
   /** At the wavelengths of the file, or between them. */

@@ -5,6 +5,7 @@ import { aspect, cameraAxes } from "./directions";
 import { Failure } from "./failure";
 import type { SkyTables } from "./protocol";
 import { FRAGMENT, VERTEX } from "./shader";
+import { AIR_DISTANCES, type Air, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
 import { BALANCES, PROJECTIONS, QUANTITIES, TONES, type View } from "./view";
 
 const RADIANS = Math.PI / 180;
@@ -13,11 +14,19 @@ const WHITE_AT_EV_0 = 1.2;
 const SKY = 0.36;
 /** Textures: square roots, degrees, (2 is the target of `light`), the sun's disc. */
 const DISC_UNIT = 5;
-const UNITS = [0, 1, DISC_UNIT];
+const [SLOPES, NORMALS, SHADOWS, AIR, SUNLIGHT] = [6, 7, 8, 9, 10] as const;
+const UNITS = [0, 1, DISC_UNIT, SLOPES, NORMALS, SHADOWS, AIR, SUNLIGHT];
 
 const NAMES = [
   "roots", "degrees", "size", "projection", "axes", "half_field", "horizon", "ends", "intervals", "sun", "quantity",
   "polariser", "has_polariser", "white", "tone", "is_daylight", "disc", "disc_axis", "disc_sun", "disc_box", "disc_parts",
+  "slopes", "normals", "shadows", "air", "sunlight", "land", "land_sun",
+] as const;
+
+const LAND = [
+  ["slopes", SLOPES, COLUMNS, RINGS],
+  ["normals", NORMALS, COLUMNS, RINGS],
+  ["shadows", SHADOWS, CELLS, CELLS],
 ] as const;
 
 type Places = Record<(typeof NAMES)[number], WebGLUniformLocation | null>;
@@ -35,6 +44,7 @@ export class Renderer {
   #places!: Places;
   #textures: WebGLTexture[] = [];
   #tables: SkyTables | null = null;
+  #land: Land = { normals: null, slopes: null, shadows: null };
   /** Of the canvas on the page; to ask it in each frame would lay the page out each time. */
   #cssHeight: number;
 
@@ -53,6 +63,7 @@ export class Renderer {
     canvas.addEventListener("webglcontextrestored", () => {
       this.#build();
       if (this.#tables) this.upload(this.#tables);
+      this.uploadLand(this.#land);
       canvas.dispatchEvent(new Event("redraw"));
     });
   }
@@ -71,7 +82,25 @@ export class Renderer {
     this.#texture(0, columns, rows, tables.root);
     if (tables.degrees) this.#texture(1, 2 * columns, rows, tables.degrees);
     if (tables.disc) this.#texture(DISC_UNIT, DISC_TERMS, DISC_ROWS, tables.disc.subarray(4));
+    if (tables.air) this.#uploadAir(tables.air);
     this.#tables = tables;
+  }
+
+  #uploadAir({ header, table, sunlight }: Air): void {
+    const [rows, columns] = [header[3]!, header[4]!];
+    this.#texture(AIR, 2 * columns, rows * AIR_DISTANCES, table);
+    this.#texture(SUNLIGHT, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS, sunlight);
+  }
+
+  uploadLand(land: Land): void {
+    const all = { ...this.#land };
+    for (const [key, unit, width, height] of LAND) {
+      const values = land[key];
+      if (!values) continue;
+      this.#texture(unit, width, height, values);
+      all[key] = values;
+    }
+    this.#land = all;
   }
 
   draw(view: View): void {
@@ -126,7 +155,18 @@ export class Renderer {
     gl.uniform1i(at.tone, tone);
     gl.uniform1i(at.is_daylight, Number(BALANCES[0] === view.balance));
     this.#placeDisc(view, width, height);
+    this.#placeLand(view);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  #placeLand(view: View): void {
+    const [gl, at, { air, header }] = [this.#gl, this.#places, this.#tables!];
+    const values = new Float32Array(20);
+    if (air) values.set(air.header);
+    values[18] = Number(air !== null && this.#land.slopes !== null);
+    values[19] = Number(view.ground === "lit");
+    gl.uniform4fv(at.land, values);
+    gl.uniform3f(at.land_sun, ...sunDirection(view, header[10]));
   }
 
   #placeDisc(view: View, width: number, height: number): void {
@@ -163,6 +203,9 @@ export class Renderer {
     gl.uniform1i(this.#places.roots, 0);
     gl.uniform1i(this.#places.degrees, 1);
     gl.uniform1i(this.#places.disc, DISC_UNIT);
+    for (const [name, unit] of LAND) gl.uniform1i(this.#places[name], unit);
+    gl.uniform1i(this.#places.air, AIR);
+    gl.uniform1i(this.#places.sunlight, SUNLIGHT);
     this.#textures = [];
     const nothing = new Float32Array(4);
     for (const unit of UNITS) this.#textures[unit] = gl.createTexture();
@@ -173,7 +216,10 @@ export class Renderer {
     const gl = this.#gl;
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, this.#textures[unit]!);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, values);
+    const channels = values.length / (width * height);
+    const [inner, format] =
+      channels === 1 ? [gl.R32F, gl.RED] : channels === 2 ? [gl.RG32F, gl.RG] : ([gl.RGBA32F, gl.RGBA] as const);
+    gl.texImage2D(gl.TEXTURE_2D, 0, inner, width, height, 0, format, gl.FLOAT, values);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }

@@ -2,6 +2,7 @@
 // comment above its baked skies), colours and tone curves those of `welkin render`.
 
 import { DISC_SHADER } from "./disc";
+import { TERRAIN_SHADER } from "./terrain";
 
 export const VERTEX = `#version 300 es
 void main() {
@@ -135,12 +136,14 @@ vec3 sequential(float x) {
 }
 `;
 
-const FILM = `
+const COLOURS = `
 vec3 linear_srgb(vec3 c) {
   return vec3(dot(vec3(3.24097, -1.5373832, -0.49861076), c), dot(vec3(-0.96924365, 1.8759675, 0.04155506), c),
               dot(vec3(0.05563008, -0.20397696, 1.0569715), c));
 }
+`;
 
+const FILM = `
 vec3 into_gamut(vec3 rgb) {
   float least = min(min(rgb.r, rgb.g), min(rgb.b, 0.0));
   float luminance = dot(rgb, vec3(0.2126, 0.7152, 0.0722));
@@ -192,10 +195,12 @@ void main() {
     return;
   }
   if (has_polariser) xyz = pass(v, xyz, light);
-  xyz += (has_polariser ? 0.5 : 1.0) * disc_mean();
-  vec3 rgb = linear_srgb(xyz);
+  float half_of = has_polariser ? 0.5 : 1.0;
+  vec3 land_rgb, disc_xyz = disc_mean();
+  float sky = sky_share(v, land_rgb);
+  vec3 rgb = sky * linear_srgb(xyz) + half_of * (linear_srgb(disc_xyz) + land_rgb);
   colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
 }
 `;
 
-export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, DISC_SHADER, FILM, MAIN].join("");
+export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, COLOURS, TERRAIN_SHADER, DISC_SHADER, FILM, MAIN].join("");

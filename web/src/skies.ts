@@ -2,6 +2,7 @@
 
 import { Failure } from "./failure";
 import type { Answer, Limits, Question, Scene, SkyTables, Spectrum, Traffic } from "./protocol";
+import type { Land } from "./terrain";
 
 type Without<T> = T extends { id: number } ? Omit<T, "id"> : never;
 
@@ -33,6 +34,11 @@ export class Skies {
 
   async sky(scene: Scene): Promise<SkyTables> {
     return (await this.#ask({ kind: "sky", scene }, "sky")).tables;
+  }
+
+  /** What changed of the landscape since the last question. */
+  async land(altitude: number, elevation: number, azimuth: number): Promise<Land> {
+    return (await this.#ask({ kind: "land", altitude, elevation, azimuth }, "land")).land;
   }
 
   async look(scene: Scene, direction: [number, number, number], spectral: boolean): Promise<Spectrum> {

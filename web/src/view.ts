@@ -5,6 +5,7 @@ export const QUANTITIES = ["radiance", "dolp"] as const;
 export const TONES = ["linear", "filmic", "aces"] as const;
 export const GROUNDS = ["lit", "black"] as const;
 export const DISCS = ["hidden", "shown"] as const;
+export const TERRAINS = ["none", "ridges"] as const;
 export const BALANCES = ["daylight", "d65"] as const;
 
 export type Projection = (typeof PROJECTIONS)[number];
@@ -20,6 +21,7 @@ export interface View {
   albedo: number;
   ground: (typeof GROUNDS)[number];
   disc: (typeof DISCS)[number];
+  terrain: (typeof TERRAINS)[number];
   /** EV at ISO 100; automatic if null. */
   exposure: number | null;
   projection: Projection;
@@ -43,6 +45,7 @@ export const START: View = {
   albedo: 0.2,
   ground: "lit",
   disc: "hidden",
+  terrain: "none",
   exposure: null,
   projection: "up",
   viewAzimuth: 0,
@@ -79,6 +82,7 @@ const WORDS = {
   balance: BALANCES,
   ground: GROUNDS,
   disc: DISCS,
+  terrain: TERRAINS,
 } as const;
 
 /** The part of an address after #, with what differs from the start. */

@@ -86,16 +86,24 @@ async function sky(scene: Scene): Promise<SkyTables> {
 
 async function look(question: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
   const model = opened(question.spectral ? spectra : colours);
-  await model.prepare({ ...question.scene, polarised: true, grounded: false, disc: false }, question.spectral);
+  await model.prepare({ ...question.scene, polarised: true, grounded: false, disc: false, air: null }, question.spectral);
   return model.file.look(question.direction, question.spectral);
 }
+
+const buffers = (all: (Float32Array | null)[]) => all.flatMap((values) => (values ? [values.buffer] : []));
 
 async function answer(question: Question): Promise<void> {
   if (question.kind === "open") return say(await open(question));
   if (question.kind === "look") return say({ kind: "look", id: question.id, spectrum: await look(question) });
+  if (question.kind === "land") {
+    const model = opened(colours);
+    await model.open();
+    const land = model.file.land(question.altitude, question.elevation, question.azimuth);
+    return say({ kind: "land", id: question.id, land }, buffers([land.normals, land.slopes, land.shadows]));
+  }
   const tables = await sky(question.scene);
-  const { header, root, degrees, disc } = tables;
-  const transfer = [header, root, degrees, disc].flatMap((values) => (values ? [values.buffer] : []));
+  const { header, root, degrees, disc, air } = tables;
+  const transfer = buffers([header, root, degrees, disc, ...(air ? [air.header, air.table, air.sunlight] : [])]);
   say({ kind: "sky", id: question.id, tables }, transfer);
 }
 

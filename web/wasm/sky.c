@@ -34,6 +34,7 @@ static float header[HEADER];
 static double ranges[2 * MOST_RANGES];
 static uint32_t range_count;
 static double answers[4 * WELKIN_MAX_WAVELENGTHS];
+static welkin_baked last_baked; /* lies in the memory of the table */
 static float disc[SUN_HEADER + SUN_FLOATS];
 
 /* Memory for the bytes of a file of this length, all zero; null if there is none. */
@@ -72,6 +73,9 @@ EXPORT(elevation_limit) double elevation_limit(uint32_t index, int highest)
 {
     return highest ? slots[index].file.elevation_max : slots[index].file.elevation_min;
 }
+
+#include "air.h"
+#include "terrain.h"
 
 static void want(const welkin__entry *entry)
 {
@@ -129,6 +133,26 @@ welkin_error plan(uint32_t index, double altitude, double visibility, int polari
 
 /* Adds what the sun's disc needs. */
 EXPORT(plan_disc) welkin_error plan_disc(uint32_t index) { return want_kind(&slots[index].file, WELKIN__TRANSMITTANCE); }
+
+/* Adds what the air before a landscape needs. */
+EXPORT(plan_air) welkin_error plan_air(uint32_t index, double visibility)
+{
+    const welkin_file *f = &slots[index].file;
+    welkin_conditions c = {welkin_altitude(f, 0), visibility, 0, 0, 0};
+    welkin__stencil nodes;
+    uint32_t i;
+    welkin__entry entry;
+    welkin_error error = want_kind(f, WELKIN__TRANSMITTANCE);
+    if (!error) error = want_kind(f, WELKIN__SOURCE_BASIS);
+    if (error || !welkin__conditions_into_range(f, &c)) return error ? error : WELKIN_ERROR_RANGE;
+    nodes = welkin__cubic(f->bytes + f->visibility_at, f->visibilities, c.visibility, WELKIN__INVERSE);
+    for (i = 0; i < nodes.count && !error; i++) {
+        if (nodes.weight[i] == 0) continue;
+        error = welkin__find(f, WELKIN__SOURCE, WELKIN__NONE, nodes.node[i], &entry);
+        if (!error) want(&entry);
+    }
+    return error;
+}
 
 EXPORT(range_total) uint32_t range_total(void) { return range_count; }
 EXPORT(range_list) double *range_list(void) { return ranges; }
@@ -269,6 +293,7 @@ welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths,
     if (!error) error = spread(s, &baked, polarised);
     if (!error && grounded) error = add_ground(s, &baked, polarised);
     if (error) return error;
+    last_baked = baked;
     describe(&baked, asin(s->sky.sun[2]));
     s->mean_luminance = mean_luminance(&baked);
     return WELKIN_OK;
@@ -280,6 +305,15 @@ EXPORT(bake_disc) welkin_error bake_disc(uint32_t index)
     return sun_fill(&slots[index].file, &slots[index].conditions, disc + SUN_HEADER, disc);
 }
 
+/* The air below an elevation under the sky that was baked last. */
+EXPORT(bake_air) welkin_error bake_air(uint32_t index, uint32_t rows, uint32_t columns, double highest)
+{
+    return air_bake(&slots[index], &last_baked, rows, columns, highest);
+}
+
+EXPORT(air_at) float *air_at(void) { return air_table; }
+EXPORT(air_header_at) float *air_header_at(void) { return air_header; }
+EXPORT(sunlight_at) float *sunlight_at(void) { return sunlight; }
 EXPORT(disc_at) float *disc_at(void) { return disc; }
 
 EXPORT(table_at) float *table_at(void) { return table; }
