@@ -5,7 +5,7 @@ import { aspect, cameraAxes } from "./directions";
 import { Failure } from "./failure";
 import type { SkyTables } from "./protocol";
 import { FRAGMENT, VERTEX } from "./shader";
-import { AIR_DISTANCES, type Air, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
+import { AIR_DISTANCES, AIR_HEADER, type Air, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
 import { BALANCES, PROJECTIONS, QUANTITIES, TONES, type View } from "./view";
 
 const RADIANS = Math.PI / 180;
@@ -161,7 +161,7 @@ export class Renderer {
 
   #placeLand(view: View): void {
     const [gl, at, { air, header }] = [this.#gl, this.#places, this.#tables!];
-    const values = new Float32Array(20);
+    const values = new Float32Array(AIR_HEADER);
     if (air) values.set(air.header);
     values[18] = Number(air !== null && this.#land.slopes !== null);
     values[19] = Number(view.ground === "lit");

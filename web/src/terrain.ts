@@ -8,8 +8,8 @@ const FIRST = 20;
 const LAST = 1.2e6;
 const CELL = 250;
 /** Of the tables of air: floats of the header, distances, and what follows from it. */
-export const AIR_HEADER = 20;
-export const AIR_DISTANCES = 30;
+export const AIR_HEADER = 24;
+export const AIR_DISTANCES = 48;
 export const SUNLIGHT_COLUMNS = 65;
 export const SUNLIGHT_ROWS = 12;
 /** Where the height of the eye begins, m: it does not lie on the ground. */
@@ -18,7 +18,7 @@ export const EYE = 2;
 /** Rows and columns of the air while something moves, and when it rests. */
 export type AirSize = readonly [rows: number, columns: number];
 export const COARSE_AIR: AirSize = [16, 7];
-export const FINE_AIR: AirSize = [28, 13];
+export const FINE_AIR: AirSize = [40, 13];
 
 export interface Air {
   header: Float32Array;
@@ -37,7 +37,7 @@ const float = (value: number) => (Number.isInteger(value) ? value.toFixed(1) : `
 
 export const TERRAIN_SHADER = `
 uniform sampler2D slopes, normals, shadows, air, sunlight;
-uniform vec4 land[5]; // the header of the air; what is left of the last: whether there is a landscape, whether it is lit
+uniform vec4 land[6]; // the header of the air; what is left of the last but one: whether there is a landscape, whether it is lit
 uniform vec3 land_sun;
 
 // Columns to both sides of an azimuth, and where between them.
@@ -149,15 +149,17 @@ vec3 air_before(vec3 v, float distance, out vec3 factors) {
   int first = min(int(column), columns - 2);
   float row = (arsinh((atan(v.z, level) + land[0].x) / 0.04) - land[0].y) * land[0].z;
   vec4 by_row = between(clamp(row, 0.0, float(rows - 1)), rows - 1, false, first_row);
-  float far = clamp(log(distance / 100.0) * ${float((AIR_DISTANCES - 1) / Math.log(1.2e4))}, 0.0, ${float(AIR_DISTANCES - 1)});
-  int slice = min(int(far), ${AIR_DISTANCES - 2});
+  float far = clamp(log(distance / land[5].x) * land[5].y, 0.0, ${float(AIR_DISTANCES - 1)});
+  int first_slice;
+  vec4 by_slice = between(far, ${AIR_DISTANCES - 1}, false, first_slice);
   vec3 light = vec3(0.0), depth = vec3(0.0);
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < 4; k++) {
+    int slice = clamp(first_slice + k, 0, ${AIR_DISTANCES - 1});
     for (int i = 0; i < 4; i++) {
-      int y = (slice + k) * rows + clamp(first_row + i, 0, rows - 1);
+      int y = slice * rows + clamp(first_row + i, 0, rows - 1);
       for (int j = 0; j < 2; j++) {
-        float along = column - float(first), out_of = far - float(slice);
-        float weight = by_row[i] * (j == 0 ? 1.0 - along : along) * (k == 0 ? 1.0 - out_of : out_of);
+        float along = column - float(first);
+        float weight = by_slice[k] * by_row[i] * (j == 0 ? 1.0 - along : along);
         light += weight * texelFetch(air, ivec2(2 * (first + j), y), 0).rgb;
         depth += weight * texelFetch(air, ivec2(2 * (first + j) + 1, y), 0).rgb;
       }

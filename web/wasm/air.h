@@ -5,10 +5,9 @@
 #ifndef WELKIN_WEB_AIR_H
 #define WELKIN_WEB_AIR_H
 
-enum { AIR_MOST_ROWS = 48, AIR_MOST_COLUMNS = 33, AIR_DISTANCES = 30, AIR_LOBES = 3, AIR_HEADER = 20 };
+enum { AIR_MOST_ROWS = 48, AIR_MOST_COLUMNS = 33, AIR_DISTANCES = 48, AIR_LOBES = 3, AIR_HEADER = 24 };
 enum { SUNLIGHT_COLUMNS = 65, SUNLIGHT_ROWS = 12 };
 
-static const double AIR_NEAREST = 100, AIR_FARTHEST = 1.2e6; /* of its distances, m */
 static const double AIR_ROW_SCALE = 0.04;                      /* rad; rows crowd this close to the horizon */
 static const double SUNLIGHT_REACH = 0.19, SUNLIGHT_TOP = 4000; /* how much higher or lower the sun stands; m */
 
@@ -22,7 +21,7 @@ typedef struct air_view {
     const slot *from;
     welkin_aerial_perspective aerial;
     air_shape shape;
-    double altitude, white[3];
+    double altitude, nearest, farthest, white[3]; /* nearest and farthest of the distances, m */
 } air_view;
 
 static float air_table[8 * AIR_MOST_ROWS * AIR_MOST_COLUMNS * AIR_DISTANCES]; /* [distance][row][column][light, depth] */
@@ -125,12 +124,22 @@ static void air_write(const air_view *view, const double *light, const double *b
     out[3] = out[7] = 0;
 }
 
-static double air_distance(int i) { return AIR_NEAREST * exp(log(AIR_FARTHEST / AIR_NEAREST) * i / (AIR_DISTANCES - 1)); }
+/* What ends a line of sight is not nearer than the highest ridge, nor much farther than the horizon. */
+static void air_find_reach(air_view *view, double radius)
+{
+    view->nearest = fmax(100, 0.7 * (view->altitude - 4000));
+    view->farthest = fmax(1.05 * sqrt(view->altitude * (2 * radius + view->altitude)), 120e3);
+}
+
+static double air_distance(const air_view *view, int i)
+{
+    return view->nearest * exp(log(view->farthest / view->nearest) * i / (AIR_DISTANCES - 1));
+}
 
 /* All distances of a direction; one follows the other by `stride` floats. */
 static welkin_error air_ray(const air_view *view, const double v[3], float *out, size_t stride)
 {
-    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    static const double node = 0.57735026918962576;
     const welkin_aerial_perspective *a = &view->aerial;
     double light[WELKIN_MAX_WAVELENGTHS] = {0}, through[WELKIN_MAX_WAVELENGTHS], beyond[WELKIN_MAX_WAVELENGTHS];
     double emission[3][WELKIN_MAX_WAVELENGTHS], columns[WELKIN_MAX_CONSTITUENTS] = {0}, before = 0, lowest;
@@ -149,9 +158,9 @@ static welkin_error air_ray(const air_view *view, const double v[3], float *out,
     piece = ray;
     piece.end = ray.start;
     for (i = 0; i < AIR_DISTANCES && !error; i++) {
-        double distance = air_distance(i), half = (distance - before) / 2;
-        for (j = 0; j < 3; j++) {
-            double s = before + half * (1 + node[j]);
+        double distance = air_distance(view, i), half = (distance - before) / 2;
+        for (j = -1; j < 2; j += 2) {
+            double s = before + half * (1 + j * node);
             welkin__spot spot = welkin__spot_at(a, view->altitude, v, s);
             piece.start = piece.end;
             piece.end = ray.start + s;
@@ -162,7 +171,7 @@ static welkin_error air_ray(const air_view *view, const double v[3], float *out,
             for (w = 0; w < a->air.file->wavelengths; w++) lowest = fmax(lowest, through[w]);
             if (spot.altitude >= top || lowest < 1e-5) continue;
             welkin__emission(a, &spot, &sight, emission);
-            for (w = 0; w < a->air.file->wavelengths; w++) light[w] += 2 * half * weight[j] * through[w] * emission[0][w];
+            for (w = 0; w < a->air.file->wavelengths; w++) light[w] += half * through[w] * emission[0][w];
         }
         piece.start = piece.end;
         piece.end = ray.start + distance;
@@ -187,7 +196,8 @@ static welkin_error air_fill(const air_view *view, uint32_t rows, uint32_t colum
         (float)dip, (float)low, (float)((rows - 1) / (high - low)), (float)rows, (float)columns,
         (float)view->shape.often, (float)view->shape.molecules, (float)h,
         (float)view->shape.lobe[0], (float)view->shape.lobe[1], (float)view->shape.lobe[2], (float)radius,
-        (float)view->shape.asymmetry[0], (float)view->shape.asymmetry[1], (float)view->shape.asymmetry[2], 0, 0, 0, 0, 0};
+        (float)view->shape.asymmetry[0], (float)view->shape.asymmetry[1], (float)view->shape.asymmetry[2], 0, 0, 0, 0, 0,
+        (float)view->nearest, (float)((AIR_DISTANCES - 1) / log(view->farthest / view->nearest)), 0, 0};
     uint32_t row, column;
     welkin_error error = WELKIN_OK;
     memcpy(air_header, values, sizeof values);
@@ -250,6 +260,7 @@ static welkin_error air_bake(const slot *s, const welkin_baked *baked, uint32_t 
     view.altitude = s->conditions.altitude;
     for (w = 0; w < s->file.wavelengths; w++) ones[w] = 1;
     welkin_xyz(&s->file, ones, view.white);
+    air_find_reach(&view, s->file.planet_radius);
     if (!error) air_find_shape(&view);
     if (!error) error = air_fill(&view, rows, columns, highest);
     if (!error) error = sunlight_fill(&view, s->conditions.solar_elevation);
