@@ -12,13 +12,10 @@ import { Latest, Skies } from "./skies";
 import { moonAt } from "./moon";
 import { sunAt } from "./sun";
 import { fromHash, START, toHash, type View } from "./view";
-import { isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
+import { COARSE, FINE, isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
 
 const FILES = { colours: "sky.welkin", spectra: "default.welkin", code: "welkin.wasm" };
 const HOSEK = "hosek.bin";
-/** While something moves, and when it rests. */
-const COARSE: Resolution = [24, 8, 16];
-const FINE: Resolution = [48, 24, 32];
 /** How long something moves after it moved last, ms. */
 const REST = 150;
 /** Numbers that nobody reads so fast wait that long while something moves, ms: text costs the browser a layout. */
@@ -133,6 +130,8 @@ class Page {
     const changed = SOURCES.filter((source) => before === null || !isSameScene(now[source], before[source]));
     const tables: (SkyTables | null)[] = [];
     for (const source of changed) tables.push(now[source] && (await this.#skies.sky(now[source])));
+    const land = now.land && (await this.#skies.land(now.land.altitude, now.land.elevation, now.land.azimuth));
+    if (land) this.#renderer.uploadLand(land);
     changed.forEach((source, i) => this.#renderer.set(source, tables[i]!));
     this.#renderer.place(now.eye);
     this.#renderer.beside(other?.coefficients ?? null);

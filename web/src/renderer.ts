@@ -1,18 +1,30 @@
 // Draws the sky with WebGL2.
 
-import { aspect, cameraMatrix, sunVector } from "./directions";
+import { aspect, cameraMatrix } from "./directions";
+import { DISC_ROWS, DISC_TERMS, discBox, discParts, sunDirection } from "./disc";
 import { Failure } from "./failure";
 import type { Coefficients } from "./hosek";
 import { WHITE_AT_EV_0, whiteOfPixels, whiteOfSky } from "./metering";
 import type { SkyTables } from "./protocol";
 import { FRAGMENT, VERTEX } from "./shader";
+import { AIR_DISTANCES, AIR_HEADER, type Air, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
 import { Uniforms } from "./uniforms";
 import { BALANCES, PROJECTIONS, QUANTITIES, TONES, type View } from "./view";
 
 const RADIANS = Math.PI / 180;
 /** Textures: square roots and degrees of each light. 2 is the target of `light`. */
-const UNITS = { sun: [0, 1], moon: [8, 9], space: [10, 11] } as const;
-const SAMPLERS = { roots: 0, degrees: 1, moon_roots: 8, moon_degrees: 9, space_roots: 10 };
+const UNITS = { sun: [0, 1], moon: [3, 4], space: [11, 12] } as const;
+const DISC_UNIT = 5;
+const [SLOPES, NORMALS, SHADOWS, AIR, SUNLIGHT] = [6, 7, 8, 9, 10] as const;
+const SAMPLERS = {
+  roots: 0, degrees: 1, moon_roots: 3, moon_degrees: 4, space_roots: 11,
+  disc: DISC_UNIT, slopes: SLOPES, normals: NORMALS, shadows: SHADOWS, air: AIR, sunlight: SUNLIGHT,
+};
+const LAND = [
+  ["slopes", SLOPES, COLUMNS, RINGS],
+  ["normals", NORMALS, COLUMNS, RINGS],
+  ["shadows", SHADOWS, CELLS, CELLS],
+] as const;
 const NONE = new Float32Array(12);
 /** What is seen from space is exposed by a picture of that height at most. */
 const METERED = 128;
@@ -52,6 +64,8 @@ export class Renderer {
   /** White where it is automatic, cd m⁻², and the azimuth between the lights that it is for. */
   #white = WHITE_AT_EV_0;
   #between = NaN;
+  #land: Land = { normals: null, slopes: null, shadows: null };
+  readonly #landValues = new Float32Array(AIR_HEADER);
   /** Of the canvas on the page; to ask it in each frame would lay the page out each time. */
   #cssHeight: number;
   readonly #axes = new Float32Array(9);
@@ -71,6 +85,7 @@ export class Renderer {
     canvas.addEventListener("webglcontextrestored", () => {
       this.#build();
       for (const [source, tables] of this.#tables) this.#upload(source, tables);
+      this.uploadLand(this.#land);
       canvas.dispatchEvent(new Event("redraw"));
     });
   }
@@ -128,7 +143,7 @@ export class Renderer {
     this.#other = other;
   }
 
-  #upload(source: Source, { header: h, root, degrees }: SkyTables): void {
+  #upload(source: Source, { header: h, root, degrees, disc, air }: SkyTables): void {
     const [roots, polarised] = UNITS[source];
     if (source === "space") {
       const columns = h[9]! + 1;
@@ -137,10 +152,29 @@ export class Renderer {
     const [rows, columns] = [h[7]! + h[8]! + 2, h[9]! + 1];
     this.#texture(roots, columns, rows, root);
     if (degrees) this.#texture(polarised, 2 * columns, rows, degrees);
+    if (disc) this.#texture(DISC_UNIT, DISC_TERMS, DISC_ROWS, disc.subarray(4));
+    if (air) this.#uploadAir(air);
   }
 
   #height(view: View): number {
     return view.size ?? Math.max(1, Math.round(this.#cssHeight * Math.min(devicePixelRatio, 2)));
+  }
+
+  #uploadAir({ header, table, sunlight }: Air): void {
+    const [rows, columns] = [header[3]!, header[4]!];
+    this.#texture(AIR, 2 * columns, rows * AIR_DISTANCES, table);
+    this.#texture(SUNLIGHT, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS, sunlight);
+  }
+
+  uploadLand(land: Land): void {
+    const all = { ...this.#land };
+    for (const [key, unit, width, height] of LAND) {
+      const values = land[key];
+      if (!values) continue;
+      this.#texture(unit, width, height, values);
+      all[key] = values;
+    }
+    this.#land = all;
   }
 
   draw(view: View): void {
@@ -192,14 +226,39 @@ export class Renderer {
     const isSplit = view.compare === "hosek" && this.#other !== null && !isBeyond;
     u.put("divider", isSplit ? view.divider / 100 : 2);
     if (isSplit) u.array("hosek", this.#other!);
-    if (isSplit) u.array("hosek_sun", sunVector(view));
+    if (isSplit) u.array("hosek_sun", sunDirection(view));
     u.put("quantity", hasDegrees ? QUANTITIES.indexOf(view.quantity) : 0);
     u.put("has_polariser", Number(hasDegrees && view.polariser !== null));
     u.put("polariser", (view.polariser ?? 0) * RADIANS);
     u.put("white", WHITE_AT_EV_0 * 2 ** this.exposure(view));
     u.put("tone", tone);
     u.put("is_daylight", Number(BALANCES[0] === view.balance));
+    this.#placeDisc(view, width, height);
+    this.#placeLand(view);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  #placeLand(view: View): void {
+    const sun = this.#tables.get("sun");
+    const values = this.#landValues;
+    if (sun?.air) values.set(sun.air.header);
+    values[18] = Number(sun?.air && this.#land.slopes !== null);
+    values[19] = Number(view.ground === "lit");
+    this.#uniforms.array("land", values);
+    if (values[18]) this.#uniforms.array("land_sun", sunDirection(view, sun?.header[10]));
+  }
+
+  #placeDisc(view: View, width: number, height: number): void {
+    const sun = this.#tables.get("sun");
+    const u = this.#uniforms;
+    if (!sun?.disc) return u.put("disc_axis", 0, 0, 0, 1);
+    const there = sunDirection(view, sun.header[10]);
+    const box = discBox(view, there);
+    const pixels = box.map((edge, i) => ((edge + 1) / 2) * (i % 2 === 0 ? width : height));
+    u.array("disc_axis", sun.disc);
+    u.array("disc_sun", there);
+    u.array("disc_box", pixels);
+    u.put("disc_parts", discParts(box, width, height));
   }
 
   #putLight(name: "sun" | "moon", azimuth: number): void {
@@ -215,7 +274,7 @@ export class Renderer {
     const u = this.#uniforms;
     const h = this.#tables.get("space")?.header ?? NONE;
     u.put("eye", this.#eye ?? 1);
-    u.array("space_sun", sunVector(view));
+    u.array("space_sun", sunDirection(view));
     u.put("space_ends", h[0]!, h[1]!, h[2]!, h[3]!);
     u.put("space_layers", h[4]!, h[5]!);
     u.put("space_counts", h[6]!, h[7]!, h[8]!, h[9]!);
@@ -248,7 +307,10 @@ export class Renderer {
     gl.activeTexture(gl.TEXTURE0 + unit);
     if (!this.#textures.has(unit)) this.#textures.set(unit, gl.createTexture());
     gl.bindTexture(gl.TEXTURE_2D, this.#textures.get(unit)!);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, values);
+    const channels = values.length / (width * height);
+    const [inner, format] =
+      channels === 1 ? [gl.R32F, gl.RED] : channels === 2 ? [gl.RG32F, gl.RG] : ([gl.RGBA32F, gl.RGBA] as const);
+    gl.texImage2D(gl.TEXTURE_2D, 0, inner, width, height, 0, format, gl.FLOAT, values);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }

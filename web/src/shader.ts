@@ -3,6 +3,8 @@
 
 import { HOSEK_SHADER } from "./hosek";
 import { SPACE_SHADER } from "./space";
+import { DISC_SHADER } from "./disc";
+import { TERRAIN_SHADER } from "./terrain";
 
 export const VERTEX = `#version 300 es
 void main() {
@@ -38,8 +40,9 @@ const float PI = 3.14159265358979;
 `;
 
 const DIRECTIONS = `
-bool look(out vec3 local) {
-  vec2 place = gl_FragCoord.xy / size * 2.0 - 1.0;
+// Of a place in pixels.
+bool look(vec2 pixel, out vec3 local) {
+  vec2 place = pixel / size * 2.0 - 1.0;
   if (projection == 2) {
     vec2 angle = vec2(place.x * PI, place.y * 0.5 * PI);
     local = vec3(cos(angle.y) * sin(angle.x), sin(angle.y), cos(angle.y) * cos(angle.x));
@@ -152,12 +155,14 @@ vec3 sequential(float x) {
 }
 `;
 
-const FILM = `
+const COLOURS = `
 vec3 linear_srgb(vec3 c) {
   return vec3(dot(vec3(3.24097, -1.5373832, -0.49861076), c), dot(vec3(-0.96924365, 1.8759675, 0.04155506), c),
               dot(vec3(0.05563008, -0.20397696, 1.0569715), c));
 }
+`;
 
+const FILM = `
 vec3 into_gamut(vec3 rgb) {
   float least = min(min(rgb.r, rgb.g), min(rgb.b, 0.0));
   float luminance = dot(rgb, vec3(0.2126, 0.7152, 0.0722));
@@ -197,7 +202,7 @@ vec3 develop(vec3 rgb) {
 const MAIN = `
 void main() {
   vec3 local;
-  if (!look(local)) {
+  if (!look(gl_FragCoord.xy, local)) {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }
@@ -211,10 +216,20 @@ void main() {
     colour = vec4(sequential(min(degree, 1.0)), 1.0);
     return;
   }
-  vec3 rgb = linear_srgb(has_polariser ? pass(v, light) : light.xyz);
-  if (is_other) rgb = (has_polariser ? 0.5 : 1.0) * hosek_wilkie(v);
+  float half_of = has_polariser ? 0.5 : 1.0;
+  if (is_other) {
+    vec3 rgb = half_of * hosek_wilkie(v);
+    colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
+    return;
+  }
+  vec3 land_rgb, disc_xyz = disc_mean();
+  float sky = sky_share(v, land_rgb);
+  vec3 rgb = sky * linear_srgb(has_polariser ? pass(v, light) : light.xyz);
+  rgb += half_of * (linear_srgb(disc_xyz) + land_rgb);
   colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
 }
 `;
 
-export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, SPACE_SHADER, HOSEK_SHADER, POLARISATION, FILM, MAIN].join("");
+export const FRAGMENT = [
+  UNIFORMS, DIRECTIONS, TABLE, SPACE_SHADER, HOSEK_SHADER, POLARISATION, COLOURS, TERRAIN_SHADER, DISC_SHADER, FILM, MAIN,
+].join("");
