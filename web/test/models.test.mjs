@@ -11,9 +11,10 @@ import { bundled, download, reading } from "./tools.mjs";
 const FOLDER = new URL("../dist", import.meta.url).pathname;
 
 let browser, server;
+let spoil = () => null;
 
 before(async () => {
-  server = await serve(FOLDER);
+  server = await serve(FOLDER, (name) => spoil(name));
   browser = await launch();
 });
 
@@ -128,6 +129,20 @@ test("the divider parts the picture, by slider and by hand", () =>
     await enter(page, { compare: "hosek", sunElevation: -3 });
     assert.match(await page.locator("#scene").innerText(), /no sky for a sun below the horizon/);
   }));
+
+test("data of Hosek and Wilkie that are not there are said to be so, and can be tried again", async () => {
+  const { page, complaints } = await newPage(browser);
+  spoil = (name) => name === "/hosek.bin" && { status: 404 };
+  await page.goto(`${server.url}#size=${SIZE}&compare=hosek`);
+  await ready(page, "failed");
+  assert.match(await page.locator("#failure-text").innerText(), /Hosek and Wilkie cannot be fetched: the server says 404/);
+  spoil = () => null;
+  await page.locator("#retry").click();
+  await ready(page);
+  assert.match(await page.locator("#scene").innerText(), /turbidity/);
+  assert.deepEqual(complaints.filter((line) => !line.startsWith("Failed to load resource")), []);
+  await page.context().close();
+});
 
 test("turbidities are the library's", () =>
   withView("&compare=hosek", async (page) => {
