@@ -61,7 +61,7 @@ const SPACE = [
   ["altitude=400000&projection=lat-long&sunAzimuth=50", ["--altitude", "400000", "--projection", "lat-long", "--sun-azimuth", "50"]],
   ["altitude=400000&projection=lat-long&sunElevation=-5", ["--altitude", "400000", "--projection", "lat-long", "--sun-elevation", "-5"]],
   ["altitude=2500000&projection=lat-long&sunElevation=55&visibility=30", ["--altitude", "2500000", "--projection", "lat-long", "--sun-elevation", "55", "--visibility", "30"]],
-  ["altitude=5000000&projection=lat-long&sunElevation=-40&ground=black", ["--altitude", "5000000", "--projection", "lat-long", "--sun-elevation", "-40"]],
+  ["altitude=5000000&projection=lat-long&sunElevation=-14&ground=black", ["--altitude", "5000000", "--projection", "lat-long", "--sun-elevation", "-14"]],
   ["altitude=800000&projection=side&ground=black", ["--altitude", "800000", "--projection", "side"]],
 ];
 
