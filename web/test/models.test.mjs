@@ -11,9 +11,10 @@ import { bundled, download, reading } from "./tools.mjs";
 const FOLDER = new URL("../dist", import.meta.url).pathname;
 
 let browser, server;
+let spoil = () => null;
 
 before(async () => {
-  server = await serve(FOLDER);
+  server = await serve(FOLDER, (name) => spoil(name));
   browser = await launch();
 });
 
@@ -60,7 +61,7 @@ const SPACE = [
   ["altitude=400000&projection=lat-long&sunAzimuth=50", ["--altitude", "400000", "--projection", "lat-long", "--sun-azimuth", "50"]],
   ["altitude=400000&projection=lat-long&sunElevation=-5", ["--altitude", "400000", "--projection", "lat-long", "--sun-elevation", "-5"]],
   ["altitude=2500000&projection=lat-long&sunElevation=55&visibility=30", ["--altitude", "2500000", "--projection", "lat-long", "--sun-elevation", "55", "--visibility", "30"]],
-  ["altitude=5000000&projection=lat-long&sunElevation=-40&ground=black", ["--altitude", "5000000", "--projection", "lat-long", "--sun-elevation", "-40"]],
+  ["altitude=5000000&projection=lat-long&sunElevation=-14&ground=black", ["--altitude", "5000000", "--projection", "lat-long", "--sun-elevation", "-14"]],
   ["altitude=800000&projection=side&ground=black", ["--altitude", "800000", "--projection", "side"]],
 ];
 
@@ -128,6 +129,20 @@ test("the divider parts the picture, by slider and by hand", () =>
     await enter(page, { compare: "hosek", sunElevation: -3 });
     assert.match(await page.locator("#scene").innerText(), /no sky for a sun below the horizon/);
   }));
+
+test("data of Hosek and Wilkie that are not there are said to be so, and can be tried again", async () => {
+  const { page, complaints } = await newPage(browser);
+  spoil = (name) => name === "/hosek.bin" && { status: 404 };
+  await page.goto(`${server.url}#size=${SIZE}&compare=hosek`);
+  await ready(page, "failed");
+  assert.match(await page.locator("#failure-text").innerText(), /Hosek and Wilkie cannot be fetched: the server says 404/);
+  spoil = () => null;
+  await page.locator("#retry").click();
+  await ready(page);
+  assert.match(await page.locator("#scene").innerText(), /turbidity/);
+  assert.deepEqual(complaints.filter((line) => !line.startsWith("Failed to load resource")), []);
+  await page.context().close();
+});
 
 test("turbidities are the library's", () =>
   withView("&compare=hosek", async (page) => {
