@@ -34,11 +34,12 @@ class Page {
   #limits: Limits | null = null;
   #controls: Controls | null = null;
   #skies: Skies;
-  readonly #renderer: Renderer;
+  #renderer: Renderer | null = null;
   readonly #sky = new Latest();
   readonly #look = new Latest();
   #shown = "";
   #isMoving = false;
+  #isLost = false;
   #rest = 0;
   #frame = 0;
   #measures = 0;
@@ -50,19 +51,31 @@ class Page {
     const { view, wrong } = fromHash(location.hash);
     this.#view = view;
     if (wrong.length > 0) note(`Not understood in the link: ${wrong.join(", ")}`);
-    this.#renderer = new Renderer(canvas);
     this.#skies = new Skies("worker.js", showTraffic);
   }
 
   async start(): Promise<void> {
-    const limits = await this.#skies.open(FILES);
+    const [limits, renderer] = await Promise.all([this.#skies.open(FILES), this.#renderer ?? this.#device()]);
     this.#limits = limits;
+    this.#renderer = renderer;
+    root.dataset["gpu"] = renderer.device;
     this.#controls ??= new Controls(limits, (change, isMoving) => this.change(change, isMoving));
     this.change({}, false);
   }
 
+  #device(): Promise<Renderer> {
+    const wanted = new URLSearchParams(location.search).get("gpu");
+    const onLost = (failure: Failure) => {
+      this.#isLost = true;
+      fail(failure);
+    };
+    return Renderer.create(canvas, wanted, onLost);
+  }
+
   /** Starts anew after a failure. */
   async retry(): Promise<void> {
+    // A canvas that drew with one device does not draw with another.
+    if (this.#isLost) return location.reload();
     hideFailure();
     this.#shown = "";
     if (!this.#limits) {
@@ -107,19 +120,20 @@ class Page {
 
   #update(): void {
     this.#draw();
-    if (!this.#limits) return;
+    const renderer = this.#renderer;
+    if (!this.#limits || !renderer) return;
     void this.#sky
       .run(async () => {
         const scene = this.#scene();
         const key = JSON.stringify(scene);
         if (scene.air) {
           const land = await this.#skies.land(scene.altitude, scene.elevation, (this.#view.sunAzimuth * Math.PI) / 180);
-          this.#renderer.uploadLand(land);
+          renderer.uploadLand(land);
           this.#draw();
         }
         if (key === this.#shown) return;
         const tables = await this.#skies.sky(scene);
-        this.#renderer.upload(tables);
+        renderer.upload(tables);
         this.#shown = key;
         this.#measure("prepare", tables.prepared);
         this.#measure("bake", tables.baked);
@@ -139,16 +153,16 @@ class Page {
     if (this.#frame !== 0) return;
     this.#frame = requestAnimationFrame(() => {
       this.#frame = 0;
-      if (this.#renderer.hasSky) this.#paint();
+      if (this.#renderer?.hasSky) this.#paint(this.#renderer);
     });
   }
 
-  #paint(): void {
+  #paint(renderer: Renderer): void {
     const start = performance.now();
     this.#frameOf(aspect(this.#view.projection));
-    this.#renderer.draw(this.#view);
+    renderer.draw(this.#view);
     // What is read, not seen, waits for the rest.
-    if (!this.#isMoving) this.#exposure = this.#renderer.exposure(this.#view);
+    if (!this.#isMoving) this.#exposure = renderer.exposure(this.#view);
     this.#controls?.show(this.#view, this.#exposure);
     const text = sentence(this.#view, this.#exposure);
     if (!this.#isMoving && scene.textContent !== text) scene.textContent = text;
@@ -197,12 +211,14 @@ class Page {
   }
 
   png(): void {
+    if (!this.#renderer?.hasSky) return note("There is no picture yet.");
     this.#renderer.draw(this.#view);
     canvas.toBlob((blob) => (blob ? save(blob, "sky.png") : note("The browser made no PNG.")), "image/png");
   }
 
-  exr(): void {
-    save(new Blob([exr(this.#renderer.light(this.#view))], { type: "image/x-exr" }), "sky.exr");
+  async exr(): Promise<void> {
+    if (!this.#renderer?.hasSky) return note("There is no picture yet.");
+    save(new Blob([exr(await this.#renderer.light(this.#view))], { type: "image/x-exr" }), "sky.exr");
   }
 
   async link(): Promise<void> {
