@@ -39,7 +39,6 @@ class Page {
   readonly #look = new Latest();
   #shown = "";
   #isMoving = false;
-  #isLost = false;
   #rest = 0;
   #frame = 0;
   #measures = 0;
@@ -65,17 +64,18 @@ class Page {
 
   #device(): Promise<Renderer> {
     const wanted = new URLSearchParams(location.search).get("gpu");
-    const onLost = (failure: Failure) => {
-      this.#isLost = true;
-      fail(failure);
+    // A canvas that drew with one device does not draw with another: the page starts anew, with the same view.
+    const onLost = () => {
+      const address = new URL(location.href);
+      address.searchParams.set("gpu", "webgl");
+      address.hash = toHash(this.#view);
+      location.replace(address);
     };
     return Renderer.create(canvas, wanted, onLost);
   }
 
   /** Starts anew after a failure. */
   async retry(): Promise<void> {
-    // A canvas that drew with one device does not draw with another.
-    if (this.#isLost) return location.reload();
     hideFailure();
     this.#shown = "";
     if (!this.#limits) {

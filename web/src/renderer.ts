@@ -1,7 +1,6 @@
 // Draws the sky: with WebGPU where there is such a device, else with WebGL2.
 
 import { aspect } from "./directions";
-import type { Failure } from "./failure";
 import type { Device } from "./gpu/device";
 import { WebGL } from "./gpu/webgl";
 import { WebGPU } from "./gpu/webgpu";
@@ -40,7 +39,7 @@ export class Renderer {
   }
 
   /** `wanted` is `webgl` or `webgpu`; otherwise what there is. */
-  static async create(canvas: HTMLCanvasElement, wanted: string | null, onLost: (failure: Failure) => void): Promise<Renderer> {
+  static async create(canvas: HTMLCanvasElement, wanted: string | null, onLost: () => void): Promise<Renderer> {
     const device = wanted === "webgl" ? null : await WebGPU.create(canvas, SHADER, onLost);
     return new Renderer(canvas, device ?? new WebGL(canvas));
   }

@@ -6,6 +6,7 @@ import { serve } from "./server.mjs";
 
 const SHOTS = {
   "desktop-sunset": [{ width: 1100, height: 640 }, "projection=perspective&sunElevation=2&pitch=12&field=70&size=320&altitude=2"],
+  "desktop-ridges": [{ width: 1100, height: 640 }, "projection=perspective&terrain=ridges&sunElevation=14&sunAzimuth=45&pitch=2&field=30&altitude=400&size=320&exposure=13.5"],
   "desktop-space": [{ width: 1100, height: 640 }, "projection=lat-long&altitude=99000&sunElevation=6&size=240&exposure=13"],
   "desktop-polarised": [{ width: 1100, height: 640 }, "quantity=dolp&sunElevation=10&size=320"],
   phone: [{ width: 360, height: 740 }, "sunElevation=8&size=240"],

@@ -1,6 +1,5 @@
 // Draws with WebGPU: the same shader, translated to `sky.wgsl`.
 
-import { Failure } from "../failure";
 import { channelsOf, type Texels, type Textures, type Values } from "../inputs";
 import { FRAGMENT } from "../shader";
 import type { Device } from "./device";
@@ -34,7 +33,7 @@ export class WebGPU implements Device {
 
   /** Null where the browser has no such device, or its shader cannot be fetched or does not run. The canvas is not touched
    * before all is well. */
-  static async create(canvas: HTMLCanvasElement, shader: string, onLost: (failure: Failure) => void): Promise<WebGPU | null> {
+  static async create(canvas: HTMLCanvasElement, shader: string, onLost: () => void): Promise<WebGPU | null> {
     const adapter = await navigator.gpu?.requestAdapter().catch(() => null);
     if (!adapter || adapter.limits.maxSampledTexturesPerShaderStage < WANTED.textures.length) return null;
     const [device, response] = await Promise.all([adapter.requestDevice().catch(() => null), fetch(shader).catch(() => null)]);
@@ -44,7 +43,7 @@ export class WebGPU implements Device {
     const context = made && canvas.getContext("webgpu");
     if (!context) return null;
     context.configure({ device, format, alphaMode: "opaque" });
-    void device.lost.then(({ message }) => onLost(new Failure(`The graphics device was lost: ${message}.`)));
+    void device.lost.then(onLost);
     return new WebGPU(device, context, made.layout, made);
   }
 
