@@ -16,19 +16,16 @@ const UNIFORMS = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
-// Of a light: sun and moon.
-struct Table {
-  vec4 horizon;    // dip, height of the light above the horizon, coordinates of it and of half of it
-  vec3 ends;       // coordinates of zenith, nadir and the azimuth opposite to the light
-  ivec3 intervals; // none: the light is not there
-  vec2 azimuth;    // its cosine and sine
-};
 uniform sampler2D roots, degrees, moon_roots, moon_degrees;
-uniform Table sun, moon;
 uniform vec2 size;
 uniform int projection; // up, side, lat-long, perspective
 uniform mat3 axes;      // right, above, ahead
 uniform float half_field;
+// Of sun and moon: dip, height above the horizon, coordinates of it and of half of it.
+uniform vec4 sun_horizon, moon_horizon;
+uniform vec3 sun_ends, moon_ends;           // coordinates of zenith, nadir and the azimuth opposite to the light
+uniform ivec3 sun_intervals, moon_intervals; // none: the light is not there
+uniform vec2 sun_azimuth, moon_azimuth;     // cosine and sine
 uniform int quantity;   // radiance, degree of polarisation
 uniform float polariser; // rad
 uniform bool has_polariser;
@@ -93,18 +90,38 @@ vec4 between(float coordinate, int count, bool is_level, out int first_node) {
 // Stokes components of X, Y and Z; the frame is the vertical one.
 struct Light { vec3 xyz, q, u; };
 
-void add(sampler2D roots, sampler2D degrees, Table of, vec3 v, bool has_degrees, inout Light sum) {
-  ivec3 intervals = of.intervals;
-  if (intervals.z == 0) return;
+struct Table {
+  vec4 horizon;
+  vec3 ends;
+  ivec3 intervals;
+  vec2 azimuth;
+};
+
+// Row and column of a direction; and 1 below the horizon.
+vec3 place_in(Table of, vec3 v) {
   float height = atan(v.z, length(v.xy)) + of.horizon.x;
   float along = dot(v.xy, of.azimuth), across = v.y * of.azimuth.x - v.x * of.azimuth.y;
   bool up = height >= 0.0;
-  int rows = up ? intervals.x : intervals.y;
+  int rows = up ? of.intervals.x : of.intervals.y;
   float end = up ? of.ends.x : of.ends.y;
   float coordinate = up ? up_coordinate(height, of.horizon) : from_horizon(-height);
   float row = clamp(float(rows) * coordinate / end, 0.0, float(rows));
   float azimuth = arsinh(atan(abs(across), along) / AZIMUTH_SCALE);
-  float column = clamp(float(intervals.z) * azimuth / of.ends.z, 0.0, float(intervals.z));
+  float column = clamp(float(of.intervals.z) * azimuth / of.ends.z, 0.0, float(of.intervals.z));
+  return vec3(row, column, up ? 0.0 : 1.0);
+}
+`;
+
+/** The light of one of the tables: textures are no arguments in all dialects. */
+const lightOf = (name: string, roots: string, degrees: string) => `
+Light ${name}_light(vec3 v, bool has_degrees) {
+  Light light = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  ivec3 intervals = ${name}_intervals;
+  if (intervals.z == 0) return light;
+  vec3 there = place_in(Table(${name}_horizon, ${name}_ends, intervals, ${name}_azimuth), v);
+  bool up = there.z == 0.0;
+  int rows = up ? intervals.x : intervals.y;
+  float row = there.x, column = there.y;
   int first_row, first_column;
   vec4 by_row = between(row, rows, false, first_row);
   vec4 by_column = between(column, intervals.z, true, first_column);
@@ -114,24 +131,23 @@ void add(sampler2D roots, sampler2D degrees, Table of, vec3 v, bool has_degrees,
     for (int j = 0; j < 4; j++) {
       int x = clamp(first_column + j, 0, intervals.z);
       float weight = by_row[i] * by_column[j];
-      root += weight * texelFetch(roots, ivec2(x, y), 0).rgb;
+      root += weight * texelFetch(${roots}, ivec2(x, y), 0).rgb;
       if (has_degrees) {
-        q += weight * texelFetch(degrees, ivec2(2 * x, y), 0).rgb;
-        u += weight * texelFetch(degrees, ivec2(2 * x + 1, y), 0).rgb;
+        q += weight * texelFetch(${degrees}, ivec2(2 * x, y), 0).rgb;
+        u += weight * texelFetch(${degrees}, ivec2(2 * x + 1, y), 0).rgb;
       }
     }
   }
+  float across = (v.y * ${name}_azimuth.x - v.x * ${name}_azimuth.y) / max(length(v.xy), 1e-12);
   vec3 xyz = root * root;
-  sum.xyz += xyz;
-  sum.q += xyz * q;
-  sum.u += xyz * u * across / max(length(v.xy), 1e-12);
+  return Light(xyz, xyz * q, xyz * u * across);
 }
+`;
 
+const LIGHTS = `${lightOf("sun", "roots", "degrees")}${lightOf("moon", "moon_roots", "moon_degrees")}
 Light lights(vec3 v, bool has_degrees) {
-  Light sum = Light(vec3(0.0), vec3(0.0), vec3(0.0));
-  add(roots, degrees, sun, v, has_degrees, sum);
-  add(moon_roots, moon_degrees, moon, v, has_degrees, sum);
-  return sum;
+  Light a = sun_light(v, has_degrees), b = moon_light(v, has_degrees);
+  return Light(a.xyz + b.xyz, a.q + b.q, a.u + b.u);
 }
 `;
 
@@ -231,5 +247,5 @@ void main() {
 `;
 
 export const FRAGMENT = [
-  UNIFORMS, DIRECTIONS, TABLE, SPACE_SHADER, HOSEK_SHADER, POLARISATION, COLOURS, TERRAIN_SHADER, DISC_SHADER, FILM, MAIN,
+  UNIFORMS, DIRECTIONS, TABLE, LIGHTS, SPACE_SHADER, HOSEK_SHADER, POLARISATION, COLOURS, TERRAIN_SHADER, DISC_SHADER, FILM, MAIN,
 ].join("");

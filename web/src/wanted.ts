@@ -4,7 +4,7 @@ import { otherKey } from "./beside";
 import { sunDirection } from "./disc";
 import type { Look, Limits, Resolution, Scene } from "./protocol";
 import type { Vector } from "./directions";
-import type { Eye, Source } from "./renderer";
+import type { Eye, Source } from "./inputs";
 import { entry, reach } from "./space";
 import { COARSE_AIR, EYE, FINE_AIR } from "./terrain";
 import type { View } from "./view";

@@ -4,12 +4,20 @@ import { chromium } from "playwright-core";
 
 const ARGUMENTS = [
   "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-  "--disable-sync", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--disable-sync", "--disable-gpu-watchdog", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ];
 
-export function launch() {
+/** A WebGPU device that computes on the processor; without these arguments such a browser has none. */
+export const SOFTWARE_WEBGPU = [
+  "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader",
+  "--disable-vulkan-surface",
+];
+/** One that is lost as soon as a canvas shows what it drew: the browser composes pictures with another. */
+export const LOST_WEBGPU = SOFTWARE_WEBGPU.slice(0, 2);
+
+export function launch(more = []) {
   const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
-  return chromium.launch({ executablePath, headless: true, args: ARGUMENTS });
+  return chromium.launch({ executablePath, headless: true, args: [...ARGUMENTS, ...more] });
 }
 
 /** A page of this size; `complaints` collects errors of its console and uncaught ones. */
