@@ -40,7 +40,8 @@ async function shown(browser, gpu, view, use) {
   await open(page, `${server.url}?gpu=${gpu}`, view);
   assert.equal(await device(page), gpu);
   const found = await use(page);
-  assert.deepEqual(complaints, []);
+  // That the test reads pixels is no fault of the page.
+  assert.deepEqual(complaints.filter((line) => !line.includes("GPU stall due to ReadPixels")), []);
   await page.context().close();
   return found;
 }
