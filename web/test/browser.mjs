@@ -20,13 +20,18 @@ export function launch(more = []) {
   return chromium.launch({ executablePath, headless: true, args: [...ARGUMENTS, ...more] });
 }
 
+/** What the browser says, not the page: that it has no WebGPU device for those who ask. */
+const OWN = "No available adapters.";
+
 /** A page of this size; `complaints` collects errors of its console and uncaught ones. */
 export async function newPage(browser, size = { width: 1200, height: 800 }) {
   const context = await browser.newContext({ viewport: size, permissions: ["clipboard-read", "clipboard-write"] });
   const page = await context.newPage();
   page.setDefaultTimeout(120_000);
   const complaints = [];
-  page.on("console", (line) => ["error", "warning"].includes(line.type()) && complaints.push(line.text()));
+  page.on("console", (line) => {
+    if (["error", "warning"].includes(line.type()) && line.text() !== OWN) complaints.push(line.text());
+  });
   page.on("pageerror", (error) => complaints.push(String(error)));
   return { page, complaints };
 }

@@ -40,7 +40,8 @@ async function shown(browser, gpu, view, use) {
   await open(page, `${server.url}?gpu=${gpu}`, view);
   assert.equal(await device(page), gpu);
   const found = await use(page);
-  assert.deepEqual(complaints, []);
+  // That the test reads pixels is no fault of the page.
+  assert.deepEqual(complaints.filter((line) => !line.includes("GPU stall due to ReadPixels")), []);
   await page.context().close();
   return found;
 }
@@ -77,7 +78,7 @@ test("without WebGPU, or without its shader, WebGL2 draws", async () => {
   assert.equal(await device(page), "webgl");
   await open(page, `${server.url}?gpu=webgpu`, VIEWS[0]);
   assert.equal(await device(page), "webgl");
-  assert.deepEqual(complaints.filter((line) => !line.includes("No available adapters")), []);
+  assert.deepEqual(complaints, []);
   await plain.close();
   const browser = await launch(SOFTWARE_WEBGPU);
   const other = await newPage(browser);
