@@ -16,6 +16,9 @@ const VIEWS = [
   "size=97&projection=perspective&polariser=30&pitch=20&tone=linear&exposure=13",
   "size=96&projection=perspective&terrain=ridges&altitude=400&sunElevation=8&sunAzimuth=15&pitch=3&field=40&disc=shown",
   "size=96&projection=perspective&terrain=ridges&altitude=9000&pitch=-30&ground=black&visibility=30",
+  "size=96&sunElevation=-8&moonElevation=30&moonAzimuth=80&projection=lat-long&polariser=20",
+  "size=96&projection=lat-long&altitude=400000&sunElevation=10&sunAzimuth=50",
+  "size=96&projection=lat-long&compare=hosek&divider=40&sunElevation=25",
 ];
 
 let server;
