@@ -163,7 +163,7 @@ const LOW: (&str, [f64; 2]) = ("suns at 2 and −4°", [2.0, -4.0]);
 
 #[test]
 fn from_the_ground() {
-    let limits = [[0.0107, 1.7e-3], [0.022, 1.7e-3]];
+    let limits = [[2.2e-3, 9.2e-5], [5.9e-3, 9.2e-5]];
     measure(
         2.0,
         100e3,
@@ -173,7 +173,7 @@ fn from_the_ground() {
 
 #[test]
 fn from_a_mountain() {
-    let limits = [[0.0065, 8e-4], [0.027, 8e-4]];
+    let limits = [[7.5e-4, 2.1e-4], [6.2e-3, 2.1e-4]];
     measure(
         3e3,
         100e3,
@@ -183,7 +183,7 @@ fn from_a_mountain() {
 
 #[test]
 fn from_a_balloon() {
-    let limits = [[0.062, 0.065], [0.033, 0.065]];
+    let limits = [[1.7e-3, 6.8e-4], [3.3e-3, 6.8e-4]];
     measure(
         30e3,
         400e3,
