@@ -21,7 +21,9 @@ macro_rules! fields {
 }
 
 /// Struct of the shaders, program that has it, version, size and fields in the library.
-fn headers() -> [(&'static str, &'static str, u32, (usize, Vec<Field>)); 5] {
+type Header = (&'static str, &'static str, u32, (usize, Vec<Field>));
+
+fn headers() -> [Header; 5] {
     [
         (
             "SkyHeader",
