@@ -275,3 +275,17 @@ fn sheets_are_of_the_model_or_of_a_day() {
         refusal("contact-sheet --sun-elevation -40..60").contains("solar elevation must be in")
     );
 }
+
+/// Above a model that ends within the air there is no space.
+#[test]
+fn an_observer_above_a_low_model_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let call = |line: &str| command::call(folder.path(), line);
+    let made = call("subset --altitudes 0..2000 --visibilities 50..60 --rgb --out low.welkin");
+    assert!(made.status.success(), "{made:?}");
+    let refused = call("render --model low.welkin --altitude 9000 --size 16 --out sky");
+    let text = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(refused.status.code(), Some(2), "{text}");
+    assert!(text.contains("altitude must be in 0..="), "{text}");
+    assert!(!folder.path().join("sky.png").exists());
+}

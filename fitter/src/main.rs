@@ -59,9 +59,10 @@ enum Command {
 
 /// Every option takes negative numbers: what they mean is for the command to say.
 fn parse() -> Cli {
-    let takes_numbers = |argument: Arg| match argument.get_action().takes_values() {
-        true => argument.allow_negative_numbers(true),
-        false => argument,
+    let takes_numbers = |argument: Arg| match argument.get_value_delimiter() {
+        Some(_) => argument.allow_hyphen_values(true),
+        None if argument.get_action().takes_values() => argument.allow_negative_numbers(true),
+        None => argument,
     };
     let command = Cli::command().mut_subcommands(|command| {
         let command = command.mut_args(takes_numbers);

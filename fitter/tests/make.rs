@@ -8,9 +8,15 @@ use welkin::{Conditions, Model};
 use welkin_fitter::make::{Bands, Quality, Request, Scene, judge::judge};
 use welkin_fitter::recipe::Recipe;
 
+/// The model's own air of 59.4 km.
+fn recipe() -> Recipe {
+    let text = include_str!("reference/own_air.toml");
+    Recipe::parse(&format!("name = \"Own air\"\n{text}"), None).unwrap()
+}
+
 fn request(bands: Bands) -> Request {
     Request {
-        recipe: Recipe::named("continental-clean").unwrap(),
+        recipe: recipe(),
         axis: None,
         scene: Scene {
             altitudes: [0.0, 0.0],
@@ -59,21 +65,47 @@ fn conditions() -> Conditions {
 #[test]
 fn the_model_has_the_air_and_the_ranges_of_the_request() {
     let head = made().model.head();
-    let visibility = Recipe::named("continental-clean")
-        .unwrap()
-        .visibility()
-        .unwrap()
-        .round();
-    assert_eq!(head.visibilities, [visibility]);
+    assert_eq!(head.visibilities, [recipe().visibility().unwrap().round()]);
     assert_eq!(head.altitudes, [0.0]);
     let [low, high] = made().model.solar_elevation_range().map(f64::to_degrees);
     assert!((low - 5.0).abs() < 1e-9 && (high - 40.0).abs() < 1e-9);
-    assert!(
-        head.metadata.contains("Continental clean"),
-        "{}",
-        head.metadata
-    );
+    assert!(head.metadata.contains("Own air"), "{}", head.metadata);
     assert!(made().report.contains("against the unbiased tracer"));
+}
+
+/// As near as a draft is to the truth.
+#[test]
+fn a_recipe_of_the_default_air_makes_the_default_model() {
+    let default = Model::default_model().unwrap();
+    let mut errors = vec![];
+    for elevation in [7.0, 13.0, 22.0, 37.0f64] {
+        let [ours, theirs] = [&made().model, &default].map(|model| {
+            let own = Conditions {
+                solar_elevation: elevation.to_radians(),
+                visibility: made().model.head().visibilities[0],
+                ..Conditions::default()
+            };
+            model.sky(&own).unwrap()
+        });
+        for (i, height) in [0.02, 0.1, 0.3, 0.6, 0.9f64].into_iter().enumerate() {
+            let (cosine, azimuth) = ((1.0 - height * height).sqrt(), 0.3 + 1.1 * i as f64);
+            let direction = [cosine * azimuth.cos(), cosine * azimuth.sin(), height];
+            let direction = direction.map(|x| x as f32);
+            for nm in default.wavelengths() {
+                let light = |sky: &welkin::Sky| sky.radiance_at(direction, *nm).unwrap();
+                errors.push((f64::from(light(&ours) / light(&theirs)) - 1.0).abs());
+            }
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let at = |share: f64| errors[(share * (errors.len() - 1) as f64) as usize];
+    println!(
+        "median {:.4}, p95 {:.4}, largest {:.4}",
+        at(0.5),
+        at(0.95),
+        at(1.0)
+    );
+    assert!(at(0.5) < 0.01 && at(0.95) < 0.05 && at(1.0) < 0.15);
 }
 
 #[test]

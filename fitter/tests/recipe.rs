@@ -116,18 +116,8 @@ fn visibility_is_koschmieders() {
     assert_eq!(layer(&before).name, "free_troposphere");
 }
 
-/// The model's own air of 59.4 km, written as a recipe: the numbers of `fitter/data/aerosol_profiles.csv`.
-const OWN: &str = r#"
-[layers.boundary]
-top_km = 2
-scale_height_km = 8
-particles_per_cm3 = { waso = 7399.470, inso = 0.279907, soot = 8831.289 }
-[layers.free]
-bottom_km = 2
-top_km = 12
-scale_height_km = 8
-particles_per_cm3 = { waso = 293.906, inso = 0.082121, soot = 292.585 }
-"#;
+/// The model's own air of 59.4 km, written as a recipe.
+const OWN: &str = include_str!("reference/own_air.toml");
 
 #[test]
 fn the_models_own_air_is_a_recipe() {

@@ -125,3 +125,19 @@ fn mistakes_are_explained() {
     }
     assert!(!folder.path().join("a.json").exists());
 }
+
+/// Ranges that begin below zero are no options.
+#[test]
+fn make_says_which_suns_a_model_cannot_have() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .current_dir(folder.path())
+        .args(["make", "desert", "--out", "desert.welkin"])
+        .args(["--elevations", "-30..40"])
+        .output()
+        .unwrap();
+    assert!(!output.status.success(), "{output:?}");
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(complaint.contains("solar elevations"), "{complaint}");
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
+}

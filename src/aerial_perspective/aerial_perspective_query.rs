@@ -62,8 +62,9 @@ impl Model {
     /// visibilities.
     ///
     /// # Errors
-    /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged; [`Error::Invalid`] for a model with
-    /// a ground of its own ([`Model::over`]): here every query says its albedo.
+    /// As [`Model::aerial_perspective`], if any of the sources is missing or damaged;
+    /// [`Error::Invalid`](crate::Error::Invalid) for a model with a ground of its own ([`Model::over`]): here every query
+    /// says its albedo.
     pub fn aerial_perspective_query(&self) -> Result<AerialPerspectiveQuery<'_>> {
         self.refuse_ground()?;
         let nodes = self.nodes();

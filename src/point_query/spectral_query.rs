@@ -13,6 +13,25 @@ const MOST: usize = WAVELENGTH_BLOCKS * WIDTH;
 impl PointQuery<'_> {
     /// Spectral radiance in W m⁻² sr⁻¹ nm⁻¹ at any wavelength (nm) within the range of the model.
     ///
+    /// A ground whose albedo depends on wavelength has that of the wavelength in the conditions:
+    ///
+    /// ```
+    /// # #[cfg(feature = "std")] {
+    /// use welkin::{Albedo, Conditions, Model, PointQuery};
+    ///
+    /// let grass = Albedo::table(&[450.0, 550.0, 670.0, 750.0], &[0.04, 0.10, 0.05, 0.45])?;
+    /// let (zenith, wavelength) = ([0.0, 0.0, 1.0], 710.0);
+    /// let conditions = Conditions { albedo: grass.at(wavelength), ..Conditions::default() };
+    /// let query = PointQuery::new(welkin::DEFAULT_MODEL)?;
+    /// let light = query.radiance_at(&conditions, zenith, wavelength)?;
+    ///
+    /// // As a sky over that ground has it.
+    /// let sky = Model::default_model()?.over(&grass).sky(&conditions)?;
+    /// assert!((light / sky.radiance_at(zenith, wavelength)? - 1.0).abs() < 1e-4);
+    /// # }
+    /// # Ok::<(), welkin::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`PointQuery::radiance`]; [`Error::OutOfRange`](crate::Error::OutOfRange) for the wavelength.
     pub fn radiance_at(

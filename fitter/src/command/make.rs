@@ -20,10 +20,10 @@ pub struct Args {
     #[arg(long, value_name = "NAME=VALUE,…")]
     axis: Option<String>,
     /// Lowest and highest observer, m.
-    #[arg(long, value_name = "LOW..HIGH", value_parser = range, default_value = "0..99000")]
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "0..99000")]
     altitudes: [f64; 2],
     /// Lowest and highest sun, degrees.
-    #[arg(long, value_name = "LOW..HIGH", value_parser = range, default_value = "-12..90")]
+    #[arg(long, value_name = "LOW..HIGH", value_parser = range, allow_hyphen_values = true, default_value = "-12..90")]
     elevations: [f64; 2],
     /// All wavelengths from 300 to 1100 nm, or those that colours are made of.
     #[arg(long, value_enum, default_value = "all")]

@@ -175,6 +175,11 @@ impl Chunk {
         self.shares(site, w, albedo).1
     }
 
+    /// Whether a site is within 37° of the sun.
+    pub fn is_near_sun(&self, site: usize) -> bool {
+        self.cosine[site] > 0.8
+    }
+
     /// Root of the weight of a node.
     pub fn importance(&self, wavelength: usize) -> f32 {
         self.importance[wavelength]

@@ -1,13 +1,48 @@
 //! Singly scattered sunlight along a ray.
 
 use super::parts::Aerosol;
+use super::ray_points::Node;
 use super::scattered_source::{DARK, Stokes, Sun};
 use super::spectra::{NW, PER_SPHERE, Spectrum};
 use super::spectral_medium::Medium;
 
-/// Adds a node lit by `sunlight` to the line integrals ∫ profile · sunlight · transmittance to the observer (m), one
-/// per constituent.
-pub fn add(profiles: &[f32], sunlight: &Spectrum, weight: &Spectrum, sums: &mut [Spectrum]) {
+/// Line integrals ∫ profile · sunlight · transmittance to the observer (m), one per constituent.
+pub struct LineIntegrals {
+    all: Vec<Spectrum>,
+    /// Of Q and U, where they differ.
+    polarised: Option<Vec<Spectrum>>,
+}
+
+impl LineIntegrals {
+    /// Nothing yet.
+    pub fn new(medium: &Medium) -> Self {
+        let zero = || vec![[0.0; NW]; medium.parts.len()];
+        Self {
+            all: zero(),
+            polarised: medium.keeps_polarisation().then(zero),
+        }
+    }
+
+    /// Adds a node lit by `sunlight`.
+    pub fn add(&mut self, profiles: &[f32], sunlight: &Spectrum, node: &Node) {
+        add(profiles, sunlight, &node.weight, &mut self.all);
+        if let Some(sums) = &mut self.polarised {
+            add(profiles, sunlight, &node.polarised_weight(), sums);
+        }
+    }
+
+    /// Those of the intensity.
+    pub fn all(&self) -> &[Spectrum] {
+        &self.all
+    }
+
+    /// Those of Q and U.
+    fn polarised(&self) -> &[Spectrum] {
+        self.polarised.as_ref().unwrap_or(&self.all)
+    }
+}
+
+fn add(profiles: &[f32], sunlight: &Spectrum, weight: &Spectrum, sums: &mut [Spectrum]) {
     for (sum, p) in sums.iter_mut().zip(profiles) {
         for w in 0..NW {
             sum[w] += p * sunlight[w] * weight[w];
@@ -82,8 +117,29 @@ fn polarised(strength: impl Fn(usize) -> f32, mu: f64, sun: &Sun) -> [Spectrum; 
     ]
 }
 
+/// Adds what Q and U of single scattering are beside those of the line integral of Rayleigh scattering: light that
+/// particles polarise, and that keeps its polarisation when they scatter it again.
+pub fn add_polarised_beside_rayleigh(
+    medium: &Medium,
+    sums: &LineIntegrals,
+    (mu, sun): (f64, &Sun),
+    out: &mut Stokes,
+) {
+    let Some(polarised) = &sums.polarised else {
+        return;
+    };
+    let (kept, dipole) = (rayleigh(medium, polarised), rayleigh(medium, &sums.all));
+    let more = std::array::from_fn(|w| kept[w] - dipole[w]);
+    let [q, u] = polarisation(&medium.polarising, &more, mu, sun);
+    for w in 0..NW {
+        out[1][w] += q[w];
+        out[2][w] += u[w];
+    }
+    add_polarised_by_particles(medium, polarised, (mu, sun), out);
+}
+
 /// Adds Q and U of single scattering by particles whose scattering matrices are known.
-pub fn add_polarised_by_particles(
+fn add_polarised_by_particles(
     medium: &Medium,
     sums: &[Spectrum],
     (mu, sun): (f64, &Sun),
@@ -119,11 +175,17 @@ pub enum Peaks {
 }
 
 /// Stokes vector of all singly scattered light on a ray of zenith cosine `mu`, from its line integrals.
-pub fn stokes(medium: &Medium, sums: &[Spectrum], (mu, sun): (f64, &Sun), peaks: Peaks) -> Stokes {
-    let cosine = sun.cosine(mu);
+pub fn stokes(
+    medium: &Medium,
+    integrals: &LineIntegrals,
+    (mu, sun): (f64, &Sun),
+    peaks: Peaks,
+) -> Stokes {
+    let (sums, cosine) = (integrals.all(), sun.cosine(mu));
     let mut out = DARK;
     let dipole = rayleigh(medium, sums);
-    [out[1], out[2]] = polarisation(&medium.polarising, &dipole, mu, sun);
+    let kept = rayleigh(medium, integrals.polarised());
+    [out[1], out[2]] = polarisation(&medium.polarising, &kept, mu, sun);
     for w in 0..NW {
         let d = medium.polarising[w];
         out[0][w] += dipole[w] * (0.75 * d * (1.0 + cosine * cosine) + 1.0 - d);
@@ -138,6 +200,6 @@ pub fn stokes(medium: &Medium, sums: &[Spectrum], (mu, sun): (f64, &Sun), peaks:
             out[0][w] += PER_SPHERE * aerosol.scattering[w] * sum[w] * phase[w];
         }
     }
-    add_polarised_by_particles(medium, sums, (mu, sun), &mut out);
+    add_polarised_by_particles(medium, integrals.polarised(), (mu, sun), &mut out);
     out
 }

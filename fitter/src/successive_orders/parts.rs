@@ -34,6 +34,8 @@ pub struct Part {
     pub aerosols: Vec<Aerosol>,
     /// Σ scattering · moment of the phase function, which is g^l, for each degree l.
     pub legendre: Vec<Spectrum>,
+    /// What its particles scatter on polarised as it was, m⁻¹ where the profile is 1; zero without scattering matrices.
+    pub keeping: Spectrum,
 }
 
 impl Part {
@@ -62,6 +64,7 @@ pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
             rayleigh: [0.0; NW],
             aerosols: vec![],
             legendre: vec![[0.0; NW]; DEGREE + 1],
+            keeping: [0.0; NW],
         };
         for scatterer in &constituent.scatterers {
             let scattering = spectrum(&scatterer.scattering);
@@ -85,6 +88,9 @@ pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
                         for w in 0..NW {
                             sum[w] += scattering[w] * moment[w];
                         }
+                    }
+                    for w in 0..NW {
+                        part.keeping[w] += scattering[w] * table.keeping()[w];
                     }
                     part.aerosols.push(Aerosol {
                         scattering,

@@ -57,6 +57,7 @@ pub struct PhaseTable {
     smooth: AngleFunction,
     /// Mean of F11 times the Legendre polynomial of each degree.
     moments: Vec<Spectrum>,
+    keeping: Spectrum,
     matrix: Arc<Matrix>,
 }
 
@@ -74,6 +75,7 @@ impl PhaseTable {
         Self {
             smooth: AngleFunction::smooth(&moments),
             f12: element(1),
+            keeping: keeping(&f11, &element(2)),
             f11,
             moments,
             matrix,
@@ -107,6 +109,13 @@ impl PhaseTable {
         self.f12.at(cosine).map(|f12| -f12 / square)
     }
 
+    /// The share of scattered light that stays polarised as it was: exactly so for light whose polarisation depends on
+    /// direction as that of a dipole. It is the coefficient α₂ of degree two, of which a dipole has 0.6: the mean of
+    /// ½ (F22 + F33) d²₂₂ + ½ (F22 − F33) d²₂₋₂, spheres having F22 = F11.
+    pub fn keeping(&self) -> &Spectrum {
+        &self.keeping
+    }
+
     /// Mean of F11 times the Legendre polynomial of each degree up to [`DEGREE`].
     pub fn moments(&self) -> &[Spectrum] {
         &self.moments[..=DEGREE]
@@ -125,6 +134,20 @@ pub fn beside(table: Option<&PhaseTable>, lobes: &Lobes, kind: &Lobes) -> AngleF
     };
     let moments: Vec<Spectrum> = (0..DEGREES).map(difference).collect();
     AngleFunction::smooth(&moments)
+}
+
+fn keeping(f11: &AngleFunction, f33: &AngleFunction) -> Spectrum {
+    let part = |sign: f32| {
+        let node =
+            |(a, b): (&Spectrum, &Spectrum)| std::array::from_fn(|w| 0.5 * (a[w] + sign * b[w]));
+        let mean = AngleFunction(f11.0.iter().zip(&f33.0).map(node).collect());
+        let turned = COSINES
+            .iter()
+            .map(|c| (0.5 * (1.0 + f64::from(sign) * c)).powi(2));
+        moment(&turned.collect::<Vec<_>>(), &mean)
+    };
+    let [forwards, backwards] = [1.0, -1.0].map(part);
+    std::array::from_fn(|w| forwards[w] + backwards[w])
 }
 
 fn fade(l: usize) -> f64 {
@@ -186,6 +209,29 @@ mod tests {
             let expected = 0.7f32.powi(l as i32);
             assert!((moment[5] - expected).abs() < 2e-4, "{l}: {}", moment[5]);
         }
+    }
+
+    #[test]
+    fn a_dipole_keeps_what_it_should() {
+        let angles: Vec<f64> = (0..=1800).map(|i| 0.1 * f64::from(i)).collect();
+        let row = |a: &f64| {
+            let c = a.to_radians().cos();
+            let square = 1.0 + c * c;
+            [
+                (0.75 * square).ln(),
+                (c * c - 1.0) / square,
+                2.0 * c / square,
+            ]
+        };
+        let rows: Vec<_> = angles.iter().map(row).collect();
+        let table = PhaseTable::new(Arc::new(
+            Matrix::resample(&angles, &vec![rows; NW]).unwrap(),
+        ));
+        assert!(
+            (table.keeping()[3] - 0.6).abs() < 1e-3,
+            "{:?}",
+            table.keeping()
+        );
     }
 
     #[test]

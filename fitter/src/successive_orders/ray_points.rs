@@ -15,6 +15,15 @@ pub struct Node {
     pub cos_zenith: f64,
     /// Transmittance to the observer times the quadrature weight, m.
     pub weight: Spectrum,
+    /// By how much more polarised light comes through.
+    pub kept_polarised: Spectrum,
+}
+
+impl Node {
+    /// The weight of Q and U.
+    pub fn polarised_weight(&self) -> Spectrum {
+        std::array::from_fn(|w| self.weight[w] * self.kept_polarised[w])
+    }
 }
 
 /// A ray from an observer, in the vertical plane that holds it.
@@ -58,6 +67,7 @@ pub fn trace(
     };
     let columns = |s: f64| integrator.along(altitude, mu, s);
     let transmittance = |s: f64| medium.transmittance(&columns(s));
+    let keeps = medium.keeps_polarisation();
     let mut nodes = vec![];
     let mut s = 0.0;
     let mut behind = columns(0.0);
@@ -71,7 +81,8 @@ pub fn trace(
         for x in GAUSS {
             let d = s + x * ds;
             let (h, c) = at(d);
-            let weight = transmittance(d).map(|t| t * 0.5 * ds as f32);
+            let before = columns(d);
+            let weight = medium.transmittance(&before).map(|t| t * 0.5 * ds as f32);
             let extinction = medium.sum(&medium.profiles(h.max(0.0)));
             for w in 0..NW {
                 taken[w] += extinction[w] * weight[w];
@@ -81,6 +92,10 @@ pub fn trace(
                 arc: arc(d),
                 cos_zenith: c.clamp(-1.0, 1.0),
                 weight,
+                kept_polarised: match keeps {
+                    true => medium.kept_polarised(&before, c),
+                    false => [1.0; NW],
+                },
             });
         }
         s += ds;

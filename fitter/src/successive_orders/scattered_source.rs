@@ -101,8 +101,8 @@ impl SourceTable {
         }
     }
 
-    /// Adds `weight` times the light that is scattered towards the observer.
-    pub fn add(&self, medium: &Medium, sun: &LocalSun, weight: &Spectrum, out: &mut Stokes) {
+    /// Adds what comes to the observer of the light that is scattered at `node`, of which the table is.
+    pub fn add(&self, medium: &Medium, sun: &LocalSun, node: &Node, out: &mut Stokes) {
         let row = self.at_sun(sun.mu);
         let (ct, st) = (self.cos_zenith, self.sin_zenith);
         let (cp, sp) = (sun.cos_azimuth, sun.sin_azimuth);
@@ -127,13 +127,14 @@ impl SourceTable {
         for (m, c) in cosines.into_iter().enumerate() {
             add_scaled(&mut aerosol, c, spectrum(TENSOR + m));
         }
-        let weight = weight.map(|v| v * SOLAR_UNITS.recip());
+        let weight = node.weight.map(|v| v * SOLAR_UNITS.recip());
         for w in 0..NW {
             let dipole = 1.5 * medium.polarising[w];
             let isotropic = (1.0 - medium.polarising[w]) * trace[w];
             out[0][w] += weight[w] * (dipole * intensity[w] + isotropic + aerosol[w]).max(0.0);
-            out[1][w] += weight[w] * dipole * q[w];
-            out[2][w] += weight[w] * dipole * u[w];
+            let polarised = weight[w] * node.kept_polarised[w] * dipole;
+            out[1][w] += polarised * q[w];
+            out[2][w] += polarised * u[w];
         }
     }
 

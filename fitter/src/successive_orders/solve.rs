@@ -1,6 +1,6 @@
 //! Orders of scattering, one after the other, until what is left is a geometric tail.
 
-use super::first_order::{self, Peaks};
+use super::first_order::{self, LineIntegrals, Peaks};
 use super::moments::{
     ALTITUDES, COUNT, HARMONICS, Moments, SOLAR_UNITS, SUNS, TENSOR, altitudes, azimuth_harmonics,
     order_start, polar_harmonics, sun_coordinate, sun_node,
@@ -259,7 +259,7 @@ impl<'a> Solver<'a> {
                 for node in &direction.path.nodes {
                     let table = SourceTable::new(self.medium, moments, node);
                     for (sun, out) in suns.iter().zip(&mut light) {
-                        table.add(self.medium, &sun.at(node), &node.weight, out);
+                        table.add(self.medium, &sun.at(node), node, out);
                     }
                 }
             }
@@ -279,17 +279,19 @@ impl<'a> Solver<'a> {
     }
 
     fn single(&self, direction: &Direction, suns: &[Sun], light: &mut [Stokes]) {
-        let parts = self.medium.parts.len();
-        let mut sums = vec![[0.0; NW]; parts * suns.len()];
+        let mut sums: Vec<_> = suns
+            .iter()
+            .map(|_| LineIntegrals::new(self.medium))
+            .collect();
         for node in &direction.path.nodes {
             let profiles = self.medium.profiles(node.altitude);
-            for (sun, sum) in suns.iter().zip(sums.chunks_exact_mut(parts)) {
+            for (sun, sum) in suns.iter().zip(&mut sums) {
                 if let Some(t) = self.medium.sunlight(node.altitude, sun.at(node).mu) {
-                    first_order::add(&profiles, &t, &node.weight, sum);
+                    sum.add(&profiles, &t, node);
                 }
             }
         }
-        for ((sun, sum), out) in suns.iter().zip(sums.chunks_exact(parts)).zip(light) {
+        for ((sun, sum), out) in suns.iter().zip(&sums).zip(light) {
             *out = first_order::stokes(self.medium, sum, (direction.mu, sun), Peaks::Resolved);
         }
     }

@@ -16,6 +16,11 @@ pub const SOLAR_ANGULAR_RADIUS: f64 = 0.004_654_793;
 /// are slow.
 const BLACK: f32 = 25.0;
 
+/// Share of the light about a level ray that is polarised as that of the ray, and how it grows with the zenith cosine:
+/// chosen by the unbiased tracer (`cargo test --release -p welkin-fitter --test mie polarisation`).
+const LEVEL: f64 = 0.45;
+const SLOPE: f64 = 1.1;
+
 /// An atmosphere with its sun table.
 pub struct Medium {
     /// The atmosphere itself.
@@ -62,6 +67,30 @@ impl Medium {
             kinds: kinds.main.clone(),
             sun_radius,
         })
+    }
+
+    /// Whether particles scatter polarised light on as such.
+    pub fn keeps_polarisation(&self) -> bool {
+        self.parts
+            .iter()
+            .any(|part| part.keeping.iter().any(|&k| k > 0.0))
+    }
+
+    /// How much more polarised light than other comes through columns on a ray of this zenith cosine: what particles
+    /// scatter on with its polarisation counts as not scattered.
+    ///
+    /// That takes light from the directions about the ray to be as that of the ray. About a level one half of them are
+    /// below the horizon, where it is not.
+    pub fn kept_polarised(&self, columns: &Columns, cosine: f64) -> Spectrum {
+        let alike = (LEVEL + SLOPE * cosine.abs()).min(1.0);
+        let mut sums = [0.0f32; NW];
+        for (part, c) in self.parts.iter().zip(columns) {
+            let column = (alike * c) as f32;
+            for (sum, keeping) in sums.iter_mut().zip(&part.keeping) {
+                *sum += keeping * column;
+            }
+        }
+        sums.map(f32::exp)
     }
 
     /// Profiles of all constituents at `altitude`.

@@ -1,6 +1,6 @@
 //! View rays through a solved light field: the fields that the model stores.
 
-use super::first_order::{self, Peaks};
+use super::first_order::{self, LineIntegrals, Peaks};
 use super::lobes::Lobes;
 use super::ray_points::{Path, trace};
 use super::scattered_source::{DARK, SourceTable, Stokes, Sun};
@@ -110,8 +110,10 @@ impl<'a> Gatherer<'a> {
 
     /// Fields along `path`, whose zenith cosine is `mu`, for every sun.
     pub fn fields(&self, path: &Path, mu: f64, suns: &[Sun]) -> Vec<Fields> {
-        let parts = self.medium.parts.len();
-        let mut sunlit = vec![[0.0; NW]; parts * suns.len()];
+        let mut sunlit: Vec<_> = suns
+            .iter()
+            .map(|_| LineIntegrals::new(self.medium))
+            .collect();
         let mut multiple = vec![[DARK; 2]; suns.len()];
         let mut twice: Vec<_> = suns
             .iter()
@@ -124,16 +126,15 @@ impl<'a> Gatherer<'a> {
             for (i, sun) in suns.iter().enumerate() {
                 let local = sun.at(node);
                 if let Some((t, columns)) = self.medium.sunlight_through(node.altitude, local.mu) {
-                    let sums = &mut sunlit[i * parts..(i + 1) * parts];
-                    first_order::add(&profiles, &t, &node.weight, sums);
+                    sunlit[i].add(&profiles, &t, node);
                     twice[i].add(&profiles, &columns, &t, &node.weight);
                 }
-                sky.add(self.medium, &local, &node.weight, &mut multiple[i][0]);
-                ground.add(self.medium, &local, &node.weight, &mut multiple[i][1]);
+                sky.add(self.medium, &local, node, &mut multiple[i][0]);
+                ground.add(self.medium, &local, node, &mut multiple[i][1]);
             }
         }
         let mut out = vec![];
-        for (i, (sums, mut light)) in sunlit.chunks_exact(parts).zip(multiple).enumerate() {
+        for (i, (sums, mut light)) in sunlit.iter().zip(multiple).enumerate() {
             let sun = &suns[i];
             twice[i].add_to(&mut light[0][0], mu, sun);
             out.push(self.assemble(sums, light, (mu, sun)));
@@ -143,14 +144,14 @@ impl<'a> Gatherer<'a> {
 
     /// All light along `path`, polarised, for one sun and ground albedo; for an atmosphere of any make.
     pub fn stokes(&self, path: &Path, mu: f64, sun: &Sun, albedo: f32) -> Stokes {
-        let mut sums = vec![[0.0; NW]; self.medium.parts.len()];
+        let mut sums = LineIntegrals::new(self.medium);
         let mut light = [DARK; 2];
         let mut twice = TwiceScattered::new(self.medium);
         for node in &path.nodes {
             let local = sun.at(node);
             if let Some((t, columns)) = self.medium.sunlight_through(node.altitude, local.mu) {
                 let profiles = self.medium.profiles(node.altitude);
-                first_order::add(&profiles, &t, &node.weight, &mut sums);
+                sums.add(&profiles, &t, node);
                 twice.add(&profiles, &columns, &t, &node.weight);
             }
             for (moments, out) in [&self.light.sky, &self.light.ground]
@@ -158,7 +159,7 @@ impl<'a> Gatherer<'a> {
                 .zip(&mut light)
             {
                 let table = SourceTable::new(self.medium, moments, node);
-                table.add(self.medium, &local, &node.weight, out);
+                table.add(self.medium, &local, node, out);
             }
         }
         twice.add_to(&mut light[0][0], mu, sun);
@@ -172,9 +173,20 @@ impl<'a> Gatherer<'a> {
         out
     }
 
-    fn assemble(&self, sums: &[Spectrum], light: [Stokes; 2], (mu, sun): (f64, &Sun)) -> Fields {
+    fn assemble(
+        &self,
+        integrals: &LineIntegrals,
+        light: [Stokes; 2],
+        (mu, sun): (f64, &Sun),
+    ) -> Fields {
         let [mut multiple, ground] = light;
-        first_order::add_polarised_by_particles(self.medium, sums, (mu, sun), &mut multiple);
+        first_order::add_polarised_beside_rayleigh(
+            self.medium,
+            integrals,
+            (mu, sun),
+            &mut multiple,
+        );
+        let sums = integrals.all();
         let beside = first_order::beside_kinds(self.medium, sums, sun.cosine(mu));
         for w in 0..NW {
             multiple[0][w] += beside[w];

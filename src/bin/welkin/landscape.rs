@@ -19,6 +19,7 @@ use crate::terrain::{FARTHEST, Field, Terrain, altitude, noise};
 
 /// What stands on the ground.
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Options {
     #[command(flatten)]
     lens: Lens,

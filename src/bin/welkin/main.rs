@@ -222,3 +222,20 @@ fn complain(message: &str) -> ExitCode {
     let _ = writeln!(std::io::stderr(), "welkin: {line}");
     ExitCode::from(2)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    /// Clap refuses others, but only in builds with debug assertions.
+    #[test]
+    fn groups_of_a_command_have_names_of_their_own() {
+        for command in super::command().get_subcommands() {
+            let mut names = HashSet::new();
+            for group in command.get_groups() {
+                let name = group.get_id();
+                assert!(names.insert(name), "{}: {name} twice", command.get_name());
+            }
+        }
+    }
+}

@@ -6,6 +6,7 @@ use crate::about::About;
 use crate::failure::{Failure, Result};
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Options {
     /// Geometric elevation of the moon's centre, degrees: adds moonlight. The sun may then be below the range of the
     /// model, where it adds nothing.

@@ -14,6 +14,7 @@ use crate::picture::{Picture, Wanted};
 use crate::tone::Film;
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Options {
     /// Base name for an EXR and a PNG, or the name of one of them with its extension; - for standard output. What
     /// begins with a digit is no extension.

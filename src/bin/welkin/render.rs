@@ -25,6 +25,7 @@ use crate::tone::Film;
 use crate::view::{Moonlight, View};
 
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Options {
     #[command(flatten)]
     pub source: Source,

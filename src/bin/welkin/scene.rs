@@ -7,6 +7,7 @@ use welkin::{Albedo, Conditions, Model};
 use crate::albedo::Ground;
 use crate::failure::{Result, plain};
 use crate::parameter;
+use crate::space;
 use crate::sun::Sun;
 use crate::turbidity;
 
@@ -83,8 +84,9 @@ impl Scene {
         let wished = self.wished(model, steps)?;
         let [lowest, _] = model.solar_elevation_range();
         let [_, ceiling] = model.altitude_range();
+        let has_space = !self.clamp && space::is_reached_by(model);
         let is_beyond =
-            |c: &Conditions| !self.clamp && c.altitude > ceiling && c.altitude <= FARTHEST;
+            |c: &Conditions| has_space && c.altitude > ceiling && c.altitude <= FARTHEST;
         // Seen from high above, the sun may be below the camera's horizontal and yet above that of the air in view.
         let is_night = |c: &Conditions| {
             (has_moon || is_beyond(c)) && c.solar_elevation < lowest && c.solar_elevation > -QUARTER

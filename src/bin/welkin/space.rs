@@ -18,6 +18,14 @@ pub struct Space<'a> {
     srgb: Vec<[f32; 3]>,
 }
 
+/// Of the altitude where the air ends: whoever is above a model that reaches so high is in space.
+const NEARLY_ALL: f64 = 0.9;
+
+/// Whether a model reaches so high that hardly any air is above it.
+pub fn is_reached_by(model: &Model) -> bool {
+    model.altitude_range()[1] >= NEARLY_ALL * model.head().planet.top
+}
+
 /// Whether an observer is above all that the model has.
 pub fn is_beyond(model: &Model, conditions: &Conditions) -> bool {
     conditions.altitude > model.altitude_range()[1]

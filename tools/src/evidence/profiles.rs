@@ -10,7 +10,7 @@ use crate::peers::sky::Observer;
 /// Size of a panel and where the first one stands.
 const PANEL: [f64; 2] = [236.0, 190.0];
 const ORIGIN: [f64; 2] = [56.0, 46.0];
-const SPACING: [f64; 2] = [262.0, 240.0];
+const SPACING: [f64; 2] = [300.0, 240.0];
 /// Lines of the legend under the panels.
 const LEGEND: usize = 3;
 
@@ -232,7 +232,7 @@ fn legend(svg: &mut String, models: &[Entry], top: f64) {
         let (colour, dashes) = style(entry.key);
         let note = if entry.was_run() { "" } else { " (not run)" };
         let (x, y) = (
-            ORIGIN[0] + (i / LEGEND) as f64 * 290.0,
+            ORIGIN[0] + (i / LEGEND) as f64 * 330.0,
             top + 20.0 * (i % LEGEND) as f64,
         );
         let _ = writeln!(

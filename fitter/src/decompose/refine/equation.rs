@@ -11,6 +11,9 @@ use rand_pcg::rand_core::Rng;
 pub const ALBEDOS: [f32; 3] = [0.0, 0.3, 1.0];
 /// Weight of the relative error of a single field against that of the radiance.
 const FIELD_WEIGHT: f32 = 0.4;
+/// Fields of single scattering by particles, and the share of the radiance that they have at least around the sun.
+const PARTICLES: [usize; 2] = [1, 2];
+const LEAST_SHARE: f32 = 0.3;
 
 /// Relative errors above this count linearly and not squared: at the edge of the Earth's shadow they are large whatever
 /// the fit does, and must not cost what the rest could have.
@@ -44,14 +47,20 @@ impl Equation {
         }
     }
 
-    /// One of the fields is what was traced.
+    /// One of the fields is what was traced. Particles count at least a little around the sun: nearer to it, where there
+    /// is no site, they may be all there is.
     pub fn field(&self, chunk: &Chunk, site: usize, field: usize) -> Self {
+        let value = chunk.value(site, field, self.wavelength);
         let mut share = [0.0; FIELDS];
         share[field] = self.share[field];
+        if PARTICLES.contains(&field) && chunk.is_near_sun(site) {
+            // Relative to its estimate such a field is about 1.
+            share[field] = share[field].max(LEAST_SHARE);
+        }
         Self {
             wavelength: self.wavelength,
             share,
-            target: share[field] * chunk.value(site, field, self.wavelength),
+            target: share[field] * value,
             weight: self.weight * FIELD_WEIGHT,
         }
     }
