@@ -63,9 +63,9 @@ pub struct AerialHeader {
 /// light from there, as plain arrays. One table serves all views from one place.
 ///
 /// With `h` the header, a point at the distance `s` in the direction of a unit vector `d` is looked up as a
-/// [`SkyBuffers`](crate::SkyBuffers) is, with `z = d · h.up` for `d.z` and `(d · h.forward, d · h.left)` for the azimuth,
-/// so that row, column and angle are those of its formulae, and with four more neighbours over the distance. Its nodes
-/// crowd near the camera and in the lower air. With `w = altitude + altitude² / 2R`, which is a parabola of `s`:
+/// [`SkyBuffers`](crate::SkyBuffers) is, with `z = d · h.up` for `d.z` and `(d · h.forward, d · h.left)` for the
+/// azimuth, so that row, column and angle are those of its formulae, and with four more neighbours over the distance.
+/// Its nodes crowd near the camera and in the lower air. With `w = altitude + altitude² / 2R`, a parabola of `s`:
 ///
 /// ```text
 /// rise       = z · h.steepness                                  // of w at the camera
@@ -87,8 +87,8 @@ pub struct AerialHeader {
 /// Where a ray that goes down is longer than to its end, as into a valley, it goes on through the same air: with
 /// `k = s / end` depths are `k` times as much, and X, Y and Z `(1 − factors^k) / (1 − factors)` times.
 ///
-/// `table` has `envelope[h.sun_intervals + 3]`, `light[h.distances + 3][rows][columns]` and `depth[…]` of the same size,
-/// one after the other, with rows and columns as those of the sky. The fourth component is 0.
+/// `table` has `envelope[h.sun_intervals + 3]`, `light[h.distances + 3][rows][columns]` and `depth[…]` of the same
+/// size, one after the other, with rows and columns as those of the sky. The fourth component is 0.
 ///
 /// ```
 /// use welkin::{Conditions, Model};

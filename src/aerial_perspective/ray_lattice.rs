@@ -203,8 +203,8 @@ impl<'a> RayLattice<'a> {
     }
 }
 
-/// Distances that a ray is marched to, [`STEPS`] for each interval after the first node. That is not where the camera is,
-/// as light and depths per metre are asked for.
+/// Distances that a ray is marched to, [`STEPS`] for each interval after the first node. That is not where the camera
+/// is, as light and depths per metre are asked for.
 fn marched(nodes: &[f64]) -> Vec<f64> {
     let first = nodes[0].max(nodes.get(1).map_or(0.0, |next| 1e-3 * next));
     let mut distances = vec![first];
