@@ -281,7 +281,7 @@ fn sheets_are_of_the_model_or_of_a_day() {
 fn an_observer_above_a_low_model_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let call = |line: &str| command::call(folder.path(), line);
-    let made = call("subset --altitudes 0..2000 --visibilities 50..60 --rgb --out low.welkin");
+    let made = call("subset --altitudes 0..2000 --visibilities 50..60 --out low.welkin");
     assert!(made.status.success(), "{made:?}");
     let refused = call("render --model low.welkin --altitude 9000 --size 16 --out sky");
     let text = String::from_utf8(refused.stderr).unwrap();
