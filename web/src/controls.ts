@@ -1,7 +1,7 @@
 // The form: what can be set, as numbers, sliders and lists.
 
 import type { Limits } from "./protocol";
-import { BALANCES, GROUNDS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
+import { BALANCES, GROUNDS, OTHERS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
 
 export type Change = (change: Partial<View>, isMoving: boolean) => void;
 
@@ -37,6 +37,7 @@ const CHOICES: Choice[] = [
   },
   { key: "quantity", label: "Shows", names: { radiance: "Light", dolp: "Degree of polarisation" } },
   { key: "tone", label: "Tone curve", names: { linear: "Linear", filmic: "Filmic", aces: "ACES" } },
+  { key: "compare", label: "Beside it", names: { none: "Nothing", hosek: "Hosek–Wilkie 2012" } },
   { key: "ground", label: "Ground", names: { lit: "In sun and skylight", black: "Black" } },
   { key: "balance", label: "White balance", names: { daylight: "Daylight film", d65: "As measured" } },
 ];
@@ -46,20 +47,27 @@ const KNOWN: Record<Words, readonly string[]> = {
   tone: TONES,
   balance: BALANCES,
   ground: GROUNDS,
+  compare: OTHERS,
 };
 
-function sliders({ altitudes, visibilities, elevations }: Limits): Slider[] {
-  const degrees = (angle: number) => (angle * 180) / Math.PI;
-  const [sun, air, picture] = ["sun-controls", "air-controls", "picture-controls"];
+/** m; of the slider, about where satellites stand still. */
+const HIGHEST = 4e7;
+
+function sliders({ altitudes, visibilities }: Limits): Slider[] {
+  const [sun, moon, air, picture] = ["sun-controls", "moon-controls", "air-controls", "picture-controls"];
   const last = (list: number[]) => list.at(-1)!;
   return [
-    { key: "sunElevation", group: sun, label: "Elevation, °", low: degrees(elevations[0]), high: degrees(elevations[1]), step: 0.1 },
+    { key: "sunElevation", group: sun, label: "Elevation, °", low: -90, high: 90, step: 0.1 },
     { key: "sunAzimuth", group: sun, label: "Azimuth, °", low: -180, high: 180, step: 0.5 },
+    { key: "moonElevation", group: moon, label: "Elevation, °", low: -90, high: 90, step: 0.1, none: "No moon", start: 45 },
+    { key: "moonAzimuth", group: moon, label: "Azimuth, °", low: -180, high: 180, step: 0.5 },
+    { key: "moonPhase", group: moon, label: "Phase angle, ° (0: full)", low: 0, high: 180, step: 0.5 },
     { key: "visibility", group: air, label: "Visibility, km", low: visibilities[0]! / 1e3, high: last(visibilities) / 1e3, step: 0.1 },
-    { key: "altitude", group: air, label: "Altitude, m", low: altitudes[0]!, high: last(altitudes), step: 1, power: 3 },
+    { key: "altitude", group: air, label: "Altitude, m", low: altitudes[0]!, high: HIGHEST, step: 1, power: 6 },
     { key: "albedo", group: air, label: "Albedo of the ground", low: 0, high: 1, step: 0.01 },
     { key: "exposure", group: picture, label: "Exposure, EV", low: -10, high: 20, step: 0.1, none: "Automatic exposure", start: 13 },
     { key: "polariser", group: picture, label: "Polariser, °", low: -90, high: 90, step: 1, none: "No polariser", start: 0 },
+    { key: "divider", group: picture, label: "Divider, % (beside it)", low: 0, high: 100, step: 0.5 },
     { key: "viewAzimuth", group: picture, label: "View azimuth, °", low: -180, high: 180, step: 0.5 },
     { key: "pitch", group: picture, label: "Pitch, ° (perspective)", low: -90, high: 90, step: 0.5 },
     { key: "field", group: picture, label: "Field of view, ° (perspective)", low: 5, high: 150, step: 1 },
@@ -84,7 +92,8 @@ class NumberControl {
   readonly #number: HTMLInputElement;
   readonly #range: HTMLInputElement;
   readonly #none: HTMLInputElement | null = null;
-  #shown = "";
+  #shown: number | null = NaN;
+  #shownAutomatic = NaN;
 
   constructor(
     private readonly slider: Slider,
@@ -98,7 +107,7 @@ class NumberControl {
     const set = (value: number, isMoving: boolean) => change({ [key]: value }, isMoving);
     this.#number.addEventListener("change", () => {
       const value = this.#number.valueAsNumber;
-      this.#shown = "";
+      this.#shown = NaN;
       if (Number.isFinite(value)) set(Math.min(Math.max(value, low), high), false);
       else change({}, false);
     });
@@ -126,9 +135,9 @@ class NumberControl {
     const value = view[this.slider.key];
     const shown = value ?? automatic;
     // What stays is not touched: a frame has little time.
-    const state = `${value === null} ${shown.toFixed(3)}`;
-    if (state === this.#shown) return;
-    this.#shown = state;
+    if (value === this.#shown && (value !== null || shown === this.#shownAutomatic)) return;
+    this.#shown = value;
+    this.#shownAutomatic = shown;
     if (this.#none) this.#none.checked = value === null;
     this.#number.disabled = this.#range.disabled = value === null;
     const text = `${Number(shown.toFixed(3))}`;

@@ -20,6 +20,21 @@ export function cameraAxes(view: View): [Vector, Vector, Vector] {
   return [[sa, -ca, 0], [-sp * ca, -sp * sa, cp], [cp * ca, cp * sa, sp]];
 }
 
+/** The same, one after the other, in an array of nine. */
+export function cameraMatrix(view: View, out: Float32Array): Float32Array {
+  const [right, above, ahead] = cameraAxes(view);
+  out.set(right);
+  out.set(above, 3);
+  out.set(ahead, 6);
+  return out;
+}
+
+/** Towards the sun. */
+export function sunVector({ sunElevation, sunAzimuth }: View): Vector {
+  const [height, azimuth] = [sunElevation * RADIANS, sunAzimuth * RADIANS];
+  return [Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)];
+}
+
 /** Components along the camera's axes at a place, both −1 to 1 to the right and upwards; null outside a fish-eye. */
 function local(view: View, right: number, above: number): Vector | null {
   if (view.projection === "lat-long") {

@@ -1,22 +1,28 @@
 // The page: a view, the sky that it needs, and what people do with it.
 
+import { Beside, Divider, type Other } from "./beside";
 import { byId, Controls } from "./controls";
 import { aspect, direction } from "./directions";
 import { exr } from "./exr";
 import { Failure, message } from "./failure";
-import type { Limits, Resolution, Scene, Traffic } from "./protocol";
+import type { Limits, Resolution, SkyTables, Traffic } from "./protocol";
 import { chart, describe } from "./reading";
 import { Renderer } from "./renderer";
 import { Latest, Skies } from "./skies";
+import { moonAt } from "./moon";
 import { sunAt } from "./sun";
 import { fromHash, START, toHash, type View } from "./view";
+import { isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
 
 const FILES = { colours: "sky.welkin", spectra: "default.welkin", code: "welkin.wasm" };
+const HOSEK = "hosek.bin";
 /** While something moves, and when it rests. */
 const COARSE: Resolution = [24, 8, 16];
 const FINE: Resolution = [48, 24, 32];
 /** How long something moves after it moved last, ms. */
 const REST = 150;
+/** Numbers that nobody reads so fast wait that long while something moves, ms: text costs the browser a layout. */
+const READING = 100;
 /** Measures that the browser keeps. */
 const MOST_MEASURES = 2000;
 
@@ -36,11 +42,17 @@ class Page {
   readonly #renderer: Renderer;
   readonly #sky = new Latest();
   readonly #look = new Latest();
-  #shown = "";
+  readonly #beside = new Beside(HOSEK);
+  #divider: Divider | null = null;
+  #shown: Wanted | null = null;
+  #other: Other | null = null;
   #isMoving = false;
+  #moved = 0;
   #rest = 0;
+  #written = 0;
   #frame = 0;
   #measures = 0;
+  #hasPicture = false;
   #ratio = 1;
   #exposure = 0;
   #place: [number, number] | null = null;
@@ -56,14 +68,16 @@ class Page {
   async start(): Promise<void> {
     const limits = await this.#skies.open(FILES);
     this.#limits = limits;
-    this.#controls ??= new Controls(limits, (change, isMoving) => this.change(change, isMoving));
+    const change = (change: Partial<View>, isMoving: boolean) => this.change(change, isMoving);
+    this.#controls ??= new Controls(limits, change);
+    this.#divider ??= new Divider(change);
     this.change({}, false);
   }
 
   /** Starts anew after a failure. */
   async retry(): Promise<void> {
     hideFailure();
-    this.#shown = "";
+    this.#shown = null;
     if (!this.#limits) {
       this.#skies.close();
       this.#skies = new Skies("worker.js", showTraffic);
@@ -74,51 +88,61 @@ class Page {
   }
 
   change(change: Partial<View>, isMoving: boolean): void {
-    this.#view = { ...this.#view, ...change };
+    Object.assign(this.#view, change);
     this.#isMoving = isMoving;
-    clearTimeout(this.#rest);
-    if (isMoving) this.#rest = window.setTimeout(() => this.#settle(), REST);
+    this.#moved = performance.now();
+    if (isMoving) this.#rest ||= window.setTimeout(this.#settle, REST);
     else history.replaceState(null, "", `#${toHash(this.#view)}`);
     setState("loading");
     this.#update();
   }
 
-  #settle(): void {
-    this.change({}, false);
+  /** Where nothing moved for a while, and for two frames, which may take longer. */
+  readonly #settle = (): void => {
+    const moved = this.#moved;
+    this.#rest = 0;
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        if (!this.#isMoving) return;
+        if (this.#moved === moved && performance.now() - moved >= REST) this.change({}, false);
+        else this.#rest ||= window.setTimeout(this.#settle, REST);
+      }),
+    );
+  };
+
+  #wanted(limits: Limits): Wanted {
+    return wanted(this.#view, limits, this.#resolution);
   }
 
-  #scene(): Scene {
-    const { sunElevation, visibility, altitude, albedo, ground, quantity, polariser } = this.#view;
-    return {
-      altitude,
-      visibility: 1e3 * visibility,
-      albedo,
-      elevation: (sunElevation * Math.PI) / 180,
-      polarised: quantity === "dolp" || polariser !== null,
-      // The degree of polarisation is that of the sky's light alone.
-      grounded: ground === "lit" && quantity !== "dolp",
-      resolution: this.#isMoving ? COARSE : FINE,
-    };
+  get #resolution(): Resolution {
+    return this.#isMoving ? COARSE : FINE;
   }
 
   #update(): void {
     this.#draw();
-    if (!this.#limits) return;
-    void this.#sky
-      .run(async () => {
-        const scene = this.#scene();
-        const key = JSON.stringify(scene);
-        if (key === this.#shown) return;
-        const tables = await this.#skies.sky(scene);
-        this.#renderer.upload(tables);
-        this.#shown = key;
-        this.#measure("prepare", tables.prepared);
-        this.#measure("bake", tables.baked);
-        hideFailure();
-        this.#draw();
-        this.#read();
-      })
-      .catch(fail);
+    const limits = this.#limits;
+    if (limits) void this.#sky.run(() => this.#fetch(limits)).catch(fail);
+  }
+
+  /** What is not there yet; all of it is shown at once. */
+  async #fetch(limits: Limits): Promise<void> {
+    const now = this.#wanted(limits);
+    const before = this.#shown;
+    if (isSame(now, before)) return;
+    const other = now.other === before?.other ? this.#other : await this.#beside.of({ ...this.#view }, this.#skies);
+    const changed = SOURCES.filter((source) => before === null || !isSameScene(now[source], before[source]));
+    const tables: (SkyTables | null)[] = [];
+    for (const source of changed) tables.push(now[source] && (await this.#skies.sky(now[source])));
+    changed.forEach((source, i) => this.#renderer.set(source, tables[i]!));
+    this.#renderer.place(now.eye);
+    this.#renderer.beside(other?.coefficients ?? null);
+    this.#other = other;
+    this.#shown = now;
+    for (const table of tables) if (table) this.#measure("prepare", table.prepared);
+    for (const table of tables) if (table) this.#measure("bake", table.baked);
+    hideFailure();
+    this.#draw();
+    this.#read();
   }
 
   redraw(): void {
@@ -127,33 +151,41 @@ class Page {
 
   /** With the next frame. */
   #draw(): void {
-    if (this.#frame !== 0) return;
-    this.#frame = requestAnimationFrame(() => {
-      this.#frame = 0;
-      if (this.#renderer.hasSky) this.#paint();
-    });
+    if (this.#frame === 0) this.#frame = requestAnimationFrame(this.#paint);
   }
 
-  #paint(): void {
-    const start = performance.now();
+  readonly #paint = (): void => {
+    this.#frame = 0;
+    if (!this.#renderer.hasSky) return;
     this.#frameOf(aspect(this.#view.projection));
+    if (!this.#isMoving) this.#renderer.meter(this.#view);
     this.#renderer.draw(this.#view);
-    // What is read, not seen, waits for the rest.
+    this.#divider?.show(this.#view.compare !== "none" && this.#shown?.eye === null, this.#view.divider);
+    const now = performance.now();
+    if (!this.#isMoving || now - this.#written >= READING) this.#write(now);
+    if (!this.#hasPicture) performance.mark("first-picture");
+    this.#hasPicture = true;
+    if (!this.#isMoving && this.#sky.isIdle && this.#isCurrent()) setState("ready");
+  };
+
+  #isCurrent(): boolean {
+    return this.#limits !== null && isSame(this.#wanted(this.#limits), this.#shown);
+  }
+
+  /** What is read, not seen. */
+  #write(now: number): void {
+    this.#written = now;
     if (!this.#isMoving) this.#exposure = this.#renderer.exposure(this.#view);
     this.#controls?.show(this.#view, this.#exposure);
-    const text = sentence(this.#view, this.#exposure);
-    if (!this.#isMoving && scene.textContent !== text) scene.textContent = text;
-    this.#measure("draw", performance.now() - start);
-    if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
-    if (!this.#isMoving && this.#sky.isIdle && this.#shown === JSON.stringify(this.#scene())) {
-      setState("ready");
-    }
+    if (this.#isMoving) return;
+    const text = sentence(this.#view, this.#exposure, this.#shown, this.#other);
+    if (scene.textContent !== text) scene.textContent = text;
   }
 
   #frameOf(ratio: number): void {
     if (ratio === this.#ratio) return;
     this.#ratio = ratio;
-    canvas.style.setProperty("--aspect", `${ratio}`);
+    byId("frame", HTMLElement).style.setProperty("--aspect", `${ratio}`);
   }
 
   #measure(name: string, duration: number): void {
@@ -176,11 +208,12 @@ class Page {
 
   #read(): void {
     const where = this.#place && direction(this.#view, ...this.#place);
-    if (!where || !this.#limits) return;
+    const limits = this.#limits;
+    if (!where || !limits) return;
     const isSpectral = byId("full-spectrum", HTMLInputElement).checked;
     void this.#look
       .run(async () => {
-        const spectrum = await this.#skies.look(this.#scene(), where, isSpectral);
+        const spectrum = await this.#skies.look(looks(this.#view, limits, FINE, where), isSpectral);
         byId("reading", HTMLElement).textContent = describe(where, spectrum);
         chart(byId("spectrum", SVGSVGElement), spectrum);
       })
@@ -203,7 +236,8 @@ class Page {
     note("The link to this view is on the clipboard.");
   }
 
-  placeSun(): void {
+  /** Where they stand at a date, a time and a place. */
+  placeLights(hasMoon: boolean): void {
     const [instant, latitude, longitude] = ["instant", "latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
     const date = new Date(`${instant!.value}Z`);
     const place = { latitude: latitude!.valueAsNumber, longitude: longitude!.valueAsNumber };
@@ -215,22 +249,42 @@ class Page {
     }
     const { elevation, azimuth } = sunAt(date, place);
     const lowest = ((this.#limits?.elevations[0] ?? 0) * 180) / Math.PI;
-    if (elevation < lowest) return note(`The sun is ${(-elevation).toFixed(1)}° below the horizon: too deep for the model.`);
-    note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°.`);
-    this.change({ sunElevation: elevation, sunAzimuth: azimuth > 180 ? azimuth - 360 : azimuth }, false);
+    const signed = (azimuth: number) => (azimuth > 180 ? azimuth - 360 : azimuth);
+    const moon = hasMoon ? moonAt(date, place) : null;
+    const depth = elevation < lowest ? ": too deep for its light" : "";
+    note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°${depth}${moon ? `, the moon at ${moon.elevation.toFixed(1)}°` : ""}.`);
+    this.change(
+      {
+        sunElevation: elevation,
+        sunAzimuth: signed(azimuth),
+        ...(moon && { moonElevation: moon.elevation, moonAzimuth: signed(moon.azimuth), moonPhase: moon.phase }),
+      },
+      false,
+    );
   }
 }
 
-function sentence(view: View, exposure: number): string {
+function sentence(view: View, exposure: number, shown: Wanted | null, other: Other | null): string {
+  const { moonElevation, moonPhase, polariser } = view;
+  const isBeyond = shown !== null && shown.eye !== null;
+  const isDark = shown !== null && !isBeyond && shown.sun === null;
   const parts = [
-    `sun at ${view.sunElevation.toFixed(1)}°`,
+    `sun at ${view.sunElevation.toFixed(1)}°${isDark ? ", too deep for its light" : ""}`,
+    ...(moonElevation === null || isBeyond ? [] : [`moon at ${moonElevation.toFixed(1)}°, phase angle ${moonPhase}°`]),
     `visibility ${view.visibility} km`,
     `altitude ${view.altitude} m`,
     `albedo ${view.albedo}`,
     `EV ${exposure.toFixed(1)}`,
-    ...(view.polariser === null ? [] : [`polariser at ${view.polariser}°`]),
+    ...(polariser === null || isBeyond ? [] : [`polariser at ${polariser}°`]),
   ];
-  return `${view.quantity === "dolp" ? "Degree of polarisation" : "Clear sky"}: ${parts.join(", ")}`;
+  const what = view.quantity === "dolp" && !isBeyond ? "Degree of polarisation" : "Clear sky";
+  return `${isBeyond ? "From outside of the air, in colour only" : what}: ${parts.join(", ")}${beside(view, isBeyond, other)}`;
+}
+
+function beside({ sunElevation }: View, isBeyond: boolean, other: Other | null): string {
+  if (!other || isBeyond) return "";
+  if (sunElevation < 0) return ". Hosek and Wilkie, at the right, have no sky for a sun below the horizon";
+  return `. At the right Hosek and Wilkie 2012 on the ground, turbidity ${other.turbidity.toFixed(2)}`;
 }
 
 function showTraffic({ requests, bytes, total }: Traffic): void {
@@ -286,7 +340,8 @@ function listen(page: Page): void {
   on("link", () => page.link());
   on("png", () => page.png());
   on("exr", () => page.exr());
-  on("place-sun", () => page.placeSun());
+  on("place-sun", () => page.placeLights(false));
+  on("place-both", () => page.placeLights(true));
   byId("controls", HTMLFormElement).addEventListener("submit", (event) => event.preventDefault());
   byId("full-spectrum", HTMLInputElement).addEventListener("change", () => page.point(page.place));
   canvas.addEventListener("keydown", (event) => onKey(page, event));

@@ -27,18 +27,37 @@ interface Exports {
     visibility: number,
     albedo: number,
     elevation: number,
+    phase: number,
     polarised: number,
   ): number;
   bake(index: number, up: number, down: number, azimuths: number, polarised: number, grounded: number): number;
+  bake_space(
+    index: number,
+    visibility: number,
+    albedo: number,
+    low: number,
+    high: number,
+    step: number,
+    up: number,
+    down: number,
+    columns: number,
+    grounded: number,
+  ): number;
+  turbidity(index: number, visibility: number): number;
+  radius(index: number): number;
   table_at(): number;
   header_at(): number;
-  mean_of(index: number): number;
+  lattice_at(): number;
   answers_at(): number;
   look(index: number, x: number, y: number, z: number, first: number, step: number, count: number): number;
   error_text(error: number): number;
 }
 
 const HEADER = 12;
+const LATTICE = 512;
+/** Layers of the air from outside, in its coordinate of the sun: as fine as a table of this many intervals. */
+const LAYER = 0.15;
+const FINE = 48;
 /** Wavelengths of a spectrum between the nodes, nm. */
 const FIRST = 300;
 const STEP = 5;
@@ -100,13 +119,14 @@ export class ReaderFile implements Destination {
     return {
       altitudes: nodes(1),
       visibilities: nodes(2),
+      radius: this.wasm.radius(this.index),
       elevations: [this.wasm.elevation_limit(this.index, 0), this.wasm.elevation_limit(this.index, 1)],
     };
   }
 
   /** What a sky needs of the file. */
-  plan(scene: Scene, spectral: boolean): Range[] {
-    const { altitude, visibility } = scene;
+  plan(scene: Pick<Scene, "altitude" | "visibility" | "polarised" | "grounded">, spectral: boolean): Range[] {
+    const { altitude, visibility } = scene; // the altitude of where rays enter, from outside
     const [polarised, grounded] = [Number(scene.polarised), Number(scene.grounded)];
     this.#check(this.wasm.plan(this.index, altitude, visibility, polarised, grounded, Number(spectral)));
     const total = this.wasm.range_total();
@@ -114,21 +134,47 @@ export class ReaderFile implements Destination {
     return Array.from({ length: total }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
   }
 
-  prepare({ altitude, visibility, albedo, elevation, polarised }: Scene): void {
-    this.#check(this.wasm.prepare(this.index, altitude, visibility, albedo, elevation, Number(polarised)));
+  prepare({ altitude, visibility, albedo, elevation, phase, polarised }: Scene): void {
+    this.#check(this.wasm.prepare(this.index, altitude, visibility, albedo, elevation, phase ?? -1, Number(polarised)));
   }
 
-  bake({ resolution, polarised, grounded }: Scene): Omit<SkyTables, "prepared" | "baked"> {
+  bake(scene: Scene): Omit<SkyTables, "prepared" | "baked"> {
+    return scene.reach === null ? this.#bakeSky(scene) : this.#bakeSpace(scene, scene.reach);
+  }
+
+  /** Of the air under a visibility (m). */
+  turbidity(visibility: number): number {
+    const found = this.wasm.turbidity(this.index, visibility);
+    if (!(found > 0)) this.#check(-found);
+    return found;
+  }
+
+  #floats(at: number, length: number): Float32Array<ArrayBuffer> {
+    return new Float32Array(this.wasm.memory.buffer, at, length).slice();
+  }
+
+  #bakeSpace({ visibility, albedo, elevation, resolution, grounded }: Scene, reach: number): Omit<SkyTables, "prepared" | "baked"> {
+    const [up, down, columns] = [(2 * resolution[0]) / 3, resolution[1], (3 * resolution[2]) / 4];
+    const [low, high, step] = [elevation - reach, elevation + reach, (LAYER * FINE) / resolution[0]];
+    this.#check(
+      this.wasm.bake_space(this.index, visibility, albedo, low, high, step, up, down, columns, Number(grounded)),
+    );
+    const header = this.#floats(this.wasm.header_at(), HEADER);
+    header.set([up, down, columns], 7);
+    const nodes = (header[6]! + 1) * (up + down + 2) * (columns + 1);
+    return { header, root: this.#floats(this.wasm.table_at(), 4 * nodes), degrees: null, lattice: new Float32Array() };
+  }
+
+  #bakeSky({ resolution, polarised, grounded }: Scene): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, azimuths] = resolution;
     this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised), Number(grounded)));
     const nodes = (up + down + 2) * (azimuths + 1);
-    const floats = (at: number, length: number) => new Float32Array(this.wasm.memory.buffer, at, length).slice();
     const table = this.wasm.table_at();
     return {
-      header: floats(this.wasm.header_at(), HEADER),
-      root: floats(table, 4 * nodes),
-      degrees: polarised ? floats(table + 16 * nodes, 8 * nodes) : null,
-      mean: this.wasm.mean_of(this.index),
+      header: this.#floats(this.wasm.header_at(), HEADER),
+      root: this.#floats(table, 4 * nodes),
+      degrees: polarised ? this.#floats(table + 16 * nodes, 8 * nodes) : null,
+      lattice: this.#floats(this.wasm.lattice_at(), LATTICE),
     };
   }
 

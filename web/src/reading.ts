@@ -18,16 +18,19 @@ function rows(spectrum: Spectrum): Row[] {
   return Array.from({ length: spectrum.length / 4 }, (_, i) => {
     const [wavelength, radiance, q, u] = [0, 1, 2, 3].map((k) => spectrum[4 * i + k]!) as [number, number, number, number];
     const angle = ((Math.atan2(u, q) / 2) * 180) / Math.PI;
-    return { wavelength, radiance, degree: Math.min(Math.hypot(q, u), 1), angle };
+    const degree = radiance > 0 ? Math.min(Math.hypot(q, u) / radiance, 1) : 0;
+    return { wavelength, radiance, degree, angle };
   });
 }
 
 /** Where somebody looks, and the light at the wavelength next to 550 nm. */
 export function describe([x, y, z]: Vector, spectrum: Spectrum): string {
   const degrees = (angle: number) => `${((angle * 180) / Math.PI).toFixed(1)}°`;
+  const where = `Elevation ${degrees(Math.atan2(z, Math.hypot(x, y)))}, azimuth ${degrees(Math.atan2(y, x))}`;
+  if (spectrum.length === 0) return `${where}\nNo light of sun or moon.`;
   const middle = rows(spectrum).reduce((a, b) => (Math.abs(b.wavelength - 550) < Math.abs(a.wavelength - 550) ? b : a));
   return [
-    `Elevation ${degrees(Math.atan2(z, Math.hypot(x, y)))}, azimuth ${degrees(Math.atan2(y, x))}`,
+    where,
     `At ${middle.wavelength} nm: ${middle.radiance.toPrecision(4)} W m⁻² sr⁻¹ nm⁻¹`,
     `Degree of polarisation ${(100 * middle.degree).toFixed(1)} %, angle from the vertical ${middle.angle.toFixed(0)}°`,
   ].join("\n");

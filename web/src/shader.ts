@@ -1,6 +1,9 @@
 // The sky in a shader. Directions are those of `directions.ts`, the table's coordinates those of `welkin.h` (the
 // comment above its baked skies), colours and tone curves those of `welkin render`.
 
+import { HOSEK_SHADER } from "./hosek";
+import { SPACE_SHADER } from "./space";
+
 export const VERTEX = `#version 300 es
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
@@ -11,15 +14,19 @@ const UNIFORMS = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
-uniform sampler2D roots, degrees;
+// Of a light: sun and moon.
+struct Table {
+  vec4 horizon;    // dip, height of the light above the horizon, coordinates of it and of half of it
+  vec3 ends;       // coordinates of zenith, nadir and the azimuth opposite to the light
+  ivec3 intervals; // none: the light is not there
+  vec2 azimuth;    // its cosine and sine
+};
+uniform sampler2D roots, degrees, moon_roots, moon_degrees;
+uniform Table sun, moon;
 uniform vec2 size;
 uniform int projection; // up, side, lat-long, perspective
 uniform mat3 axes;      // right, above, ahead
 uniform float half_field;
-uniform vec4 horizon;   // dip, height of the sun above the horizon, coordinates of it and of half of it
-uniform vec3 ends;      // coordinates of zenith, nadir and the azimuth opposite to the sun
-uniform ivec3 intervals;
-uniform vec2 sun;       // cosine and sine of its azimuth
 uniform int quantity;   // radiance, degree of polarisation
 uniform float polariser; // rad
 uniform bool has_polariser;
@@ -60,7 +67,7 @@ float from_horizon(float angle) {
 
 float arsinh(float x) { return sign(x) * log(abs(x) + sqrt(x * x + 1.0)); }
 
-float up_coordinate(float height) {
+float up_coordinate(float height, vec4 horizon) {
   if (height < 0.5 * horizon.y) return from_horizon(height);
   return horizon.z + arsinh((height - horizon.y) / HEIGHT_SCALE);
 }
@@ -80,47 +87,60 @@ vec4 between(float coordinate, int count, bool is_level, out int first_node) {
   return w;
 }
 
-struct Light { vec3 root, q, u; };
+// Stokes components of X, Y and Z; the frame is the vertical one.
+struct Light { vec3 xyz, q, u; };
 
-Light table(vec3 v, bool has_degrees) {
-  float height = atan(v.z, length(v.xy)) + horizon.x;
-  float along = dot(v.xy, sun), across = v.y * sun.x - v.x * sun.y;
+void add(sampler2D roots, sampler2D degrees, Table of, vec3 v, bool has_degrees, inout Light sum) {
+  ivec3 intervals = of.intervals;
+  if (intervals.z == 0) return;
+  float height = atan(v.z, length(v.xy)) + of.horizon.x;
+  float along = dot(v.xy, of.azimuth), across = v.y * of.azimuth.x - v.x * of.azimuth.y;
   bool up = height >= 0.0;
   int rows = up ? intervals.x : intervals.y;
-  float end = up ? ends.x : ends.y;
-  float row = clamp(float(rows) * (up ? up_coordinate(height) : from_horizon(-height)) / end, 0.0, float(rows));
+  float end = up ? of.ends.x : of.ends.y;
+  float coordinate = up ? up_coordinate(height, of.horizon) : from_horizon(-height);
+  float row = clamp(float(rows) * coordinate / end, 0.0, float(rows));
   float azimuth = arsinh(atan(abs(across), along) / AZIMUTH_SCALE);
-  float column = clamp(float(intervals.z) * azimuth / ends.z, 0.0, float(intervals.z));
+  float column = clamp(float(intervals.z) * azimuth / of.ends.z, 0.0, float(intervals.z));
   int first_row, first_column;
   vec4 by_row = between(row, rows, false, first_row);
   vec4 by_column = between(column, intervals.z, true, first_column);
-  Light light = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  vec3 root = vec3(0.0), q = vec3(0.0), u = vec3(0.0);
   for (int i = 0; i < 4; i++) {
     int y = clamp(first_row + i, 0, rows) + (up ? 0 : intervals.x + 1);
     for (int j = 0; j < 4; j++) {
       int x = clamp(first_column + j, 0, intervals.z);
       float weight = by_row[i] * by_column[j];
-      light.root += weight * texelFetch(roots, ivec2(x, y), 0).rgb;
+      root += weight * texelFetch(roots, ivec2(x, y), 0).rgb;
       if (has_degrees) {
-        light.q += weight * texelFetch(degrees, ivec2(2 * x, y), 0).rgb;
-        light.u += weight * texelFetch(degrees, ivec2(2 * x + 1, y), 0).rgb;
+        q += weight * texelFetch(degrees, ivec2(2 * x, y), 0).rgb;
+        u += weight * texelFetch(degrees, ivec2(2 * x + 1, y), 0).rgb;
       }
     }
   }
-  light.u *= across / max(length(v.xy), 1e-12);
-  return light;
+  vec3 xyz = root * root;
+  sum.xyz += xyz;
+  sum.q += xyz * q;
+  sum.u += xyz * u * across / max(length(v.xy), 1e-12);
+}
+
+Light lights(vec3 v, bool has_degrees) {
+  Light sum = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  add(roots, degrees, sun, v, has_degrees, sum);
+  add(moon_roots, moon_degrees, moon, v, has_degrees, sum);
+  return sum;
 }
 `;
 
 const POLARISATION = `
-// Half of the light that is not polarised, and what passes of the rest; the frame of the table is the vertical one.
-vec3 pass(vec3 v, vec3 xyz, Light light) {
+// Half of the light that is not polarised, and what passes of the rest.
+vec3 pass(vec3 v, Light light) {
   float level = max(length(v.xy), 1e-6);
   vec3 e1 = vec3(-v.z * v.xy / level, level), e2 = vec3(v.y, -v.x, 0.0) / level;
   vec3 top = projection == 2 || projection == 1 ? vec3(0.0, 0.0, 1.0) : axes[1];
   float angle = atan(dot(e2, top), dot(e1, top)) + polariser;
   vec3 part = light.q * cos(2.0 * angle) + light.u * sin(2.0 * angle);
-  return max(0.5 * xyz * (1.0 + part), 0.0);
+  return max(0.5 * (light.xyz + part), 0.0);
 }
 
 vec3 sequential(float x) {
@@ -182,16 +202,19 @@ void main() {
     return;
   }
   vec3 v = axes * local;
-  Light light = table(v, has_polariser || quantity == 1);
-  vec3 xyz = light.root * light.root;
+  bool is_other = gl_FragCoord.x > divider * size.x;
+  Light light = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (is_beyond) light.xyz = beyond(v);
+  else if (!is_other) light = lights(v, has_polariser || quantity == 1);
   if (quantity == 1) {
-    colour = vec4(sequential(xyz.y > 0.0 ? min(length(vec2(light.q.y, light.u.y)), 1.0) : 0.0), 1.0);
+    float degree = light.xyz.y > 0.0 ? length(vec2(light.q.y, light.u.y)) / light.xyz.y : 0.0;
+    colour = vec4(sequential(min(degree, 1.0)), 1.0);
     return;
   }
-  if (has_polariser) xyz = pass(v, xyz, light);
-  vec3 rgb = linear_srgb(xyz);
+  vec3 rgb = linear_srgb(has_polariser ? pass(v, light) : light.xyz);
+  if (is_other) rgb = (has_polariser ? 0.5 : 1.0) * hosek_wilkie(v);
   colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
 }
 `;
 
-export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, POLARISATION, FILM, MAIN].join("");
+export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, SPACE_SHADER, HOSEK_SHADER, POLARISATION, FILM, MAIN].join("");

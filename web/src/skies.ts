@@ -1,7 +1,7 @@
 // Asks the worker, for one thing at a time: of wishes that come meanwhile, the last counts.
 
 import { Failure } from "./failure";
-import type { Answer, Limits, Question, Scene, SkyTables, Spectrum, Traffic } from "./protocol";
+import type { Answer, Limits, Look, Question, Scene, SkyTables, Spectrum, Traffic } from "./protocol";
 
 type Without<T> = T extends { id: number } ? Omit<T, "id"> : never;
 
@@ -35,8 +35,12 @@ export class Skies {
     return (await this.#ask({ kind: "sky", scene }, "sky")).tables;
   }
 
-  async look(scene: Scene, direction: [number, number, number], spectral: boolean): Promise<Spectrum> {
-    return (await this.#ask({ kind: "look", scene, direction, spectral }, "look")).spectrum;
+  async look(lights: Look[], spectral: boolean): Promise<Spectrum> {
+    return (await this.#ask({ kind: "look", lights, spectral }, "look")).spectrum;
+  }
+
+  async turbidity(visibility: number): Promise<number> {
+    return (await this.#ask({ kind: "turbidity", visibility }, "turbidity")).turbidity;
   }
 
   #ask<K extends Answer["kind"]>(question: Without<Question>, kind: K): Promise<Extract<Answer, { kind: K }>> {

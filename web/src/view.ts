@@ -4,6 +4,7 @@ export const PROJECTIONS = ["up", "side", "lat-long", "perspective"] as const;
 export const QUANTITIES = ["radiance", "dolp"] as const;
 export const TONES = ["linear", "filmic", "aces"] as const;
 export const GROUNDS = ["lit", "black"] as const;
+export const OTHERS = ["none", "hosek"] as const;
 export const BALANCES = ["daylight", "d65"] as const;
 
 export type Projection = (typeof PROJECTIONS)[number];
@@ -12,6 +13,11 @@ export type Projection = (typeof PROJECTIONS)[number];
 export interface View {
   sunElevation: number;
   sunAzimuth: number;
+  /** None if null. */
+  moonElevation: number | null;
+  moonAzimuth: number;
+  /** Between sun and observer as seen from the moon: 0 is full. */
+  moonPhase: number;
   /** km */
   visibility: number;
   /** m */
@@ -27,6 +33,10 @@ export interface View {
   quantity: (typeof QUANTITIES)[number];
   /** From the top of the picture to the right; none if null. */
   polariser: number | null;
+  /** What stands beside the sky, to the right of the divider. */
+  compare: (typeof OTHERS)[number];
+  /** % of the width. */
+  divider: number;
   tone: (typeof TONES)[number];
   balance: (typeof BALANCES)[number];
   /** Height of the picture in pixels; as large as it is shown if null. */
@@ -36,6 +46,9 @@ export interface View {
 export const START: View = {
   sunElevation: 20,
   sunAzimuth: 0,
+  moonElevation: null,
+  moonAzimuth: 0,
+  moonPhase: 1.55,
   visibility: 59.4,
   altitude: 0,
   albedo: 0.2,
@@ -47,6 +60,8 @@ export const START: View = {
   field: 60,
   quantity: "radiance",
   polariser: null,
+  compare: "none",
+  divider: 50,
   tone: "aces",
   balance: "daylight",
   size: null,
@@ -58,18 +73,29 @@ type NumberKey = { [K in keyof View]: View[K] extends number | null ? K : never 
 export const BOUNDS: Record<NumberKey, readonly [low: number, high: number]> = {
   sunElevation: [-90, 90],
   sunAzimuth: [-360, 360],
+  moonElevation: [-90, 90],
+  moonAzimuth: [-360, 360],
+  moonPhase: [0, 180],
   visibility: [1, 1000],
-  altitude: [0, 1e6],
+  altitude: [0, 5e8],
   albedo: [0, 1],
   exposure: [-60, 60],
   viewAzimuth: [-360, 360],
   pitch: [-90, 90],
   field: [1, 170],
   polariser: [-180, 180],
+  divider: [0, 100],
   size: [16, 2048],
 };
 
-const WORDS = { projection: PROJECTIONS, quantity: QUANTITIES, tone: TONES, balance: BALANCES, ground: GROUNDS } as const;
+const WORDS = {
+  projection: PROJECTIONS,
+  quantity: QUANTITIES,
+  tone: TONES,
+  balance: BALANCES,
+  ground: GROUNDS,
+  compare: OTHERS,
+} as const;
 
 /** The part of an address after #, with what differs from the start. */
 export function toHash(view: View): string {

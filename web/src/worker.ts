@@ -43,9 +43,18 @@ class Model {
     await this.#safely(async () => {
       if (await this.#ranged.need(this.file.plan(scene, spectral))) this.file.open();
       start = performance.now();
-      this.file.prepare(scene);
+      if (scene.reach === null) this.file.prepare(scene);
     });
     return performance.now() - start;
+  }
+
+  /** What its transmittance needs. */
+  async air(visibility: number): Promise<void> {
+    const scene = { altitude: 0, visibility, polarised: false, grounded: true };
+    await this.open();
+    await this.#safely(async () => {
+      if (await this.#ranged.need(this.file.plan(scene, false))) this.file.open();
+    });
   }
 
   /** After a failure all is fetched anew: the file may be repaired. */
@@ -84,17 +93,31 @@ async function sky(scene: Scene): Promise<SkyTables> {
   return { ...tables, prepared, baked: performance.now() - start };
 }
 
-async function look(question: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
-  const model = opened(question.spectral ? spectra : colours);
-  await model.prepare({ ...question.scene, polarised: true, grounded: false }, question.spectral);
-  return model.file.look(question.direction, question.spectral);
+/** The sum of the lights. */
+async function look({ lights, spectral }: Extract<Question, { kind: "look" }>): Promise<Spectrum> {
+  const model = opened(spectral ? spectra : colours);
+  let sum: Spectrum | undefined;
+  for (const { scene, direction } of lights) {
+    await model.prepare({ ...scene, polarised: true, grounded: false, reach: null }, spectral);
+    const one = model.file.look(direction, spectral);
+    if (sum) one.forEach((value, i) => i % 4 && (sum![i]! += value));
+    else sum = one;
+  }
+  return sum ?? new Float64Array();
+}
+
+async function turbidity({ visibility }: Extract<Question, { kind: "turbidity" }>): Promise<number> {
+  const model = opened(colours);
+  await model.air(visibility);
+  return model.file.turbidity(visibility);
 }
 
 async function answer(question: Question): Promise<void> {
   if (question.kind === "open") return say(await open(question));
   if (question.kind === "look") return say({ kind: "look", id: question.id, spectrum: await look(question) });
+  if (question.kind === "turbidity") return say({ kind: "turbidity", id: question.id, turbidity: await turbidity(question) });
   const tables = await sky(question.scene);
-  const transfer = [tables.header.buffer, tables.root.buffer, ...(tables.degrees ? [tables.degrees.buffer] : [])];
+  const transfer = [tables.header.buffer, tables.root.buffer, tables.lattice.buffer, ...(tables.degrees ? [tables.degrees.buffer] : [])];
   say({ kind: "sky", id: question.id, tables }, transfer);
 }
 

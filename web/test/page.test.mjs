@@ -5,12 +5,12 @@ import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { launch, newPage, open, ready } from "./browser.mjs";
+import { compare, enter, SIZE } from "./helpers.mjs";
 import { difference, readExr, render } from "./reference.mjs";
 import { serve } from "./server.mjs";
 
 const FOLDER = new URL("../dist", import.meta.url).pathname;
 const OUT = new URL("../out/", import.meta.url).pathname;
-const SIZE = 96;
 
 let browser, server;
 let spoil = () => null;
@@ -25,32 +25,6 @@ after(async () => {
   await browser?.close();
   server?.close();
 });
-
-/** Whether the page's picture is the library's. The models differ (that of the page has fewer wavelengths), the tables
- * are not the library's, and a graphics device has 32 bits. */
-async function compare(page, args, { part = 1, mean = 0.5, p99 = 2 } = {}) {
-  const found = await difference(page, render("png", ["--size", `${SIZE}`, ...args]), part);
-  const text = `${args.join(" ")}: mean ${found.mean.toFixed(3)}, p99 ${found.p99}, largest ${found.most}, level ${found.level.toFixed(0)}`;
-  console.log(`  ${text}`);
-  assert.ok(found.mean <= mean && found.p99 <= p99, text);
-  assert.ok(found.level > 2, `a black picture says little: ${text}`);
-}
-
-/** Enters values as people do. */
-async function enter(page, values) {
-  for (const [id, value] of Object.entries(values)) {
-    const field = page.locator(`#${id}`);
-    const kind = await field.evaluate((e) => (e instanceof HTMLSelectElement ? "list" : e.type));
-    if (kind === "list") await field.selectOption(value);
-    else if (kind === "checkbox") await field.setChecked(value);
-    else {
-      await field.fill(`${value}`);
-      await field.press("Enter");
-      await field.blur();
-    }
-  }
-  await ready(page);
-}
 
 const PAIRS = [
   [{ sunElevation: 3 }, ["--sun-elevation", "3"]],
@@ -266,70 +240,59 @@ test("a server without ranges sends whole files, and the picture is the same", a
   await page.context().close();
 });
 
-test("the first picture needs little, and a walk through the sliders only what is new", async () => {
-  const { page, complaints } = await newPage(browser);
-  server.log.length = 0;
-  await open(page, server.url, "");
-  const bytes = (isModel) =>
-    server.log.filter(({ name }) => name.endsWith(".welkin") === isModel).reduce((sum, entry) => sum + entry.bytes, 0);
-  const first = await page.evaluate(() => performance.getEntriesByName("first-picture")[0].startTime);
-  const start = { code: bytes(false), model: bytes(true), requests: server.log.length, firstPictureMs: first };
-  assert.ok(start.code <= 300_000 && start.model <= 150_000, JSON.stringify(start));
-  const walk = [["start", start.requests, start.model]];
-  for (const [id, value] of [
-    ["sunElevation", 5], ["sunAzimuth", 90], ["albedo", 0.5], ["visibility", 40], ["visibility", 33], ["altitude", 120],
-    ["altitude", 300], ["altitude", 99000], ["quantity", "dolp"],
-  ]) {
-    const before = [server.log.length, bytes(true)];
-    await enter(page, { [id]: value });
-    walk.push([`${id} ${value}`, server.log.length - before[0], bytes(true) - before[1]]);
-  }
-  const cheap = walk.filter(([what]) => /^(sun|albedo)/.test(what));
-  assert.ok(cheap.every(([, requests]) => requests === 0), JSON.stringify(cheap));
-  assert.deepEqual(complaints, []);
-  const lines = walk.map(([what, requests, model]) => `${what},${requests},${model}`);
-  writeFileSync(`${OUT}walk.csv`, `what,requests,model_bytes\n${lines.join("\n")}\n`);
-  console.log(`  code ${start.code} bytes, first picture after ${first.toFixed(0)} ms\n  ${lines.join("\n  ")}`);
-  await page.context().close();
-});
+const RUNS = 15;
+const FRAMES = 20;
 
-/** CPU milliseconds of the page's main thread for each frame while a slider moves, the least of three runs: what else
- * the machine does only adds to it. */
+/** CPU milliseconds of the page's main thread for each frame while a slider moves, all that the browser does there
+ * included: the median of runs, as what else the machine does adds to some. */
 async function frames(page, id) {
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
   const state = async () => {
     const { metrics } = await session.send("Performance.getMetrics");
-    const draws = await page.evaluate(() => performance.getEntriesByName("draw").length);
-    return [metrics.find(({ name }) => name === "TaskDuration").value, draws];
+    return [metrics.find(({ name }) => name === "TaskDuration").value, await page.evaluate(() => globalThis.drawn)];
   };
   const runs = [];
-  for (let run = 0; run < 3; run++) {
+  for (let run = 0; run < RUNS; run++) {
     const before = await state();
-    await page.evaluate(async (id) => {
-      const slider = document.getElementById(id);
-      for (let i = 0; i < 60; i++) {
-        slider.value = `${0.3 + 0.005 * i}`;
-        slider.dispatchEvent(new Event("input"));
-        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      }
-    }, id);
-    await ready(page);
+    await page.evaluate(
+      async ({ id, run, count }) => {
+        const slider = document.getElementById(id);
+        for (let i = 0; i < count; i++) {
+          slider.value = `${0.3 + 0.001 * (count * run + i)}`;
+          slider.dispatchEvent(new Event("input"));
+          await new Promise(requestAnimationFrame);
+        }
+      },
+      { id, run, count: FRAMES },
+    );
     const after = await state();
-    const drawn = after[1] - before[1];
-    runs.push({ drawn, milliseconds: (1e3 * (after[0] - before[0])) / drawn });
+    runs.push({ drawn: after[1] - before[1], milliseconds: (1e3 * (after[0] - before[0])) / FRAMES });
   }
-  return runs.reduce((a, b) => (b.milliseconds < a.milliseconds ? b : a));
+  await ready(page);
+  runs.sort((a, b) => a.milliseconds - b.milliseconds);
+  const [least, median, most] = [runs[0], runs[RUNS >> 1], runs.at(-1)].map((run) => run.milliseconds);
+  return { least, median, most, drawn: runs.reduce((sum, run) => sum + run.drawn, 0) };
 }
 
 test("a frame takes little of the page's thread", async () => {
   const { page } = await newPage(browser);
+  await page.addInitScript(() => {
+    const { drawArrays } = WebGL2RenderingContext.prototype;
+    globalThis.drawn = 0;
+    WebGL2RenderingContext.prototype.drawArrays = function (...args) {
+      globalThis.drawn++;
+      return drawArrays.apply(this, args);
+    };
+  });
   await open(page, server.url, `size=${SIZE}`);
   const found = { turning: await frames(page, "sunAzimuth-slider"), rising: await frames(page, "sunElevation-slider") };
-  const lines = Object.entries(found).map(([name, f]) => `${name},${f.drawn},${f.milliseconds.toFixed(2)}`);
-  writeFileSync(`${OUT}frames.csv`, `what,frames,cpu_ms_a_frame\n${lines.join("\n")}\n`);
+  const line = ([name, f]) => [name, f.drawn, ...[f.least, f.median, f.most].map((v) => v.toFixed(2))].join(",");
+  const lines = Object.entries(found).map(line);
+  writeFileSync(`${OUT}frames.csv`, `what,frames,least_cpu_ms_a_frame,median,most\n${lines.join("\n")}\n`);
   console.log(`  ${lines.join("\n  ")}`);
-  assert.ok(Object.values(found).every((f) => f.drawn >= 60 && f.milliseconds <= 4), lines.join("; "));
+  // Every step of the slider was drawn.
+  assert.ok(Object.values(found).every((f) => f.drawn >= RUNS * FRAMES && f.median <= 4), lines.join("; "));
   await page.context().close();
 });
 

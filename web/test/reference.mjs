@@ -98,3 +98,32 @@ export function readExr(bytes) {
   }
   return { width, height, planes };
 }
+
+/** What the command says of a picture, by the first word of its lines. */
+function report(args) {
+  const folder = mkdtempSync(join(tmpdir(), "welkin-web-"));
+  try {
+    const out = join(folder, "sky.png");
+    const text = execFileSync(WELKIN, ["render", "--size", "16", "--out", out, ...args], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+    return Object.fromEntries(text.split("\n").map((line) => [line.split(" ")[0], line]));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+/** Elevation and azimuth (degrees) of the command's sun; null where its model has none. */
+export function sunOf({ date, time, latitude, longitude }) {
+  try {
+    const { sun } = report(["--date", date, "--time", time, "--latitude", `${latitude}`, "--longitude", `${longitude}`]);
+    const [, elevation, azimuth] = /elevation (-?[\d.]+)°, azimuth (-?[\d.]+)°/.exec(sun);
+    return { elevation: Number(elevation), azimuth: Number(azimuth) };
+  } catch (error) {
+    if (/solar elevation/.test(String(error.stderr))) return null;
+    throw error;
+  }
+}
+
+/** The visibility (km) of a turbidity. */
+export function turbidityOf({ turbidity }) {
+  return Number(/visibility ([\d.]+) km/.exec(report(["--turbidity", `${turbidity}`]).conditions)[1]);
+}

@@ -6,7 +6,9 @@ import { serve } from "./server.mjs";
 
 const SHOTS = {
   "desktop-sunset": [{ width: 1100, height: 640 }, "projection=perspective&sunElevation=2&pitch=12&field=70&size=320&altitude=2"],
-  "desktop-space": [{ width: 1100, height: 640 }, "projection=lat-long&altitude=99000&sunElevation=6&size=240&exposure=13"],
+  "desktop-space": [{ width: 1100, height: 640 }, "projection=side&altitude=1500000&sunElevation=8&sunAzimuth=40&size=320"],
+  "desktop-moonlit": [{ width: 1100, height: 640 }, "sunElevation=-14&moonElevation=25&moonPhase=30&projection=perspective&pitch=20&size=320"],
+  "desktop-hosek": [{ width: 1100, height: 640 }, "projection=lat-long&compare=hosek&sunElevation=8&sunAzimuth=0&size=240"],
   "desktop-polarised": [{ width: 1100, height: 640 }, "quantity=dolp&sunElevation=10&size=320"],
   phone: [{ width: 360, height: 740 }, "sunElevation=8&size=240"],
 };

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { GROUND_SUNS = 16, GROUND_RINGS = 20, GROUND_SPOKES = 16 };
+enum { GROUND_SUNS = 80, GROUND_RINGS = 20, GROUND_SPOKES = 16 };
 
 typedef struct ground {
     welkin_transmittance_profile air;
@@ -57,8 +57,16 @@ static welkin_error ground_row(ground *g, const welkin_conditions *c, float *scr
     return error;
 }
 
-/* For a sky of these conditions, the sun in azimuth 0. */
-static welkin_error ground_prepare(ground *g, const welkin_file *file, const welkin_conditions *conditions, double dip)
+/* In azimuth 0. */
+static void ground_turn(ground *g, double elevation)
+{
+    g->sun[0] = cos(elevation), g->sun[1] = 0, g->sun[2] = sin(elevation);
+}
+
+/* For a sky of these conditions, the sun in azimuth 0; the ground that is seen lies up to `dip` (rad) away. Suns of the
+ * table are not farther apart than `step`, unless there are too many. */
+static welkin_error ground_prepare(ground *g, const welkin_file *file, const welkin_conditions *conditions, double dip,
+                                   double step)
 {
     size_t floats = welkin_scratch_floats(file, 0);
     float *scratch = malloc(floats * sizeof *scratch);
@@ -68,9 +76,9 @@ static welkin_error ground_prepare(ground *g, const welkin_file *file, const wel
     uint32_t i;
     g->file = file;
     g->altitude = c.altitude;
-    g->sun[0] = cos(c.solar_elevation), g->sun[1] = 0, g->sun[2] = sin(c.solar_elevation);
+    ground_turn(g, c.solar_elevation);
     g->lowest = fmax(c.solar_elevation - dip, file->elevation_min);
-    g->suns = dip > 0 ? (uint32_t)fmin(2 + floor((highest - g->lowest) / 0.025), GROUND_SUNS) : 1;
+    g->suns = dip > 0 ? (uint32_t)fmin(2 + floor((highest - g->lowest) / step), GROUND_SUNS) : 1;
     g->step = g->suns > 1 ? (highest - g->lowest) / (g->suns - 1) : 0;
     c.altitude = welkin_altitude(file, 0);
     for (i = 0; i < g->suns && !error; i++) {

@@ -10,26 +10,29 @@
 #include "welkin.h"
 
 #include "ground.h"
+#include "moon.h"
+#include "space.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
-enum { FILES = 2, MOST_RANGES = 64, HEADER = 12 };
+enum { FILES = 2, MOST_RANGES = 64, HEADER = 12, RINGS = 16, SPOKES = 32 };
 
 /* A model of which the page may hold two: one for colours, one for spectra. */
 typedef struct slot {
-    welkin_file file;
+    welkin_file file, moonlit;
+    moon_light moon;
     welkin_sky sky;
     float *scratch;
     unsigned char *bytes;
     size_t length, capacity;
-    double mean_luminance;
+    int is_moonlit; /* the sky */
     welkin_conditions conditions;
 } slot;
 
 static slot slots[FILES];
 static float *table;
 static size_t table_floats;
-static float header[HEADER];
+static float header[HEADER], lattice[RINGS * SPOKES];
 static double ranges[2 * MOST_RANGES];
 static uint32_t range_count;
 static double answers[4 * WELKIN_MAX_WAVELENGTHS];
@@ -41,7 +44,7 @@ EXPORT(reserve) unsigned char *reserve(uint32_t index, uint32_t length)
     free(s->bytes);
     memset(&s->file, 0, sizeof s->file);
     memset(&s->sky, 0, sizeof s->sky);
-    s->bytes = calloc(1, length);
+    s->bytes = calloc(1, (size_t)length + MOON_BYTES);
     s->length = s->bytes ? length : 0;
     return s->bytes;
 }
@@ -70,6 +73,8 @@ EXPORT(elevation_limit) double elevation_limit(uint32_t index, int highest)
 {
     return highest ? slots[index].file.elevation_max : slots[index].file.elevation_min;
 }
+
+EXPORT(radius) double radius(uint32_t index) { return slots[index].file.planet_radius; }
 
 static void want(const welkin__entry *entry)
 {
@@ -137,9 +142,10 @@ static welkin_error make_room(slot *s, size_t floats)
     return s->scratch ? WELKIN_OK : WELKIN_ERROR_SCRATCH;
 }
 
-/* A sky with the sun in azimuth 0. */
+/* A sky with its light in azimuth 0: the sun, or, with a phase angle (degrees) of 0 or more, the moon. */
 EXPORT(prepare)
-welkin_error prepare(uint32_t index, double altitude, double visibility, double albedo, double elevation, int polarised)
+welkin_error prepare(uint32_t index, double altitude, double visibility, double albedo, double elevation, double phase,
+                     int polarised)
 {
     slot *s = &slots[index];
     welkin_conditions c = {altitude, visibility, albedo, elevation, 0};
@@ -149,7 +155,12 @@ welkin_error prepare(uint32_t index, double altitude, double visibility, double 
     memset(&s->sky, 0, sizeof s->sky);
     if (!error) error = make_room(s, floats);
     s->conditions = c;
-    return error ? error : welkin_prepare(&s->sky, &s->file, &c, flags, s->scratch, floats);
+    s->is_moonlit = phase >= 0;
+    if (!error && s->is_moonlit) {
+        moon_prepare(&s->moon, phase);
+        moon_file(&s->moonlit, &s->file, s->bytes, &s->moon);
+    }
+    return error ? error : welkin_prepare(&s->sky, s->is_moonlit ? &s->moonlit : &s->file, &c, flags, s->scratch, floats);
 }
 
 /* Q/I and U/I sin(azimuth) of X, Y and Z: smooth also where the sky is symmetric. */
@@ -195,18 +206,16 @@ static welkin_error spread(const slot *s, const welkin_baked *b, int polarised)
     return WELKIN_OK;
 }
 
-/* The geometric mean over the upper hemisphere, with which the library exposes pictures. */
-static double mean_luminance(const welkin_baked *b)
+/* Luminances over the upper hemisphere, of which the library exposes pictures; from the light's azimuth on. */
+static void luminances(const welkin_baked *b)
 {
-    double sum = 0;
     int i;
-    for (i = 0; i < 512; i++) {
-        double z = (i / 32 + 0.5) / 16, level = sqrt(1 - z * z), azimuth = 2 * WELKIN__PI * (i % 32) / 32;
+    for (i = 0; i < RINGS * SPOKES; i++) {
+        double z = (i / SPOKES + 0.5) / RINGS, level = sqrt(1 - z * z), azimuth = 2 * WELKIN__PI * (i % SPOKES) / SPOKES;
         double direction[3] = {level * cos(azimuth), level * sin(azimuth), z}, xyz[3];
         if (welkin_baked_xyz(b, direction, xyz)) xyz[1] = 0;
-        sum += log(fmax(xyz[1], 1e-12)); /* black counts as next to nothing */
+        lattice[i] = (float)xyz[1];
     }
-    return exp(sum / 512);
 }
 
 /* Adds what is seen of the ground to the rows below the horizon; its light is not polarised. */
@@ -215,7 +224,7 @@ static welkin_error add_ground(const slot *s, const welkin_baked *b, int polaris
     static ground under;
     uint32_t row, column, up = b->resolution.up, columns = b->resolution.azimuths + 1;
     uint32_t rows = up + b->resolution.down + 2;
-    welkin_error error = ground_prepare(&under, &s->file, &s->conditions, b->dip);
+    welkin_error error = ground_prepare(&under, s->sky.file, &s->conditions, b->dip, 0.025);
     for (row = up + 1; row < rows && !error; row++)
         for (column = 0; column < columns && !error; column++) {
             size_t node = (size_t)row * columns + column, c;
@@ -225,7 +234,7 @@ static welkin_error add_ground(const slot *s, const welkin_baked *b, int polaris
             if (row == up + 1) elevation -= WELKIN__BESIDE_HORIZON;
             welkin__point(b, sin(elevation), cos(elevation), welkin__column_azimuth(b, column), direction);
             error = ground_seen(&under, direction, radiance);
-            welkin_xyz(&s->file, radiance, xyz);
+            welkin_xyz(s->sky.file, radiance, xyz);
             for (c = 0; c < 3 && !error; c++) {
                 double sky = (double)root[c] * (double)root[c], both = sky + fmax(xyz[c], 0);
                 root[c] = (float)sqrt(both);
@@ -233,6 +242,16 @@ static welkin_error add_ground(const slot *s, const welkin_baked *b, int polaris
             }
         }
     return error;
+}
+
+/* Room in the table. */
+static welkin_error make_table(size_t floats)
+{
+    if (floats <= table_floats) return WELKIN_OK;
+    free(table);
+    table = malloc(floats * sizeof(float));
+    table_floats = table ? floats : 0;
+    return table ? WELKIN_OK : WELKIN_ERROR_SCRATCH;
 }
 
 static void describe(const welkin_baked *b, double elevation)
@@ -254,27 +273,63 @@ welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths,
     size_t floats = 12 * nodes + baked_floats;
     welkin_baked baked;
     welkin_error error;
-    if (floats > table_floats) {
-        free(table);
-        table = malloc(floats * sizeof(float));
-        table_floats = table ? floats : 0;
-        if (!table) return WELKIN_ERROR_SCRATCH;
-    }
-    error = welkin_bake(&baked, &s->sky, &resolution, table + 12 * nodes, baked_floats);
+    if (!s->sky.file) return WELKIN_ERROR_STATE;
+    error = make_table(floats);
+    if (!error) error = welkin_bake(&baked, &s->sky, &resolution, table + 12 * nodes, baked_floats);
     if (!error) error = spread(s, &baked, polarised);
     if (!error && grounded) error = add_ground(s, &baked, polarised);
     if (error) return error;
     describe(&baked, asin(s->sky.sun[2]));
-    s->mean_luminance = mean_luminance(&baked);
+    luminances(&baked);
     return WELKIN_OK;
+}
+
+/* Fills the table with the air from outside, for suns from `low` to `high` (rad) where rays meet it; the header says how
+ * many layers these are. */
+EXPORT(bake_space)
+welkin_error bake_space(uint32_t index, double visibility, double albedo, double low, double high, double step,
+                        uint32_t up, uint32_t down, uint32_t columns, int grounded)
+{
+    slot *s = &slots[index];
+    welkin_conditions c = {0, visibility, albedo, 0, 0};
+    space_grid g = {.up = up, .down = down, .columns = columns};
+    size_t floats = welkin_scratch_floats(&s->file, WELKIN_DENSE);
+    welkin_error error = s->file.bytes ? WELKIN_OK : WELKIN_ERROR_STATE;
+    memset(&s->sky, 0, sizeof s->sky);
+    if (!error) error = make_room(s, floats);
+    if (error) return error;
+    space_layout(&g, &s->file, low, high, step);
+    error = make_table((size_t)4 * (g.layers + 1) * space_rows(&g) * (columns + 1));
+    if (error) return error;
+    const float values[SPACE_HEADER] = {(float)g.dip, (float)g.up_end, (float)g.down_end, (float)g.azimuth_end,
+                                        (float)g.first, (float)g.step, (float)g.layers, 0};
+    memcpy(header, values, sizeof values);
+    return space_fill(&g, &s->file, &c, grounded, step / 6, s->scratch, floats, table);
+}
+
+/* Optical thickness of molecules and particles over that of molecules, at the wavelength next to 550 nm: the library's
+ * `Model::turbidity`. Not above 0 if there is an error. */
+EXPORT(turbidity) double turbidity(uint32_t index, double visibility)
+{
+    const double molecules = 0.0971, ozone = 0.0306, up[3] = {0, 0, 1};
+    const welkin_file *f = &slots[index].file;
+    welkin_transmittance_profile air;
+    float through[WELKIN_MAX_WAVELENGTHS];
+    uint32_t w, best = 0;
+    welkin_error error = f->bytes ? welkin_transmittance_prepare(&air, f, visibility) : WELKIN_ERROR_STATE;
+    if (!error) error = welkin_transmittance(&air, 0, up, 2e5, through);
+    if (error) return -(double)error;
+    for (w = 1; w < f->wavelengths; w++)
+        if (fabs(welkin_wavelength(f, w) - 550) < fabs(welkin_wavelength(f, best) - 550)) best = w;
+    return (-log((double)through[best]) - ozone) / molecules;
 }
 
 EXPORT(table_at) float *table_at(void) { return table; }
 EXPORT(header_at) float *header_at(void) { return header; }
-EXPORT(mean_of) double mean_of(uint32_t index) { return slots[index].mean_luminance; }
+EXPORT(lattice_at) float *lattice_at(void) { return lattice; }
 EXPORT(answers_at) double *answers_at(void) { return answers; }
 
-/* Wavelength, radiance (W m^-2 sr^-1 nm^-1) and Q and U over radiance of the prepared sky, at the wavelengths of the
+/* Wavelength, radiance, Q and U (W m^-2 sr^-1 nm^-1) of the prepared sky, at the wavelengths of the
  * file, or, with a step above 0, from `first` on every `step` nm. Returns minus an error, or how many there are. */
 EXPORT(look) int look(uint32_t index, double x, double y, double z, double first, double step, uint32_t count)
 {
@@ -283,7 +338,7 @@ EXPORT(look) int look(uint32_t index, double x, double y, double z, double first
     double direction[3] = {x, y, z};
     int polarised = (s->sky.flags & WELKIN_POLARISED) != 0;
     welkin_error error;
-    uint32_t i;
+    uint32_t i, c;
     memset(q, 0, sizeof q);
     memset(u, 0, sizeof u);
     error = polarised ? welkin_stokes(&s->sky, direction, radiance, q, u) : welkin_radiance(&s->sky, direction, radiance);
@@ -295,10 +350,9 @@ EXPORT(look) int look(uint32_t index, double x, double y, double z, double first
         stokes[0] = (double)radiance[i % s->file.wavelengths], stokes[1] = (double)q[i % s->file.wavelengths];
         stokes[2] = (double)u[i % s->file.wavelengths];
         if (!error && step > 0) error = welkin_stokes_at(&s->file, radiance, q, u, wavelength, stokes);
+        if (s->is_moonlit) irradiance *= moon_relative(&s->moon, wavelength);
         answers[4 * i] = wavelength;
-        answers[4 * i + 1] = stokes[0] * irradiance;
-        answers[4 * i + 2] = stokes[0] > 0 ? stokes[1] / stokes[0] : 0;
-        answers[4 * i + 3] = stokes[0] > 0 ? stokes[2] / stokes[0] : 0;
+        for (c = 0; c < 3; c++) answers[4 * i + 1 + c] = stokes[c] * irradiance;
     }
     return error ? -(int)error : (int)count;
 }
