@@ -1,12 +1,18 @@
 //! Any bytes as the table of `welkin query`: one line of error, or as many rows as there were.
 #![no_main]
 
+#[path = "../../src/bin/welkin/albedo.rs"]
+#[allow(dead_code)]
+mod albedo;
 #[path = "../../src/bin/welkin/cells.rs"]
 #[allow(dead_code)]
 mod cells;
 #[path = "../../src/bin/welkin/failure.rs"]
 #[allow(dead_code)]
 mod failure;
+#[path = "../../src/bin/welkin/parameter.rs"]
+#[allow(dead_code)]
+mod parameter;
 #[path = "../../src/bin/welkin/query/mod.rs"]
 #[allow(dead_code)]
 mod query;
@@ -18,6 +24,7 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use libfuzzer_sys::fuzz_target;
+use query::shared::Shared;
 use sensor::Sensor;
 use welkin::{Model, Response};
 
@@ -57,7 +64,8 @@ fuzz_target!(|table: &[u8]| {
     });
     for (clamp, sensor) in [(false, None), (true, None), (false, Some(sensor))] {
         let mut answers = Vec::new();
-        if let Ok(summary) = query::answer(model, clamp, sensor, threads, table, &mut answers) {
+        let shared = Shared::new(model, clamp, sensor.map(|s| s.bands.clone()));
+        if let Ok(summary) = query::answer(&shared, sensor, threads, table, &mut answers) {
             assert!(summary.failures <= summary.rows);
             let mut reader = csv::Reader::from_reader(answers.as_slice());
             let read = reader.byte_records().filter(|row| row.is_ok()).count();

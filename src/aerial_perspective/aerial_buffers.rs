@@ -21,16 +21,16 @@ pub struct AerialHeader {
     pub horizon: f32,
     /// Unit vector away from the planet's centre at the camera.
     pub up: [f32; 3],
-    /// Distance of the first node, m; light and optical depth are proportional to the distance up to there.
-    pub nearest: f32,
+    /// w of the camera, m.
+    pub height: f32,
     /// Unit vector across `up` in the vertical plane of the sun.
     pub forward: [f32; 3],
-    /// Distance of the last node, m; beyond it nothing is added.
-    pub farthest: f32,
+    /// w of the top of the air, m.
+    pub top: f32,
     /// Unit vector across both, counter-clockwise from `forward` seen from above.
     pub left: [f32; 3],
-    /// Nodes per octave of the distance.
-    pub nodes_per_octave: f32,
+    /// 1 / 2R, m⁻¹.
+    pub bend: f32,
     /// X, Y and Z of the sun outside the air, relative to one another: what the factors are those of.
     pub white: [f32; 3],
     /// How far rows stand from the poles.
@@ -45,8 +45,16 @@ pub struct AerialHeader {
     pub sun_intervals: u32,
     /// Intervals of the distance.
     pub distances: u32,
+    /// r / R at the camera.
+    pub steepness: f32,
+    /// w up to which nodes of the distance crowd in the lower air, m.
+    pub haze: f32,
+    /// How they crowd towards the camera.
+    pub nearness: f32,
+    /// 1 / log2(1 + nearness).
+    pub per_stretch: f32,
     /// 0.
-    pub unused: [u32; 6],
+    pub unused: [u32; 2],
     /// [`AerialBuffers::LAYOUT`].
     pub layout: u32,
 }
@@ -55,19 +63,32 @@ pub struct AerialHeader {
 /// light from there, as plain arrays. One table serves all views from one place.
 ///
 /// With `h` the header, a point at the distance `s` in the direction of a unit vector `d` is looked up as a
-/// [`SkyBuffers`](crate::SkyBuffers) is, with `d · h.up` for `d.z` and `(d · h.forward, d · h.left)` for the azimuth, so
-/// that row, column and angle are those of its formulae, and with four more neighbours over the distance:
+/// [`SkyBuffers`](crate::SkyBuffers) is, with `z = d · h.up` for `d.z` and `(d · h.forward, d · h.left)` for the
+/// azimuth, so that row, column and angle are those of its formulae, and with four more neighbours over the distance.
+/// Its nodes crowd near the camera and in the lower air. With `w = altitude + altitude² / 2R`, a parabola of `s`:
 ///
 /// ```text
-/// t          = min(s, h.farthest)
-/// node       = clamp(log2(t / h.nearest) · h.nodes_per_octave, 0, h.distances)
+/// rise       = z · h.steepness                                  // of w at the camera
+/// room       = h.top − h.height
+/// end        = max(0, z < h.horizon ?
+///                h.height / ((√((z − h.horizon) (z + h.horizon)) − z) · h.steepness / 2) :
+///                (√max(rise² + 4 h.bend · room, 0) − rise) / (2 h.bend)) + 20
+/// q          = √max(h.height + h.haze + s (rise + s · h.bend), h.haze / 2)
+/// p          = √(h.height + h.haze)
+/// m(s)       = u / (p q (1 − h.bend · u²)) with u = s / (p + q) // half of ∫ (w + h.haze)^(−3/2) ds
+/// t          = min(s, end)
+/// node       = log2(1 + h.nearness · m(t) / m(end)) · h.per_stretch · h.distances
 /// logarithm  = Σ envelope[angle · h.sun_intervals] + Σ Σ Σ light[node][row][column]
 /// X, Y, Z    = 2^logarithm · t                                  // cd m⁻²
-/// factors    = 2^(−t · max(Σ Σ Σ depth[node][row][column], 0))  // of X, Y and Z
+/// depths     = t · max(Σ Σ Σ depth[node][row][column], 0)       // of X, Y and Z
+/// factors    = 2^−depths
 /// ```
 ///
-/// `table` has `envelope[h.sun_intervals + 3]`, `light[h.distances + 3][rows][columns]` and `depth[…]` of the same size,
-/// one after the other, with rows and columns as those of the sky. The fourth component is 0.
+/// Where a ray that goes down is longer than to its end, as into a valley, it goes on through the same air: with
+/// `k = s / end` depths are `k` times as much, and X, Y and Z `(1 − factors^k) / (1 − factors)` times.
+///
+/// `table` has `envelope[h.sun_intervals + 3]`, `light[h.distances + 3][rows][columns]` and `depth[…]` of the same
+/// size, one after the other, with rows and columns as those of the sky. The fourth component is 0.
 ///
 /// ```
 /// use welkin::{Conditions, Model};
@@ -91,7 +112,7 @@ pub struct AerialBuffers {
 
 impl AerialBuffers {
     /// Version of the layout; another one means other fields or formulae.
-    pub const LAYOUT: u32 = 1;
+    pub const LAYOUT: u32 = 2;
 
     /// The header as it is uploaded, in the byte order of this machine.
     pub fn header_bytes(&self) -> &[u8] {

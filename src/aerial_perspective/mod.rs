@@ -20,6 +20,7 @@ mod prepared;
 mod quadrature_limits;
 mod quadrature_panels;
 mod ray_lattice;
+mod ray_nodes;
 mod reach;
 mod scatterers;
 mod segment_integral;

@@ -2,6 +2,7 @@
 
 use super::aerial_buffers::{AerialBuffers, AerialHeader};
 use super::colour_segments::ColourAerialPerspective;
+use super::ray_nodes::RayNodes;
 use crate::baked::{CROWDING, POLE, Start, coefficients, share_at_row, spline_value};
 use crate::error::{Error, Result};
 use crate::geometry::Side;
@@ -17,10 +18,11 @@ const DOWN: usize = 16;
 const COLUMNS: usize = 16;
 /// Intervals of the angle from the sun.
 const SUN: usize = 32;
-/// Distances of the nodes, m: up to 655 km.
-const NEAREST: f64 = 10.0;
-const PER_OCTAVE: f64 = 2.5;
+/// Intervals of the distance, and steps that each is marched in.
 const DISTANCES: usize = 40;
+const STEPS: usize = 4;
+/// Where light next to the camera is taken, m.
+const NEXT: f64 = 10.0;
 /// What logarithms are bounded by: no light, and nothing that comes through.
 const DARK: f32 = 1e-30;
 
@@ -44,7 +46,7 @@ pub(super) struct RayLattice<'a> {
     forward: [f64; 3],
     left: [f64; 3],
     horizon: f64,
-    distances: Vec<f64>,
+    nodes: RayNodes,
     /// Logarithm of the light per metre next to the camera over the angle from the sun.
     envelope: Vec<Cell>,
 }
@@ -73,9 +75,7 @@ impl<'a> RayLattice<'a> {
             forward,
             left: cross(up, forward),
             horizon: -planet.dip(altitude).sin(),
-            distances: (0..=DISTANCES)
-                .map(|k| NEAREST * (k as f64 / PER_OCTAVE).exp2())
-                .collect(),
+            nodes: RayNodes::new(planet, altitude, -planet.dip(altitude).sin()),
             envelope: Vec::new(),
         };
         lattice.envelope = lattice.envelope()?;
@@ -91,7 +91,7 @@ impl<'a> RayLattice<'a> {
                 let pole = if side == Side::Up { 1.0 } else { -1.0 };
                 let z = self.horizon + share * (pole - self.horizon);
                 for column in 0..=COLUMNS {
-                    let ray = self.ray(z, column as f64 / COLUMNS as f64)?;
+                    let ray = self.ray(side, z, column as f64 / COLUMNS as f64)?;
                     values.extend(ray.light);
                     depths.extend(ray.depth);
                 }
@@ -110,14 +110,14 @@ impl<'a> RayLattice<'a> {
     }
 
     /// A ray by the cosine of its angle from the vertical and half its azimuth's sine.
-    fn ray(&self, z: f64, half_sine: f64) -> Result<Ray> {
+    fn ray(&self, side: Side, z: f64, half_sine: f64) -> Result<Ray> {
         let level = (1.0 - z * z).max(0.0).sqrt();
         let phi = 2.0 * half_sine.min(1.0).asin();
         let (y, x) = phi.sin_cos();
         let direction = core::array::from_fn(|i| {
             z * self.up[i] + level * (x * self.forward[i] + y * self.left[i])
         });
-        let mut ray = self.march(direction)?;
+        let mut ray = self.march(direction, &self.nodes.distances(side, z, DISTANCES))?;
         let peak = self.peak(direction);
         for cell in &mut ray.light {
             *cell = *cell - peak;
@@ -133,13 +133,14 @@ impl<'a> RayLattice<'a> {
         spline_value(&self.envelope, half.min(1.0) as f32)
     }
 
-    fn march(&self, direction: [f64; 3]) -> Result<Ray> {
-        let n = self.distances.len();
+    fn march(&self, direction: [f64; 3], nodes: &[f64]) -> Result<Ray> {
+        let distances = marched(nodes);
+        let n = distances.len();
         let [mut light, mut factors] = [(); 2].map(|()| vec![[0.0; 3]; n]);
         self.aerial.rgb_along(
             self.camera,
             direction,
-            &self.distances,
+            &distances,
             ColourSpace::Xyz,
             &mut light,
             &mut factors,
@@ -147,8 +148,8 @@ impl<'a> RayLattice<'a> {
         let cell = |value: &dyn Fn(f32) -> f32, [x, y, z]: [f32; 3]| {
             Lanes([value(x), value(y), value(z), 0.0])
         };
-        let per = |k: usize| 1.0 / self.distances[k] as f32;
-        let rows = light.iter().zip(&factors).enumerate();
+        let per = |k: usize| 1.0 / distances[k] as f32;
+        let rows = light.iter().zip(&factors).enumerate().step_by(STEPS);
         let (light, depth) = rows
             .map(|(k, (light, factors))| {
                 let logarithm = |v: f32| (v * per(k)).max(DARK).log2();
@@ -166,24 +167,25 @@ impl<'a> RayLattice<'a> {
             let gamma = 2.0 * (i as f64 / SUN as f64).asin();
             let (sine, cosine) = gamma.sin_cos();
             let direction = core::array::from_fn(|i| cosine * sun[i] + sine * self.left[i]);
-            Ok(self.march(direction)?.light[0])
+            Ok(self.march(direction, &[NEXT])?.light[0])
         };
         let values = (0..=SUN).map(near).collect::<Result<Vec<_>>>()?;
         Ok(coefficients(&values, Start::Mirrored))
     }
 
     fn header(&self) -> AerialHeader {
+        let measure = self.nodes.measure();
         let single = |v: [f64; 3]| v.map(|v| v as f32);
         let horizon = self.horizon as f32;
         AerialHeader {
             sun: single(self.aerial.sun_direction()),
             horizon,
             up: single(self.up),
-            nearest: NEAREST as f32,
+            height: measure.height as f32,
             forward: single(self.forward),
-            farthest: self.distances[DISTANCES] as f32,
+            top: measure.top as f32,
             left: single(self.left),
-            nodes_per_octave: PER_OCTAVE as f32,
+            bend: measure.bend as f32,
             white: self.aerial.white(),
             pole: POLE,
             shrink: [1.0 / (1.0 - horizon), 1.0 / (1.0 + horizon)],
@@ -191,10 +193,27 @@ impl<'a> RayLattice<'a> {
             intervals: [UP, DOWN, COLUMNS].map(|n| n as u32),
             sun_intervals: SUN as u32,
             distances: DISTANCES as u32,
-            unused: [0; 6],
+            steepness: measure.steepness as f32,
+            haze: measure.haze as f32,
+            nearness: measure.nearness as f32,
+            per_stretch: measure.per_stretch as f32,
+            unused: [0; 2],
             layout: AerialBuffers::LAYOUT,
         }
     }
+}
+
+/// Distances that a ray is marched to, [`STEPS`] for each interval after the first node. That is not where the camera
+/// is, as light and depths per metre are asked for.
+fn marched(nodes: &[f64]) -> Vec<f64> {
+    let first = nodes[0].max(nodes.get(1).map_or(0.0, |next| 1e-3 * next));
+    let mut distances = vec![first];
+    for pair in nodes.windows(2) {
+        let from = pair[0].max(first);
+        let step = (pair[1] - from) / STEPS as f64;
+        distances.extend((1..=STEPS).map(|k| from + step * k as f64));
+    }
+    distances
 }
 
 /// Coefficients `[row][column][distance]` from values in the same order, of which there are fewer.

@@ -1,7 +1,7 @@
 // The form: what can be set, as numbers, sliders and lists.
 
 import type { Limits } from "./protocol";
-import { BALANCES, GROUNDS, OTHERS, PROJECTIONS, QUANTITIES, START, TONES, type View } from "./view";
+import { BALANCES, DISCS, GROUNDS, OTHERS, PROJECTIONS, QUANTITIES, START, TERRAINS, TONES, type View } from "./view";
 
 export type Change = (change: Partial<View>, isMoving: boolean) => void;
 
@@ -36,6 +36,8 @@ const CHOICES: Choice[] = [
     names: { up: "Fish-eye, zenith", side: "Fish-eye, horizon", "lat-long": "Whole sphere", perspective: "Perspective" },
   },
   { key: "quantity", label: "Shows", names: { radiance: "Light", dolp: "Degree of polarisation" } },
+  { key: "terrain", label: "Landscape", names: { none: "A plain", ridges: "Ridges to 60 km" } },
+  { key: "disc", label: "Sun's disc", names: { hidden: "Hidden", shown: "Shown" } },
   { key: "tone", label: "Tone curve", names: { linear: "Linear", filmic: "Filmic", aces: "ACES" } },
   { key: "compare", label: "Beside it", names: { none: "Nothing", hosek: "Hosek–Wilkie 2012" } },
   { key: "ground", label: "Ground", names: { lit: "In sun and skylight", black: "Black" } },
@@ -48,6 +50,8 @@ const KNOWN: Record<Words, readonly string[]> = {
   balance: BALANCES,
   ground: GROUNDS,
   compare: OTHERS,
+  disc: DISCS,
+  terrain: TERRAINS,
 };
 
 /** m; of the slider, about where satellites stand still. */

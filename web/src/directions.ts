@@ -20,21 +20,6 @@ export function cameraAxes(view: View): [Vector, Vector, Vector] {
   return [[sa, -ca, 0], [-sp * ca, -sp * sa, cp], [cp * ca, cp * sa, sp]];
 }
 
-/** The same, one after the other, in an array of nine. */
-export function cameraMatrix(view: View, out: Float32Array): Float32Array {
-  const [right, above, ahead] = cameraAxes(view);
-  out.set(right);
-  out.set(above, 3);
-  out.set(ahead, 6);
-  return out;
-}
-
-/** Towards the sun. */
-export function sunVector({ sunElevation, sunAzimuth }: View): Vector {
-  const [height, azimuth] = [sunElevation * RADIANS, sunAzimuth * RADIANS];
-  return [Math.cos(height) * Math.cos(azimuth), Math.cos(height) * Math.sin(azimuth), Math.sin(height)];
-}
-
 /** Components along the camera's axes at a place, both −1 to 1 to the right and upwards; null outside a fish-eye. */
 function local(view: View, right: number, above: number): Vector | null {
   if (view.projection === "lat-long") {
@@ -62,4 +47,20 @@ export function direction(view: View, right: number, above: number): Vector | nu
   const axes = cameraAxes(view);
   const sum = (k: 0 | 1 | 2) => parts[0] * axes[0][k] + parts[1] * axes[1][k] + parts[2] * axes[2][k];
   return [sum(0), sum(1), sum(2)];
+}
+
+/** Where a picture with these axes of its camera shows a direction; null where it does not. */
+export function place(view: View, axes: [Vector, Vector, Vector], towards: Vector): [number, number] | null {
+  const along = (axis: Vector) => axis[0] * towards[0] + axis[1] * towards[1] + axis[2] * towards[2];
+  const [right, above, ahead] = [along(axes[0]), along(axes[1]), along(axes[2])];
+  if (view.projection === "lat-long") {
+    return [Math.atan2(right, ahead) / Math.PI, Math.atan2(above, Math.hypot(right, ahead)) / (Math.PI / 2)];
+  }
+  if (view.projection === "perspective") {
+    const half = Math.tan((view.field * RADIANS) / 2);
+    return ahead > 1e-3 ? [right / (ahead * half * aspect("perspective")), above / (ahead * half)] : null;
+  }
+  const across = Math.hypot(right, above);
+  const scale = across > 0 ? Math.atan2(across, ahead) / (Math.PI / 2) / across : 0;
+  return [right * scale, above * scale];
 }

@@ -9,6 +9,8 @@ const PARAMETERS = 9;
 const TURBIDITIES = 10;
 const ALBEDOS = 2;
 const CHANNELS = 3;
+/** Red, green, blue and nothing. */
+const STRIDE = 4;
 /** Of one channel: parameters, and after those of all channels radiances. */
 const SHAPE = PARAMETERS * POINTS * TURBIDITIES * ALBEDOS;
 const LEVEL = POINTS * TURBIDITIES * ALBEDOS;
@@ -16,7 +18,7 @@ const LEVEL = POINTS * TURBIDITIES * ALBEDOS;
 const EFFICACY = 683;
 const BINOMIALS = [1, 5, 10, 10, 5, 1];
 
-/** Red, green and blue of each parameter, and last those of the radiance (cd m⁻²): what the shader takes. */
+/** Red, green, blue and nothing of each parameter, and last those of the radiance (cd m⁻²): what the shader takes. */
 export type Coefficients = Float32Array;
 
 export class Hosek {
@@ -37,13 +39,13 @@ export class Hosek {
 
   /** For a sun at or above the horizon (rad); the turbidity is kept within the model's 1 to 10. */
   coefficients(elevation: number, turbidity: number, albedo: number): Coefficients {
-    const out = new Float32Array((PARAMETERS + 1) * CHANNELS);
+    const out = new Float32Array((PARAMETERS + 1) * STRIDE);
     for (let c = 0; c < CHANNELS; c++) {
       const at = (start: number, stride: number, i: number) => {
         return between(turbidity, albedo, (t, a) => this.#curve(start + i, stride, a * TURBIDITIES + t, elevation));
       };
-      for (let i = 0; i < PARAMETERS; i++) out[CHANNELS * i + c] = at(c * SHAPE, PARAMETERS, i);
-      out[CHANNELS * PARAMETERS + c] = EFFICACY * at(CHANNELS * SHAPE + c * LEVEL, 1, 0);
+      for (let i = 0; i < PARAMETERS; i++) out[STRIDE * i + c] = at(c * SHAPE, PARAMETERS, i);
+      out[STRIDE * PARAMETERS + c] = EFFICACY * at(CHANNELS * SHAPE + c * LEVEL, 1, 0);
     }
     return out;
   }
@@ -69,7 +71,7 @@ function between(turbidity: number, albedo: number, at: (turbidity: number, albe
 }
 
 export const HOSEK_SHADER = `
-uniform vec3 hosek[10];  // parameters A to I, and the radiance, cd m^-2
+uniform vec4 hosek[10];  // red, green and blue of parameters A to I, and the radiance, cd m^-2
 uniform vec3 hosek_sun;
 uniform float divider;   // share of the width that is the model's
 
@@ -77,9 +79,9 @@ uniform float divider;   // share of the width that is the model's
 vec3 hosek_wilkie(vec3 v) {
   if (v.z < 0.0) return vec3(0.0);
   float cosine = clamp(dot(v, hosek_sun), -1.0, 1.0), gamma = acos(cosine), square = cosine * cosine;
-  vec3 haze = (1.0 + square) / pow(1.0 + hosek[8] * hosek[8] - 2.0 * hosek[8] * cosine, vec3(1.5));
-  vec3 level = 1.0 + hosek[0] * exp(hosek[1] / (v.z + 0.01));
-  vec3 around = hosek[2] + hosek[3] * exp(hosek[4] * gamma) + hosek[5] * square + hosek[6] * haze + hosek[7] * sqrt(v.z);
-  return hosek[9] * level * around;
+  vec3 haze = (1.0 + square) / pow(1.0 + hosek[8].rgb * hosek[8].rgb - 2.0 * hosek[8].rgb * cosine, vec3(1.5));
+  vec3 level = 1.0 + hosek[0].rgb * exp(hosek[1].rgb / (v.z + 0.01));
+  vec3 around = hosek[2].rgb + hosek[3].rgb * exp(hosek[4].rgb * gamma) + hosek[5].rgb * square + hosek[6].rgb * haze + hosek[7].rgb * sqrt(v.z);
+  return hosek[9].rgb * level * around;
 }
 `;

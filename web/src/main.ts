@@ -12,13 +12,10 @@ import { Latest, Skies } from "./skies";
 import { moonAt } from "./moon";
 import { sunAt } from "./sun";
 import { fromHash, START, toHash, type View } from "./view";
-import { isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
+import { COARSE, FINE, isSame, isSameScene, looks, SOURCES, type Wanted, wanted } from "./wanted";
 
 const FILES = { colours: "sky.welkin", spectra: "default.welkin", code: "welkin.wasm" };
 const HOSEK = "hosek.bin";
-/** While something moves, and when it rests. */
-const COARSE: Resolution = [24, 8, 16];
-const FINE: Resolution = [48, 24, 32];
 /** How long something moves after it moved last, ms. */
 const REST = 150;
 /** Numbers that nobody reads so fast wait that long while something moves, ms: text costs the browser a layout. */
@@ -39,7 +36,7 @@ class Page {
   #limits: Limits | null = null;
   #controls: Controls | null = null;
   #skies: Skies;
-  readonly #renderer: Renderer;
+  #renderer: Renderer | null = null;
   readonly #sky = new Latest();
   readonly #look = new Latest();
   readonly #beside = new Beside(HOSEK);
@@ -61,17 +58,30 @@ class Page {
     const { view, wrong } = fromHash(location.hash);
     this.#view = view;
     if (wrong.length > 0) note(`Not understood in the link: ${wrong.join(", ")}`);
-    this.#renderer = new Renderer(canvas);
     this.#skies = new Skies("worker.js", showTraffic);
   }
 
   async start(): Promise<void> {
-    const limits = await this.#skies.open(FILES);
+    const [limits, renderer] = await Promise.all([this.#skies.open(FILES), this.#renderer ?? this.#device()]);
     this.#limits = limits;
+    this.#renderer = renderer;
+    root.dataset["gpu"] = renderer.device;
     const change = (change: Partial<View>, isMoving: boolean) => this.change(change, isMoving);
     this.#controls ??= new Controls(limits, change);
     this.#divider ??= new Divider(change);
     this.change({}, false);
+  }
+
+  #device(): Promise<Renderer> {
+    const wanted = new URLSearchParams(location.search).get("gpu");
+    // A canvas that drew with one device does not draw with another: the page starts anew, with the same view.
+    const onLost = () => {
+      const address = new URL(location.href);
+      address.searchParams.set("gpu", "webgl");
+      address.hash = toHash(this.#view);
+      location.replace(address);
+    };
+    return Renderer.create(canvas, wanted, onLost);
   }
 
   /** Starts anew after a failure. */
@@ -121,11 +131,12 @@ class Page {
   #update(): void {
     this.#draw();
     const limits = this.#limits;
-    if (limits) void this.#sky.run(() => this.#fetch(limits)).catch(fail);
+    const renderer = this.#renderer;
+    if (limits && renderer) void this.#sky.run(() => this.#fetch(limits, renderer)).catch(fail);
   }
 
   /** What is not there yet; all of it is shown at once. */
-  async #fetch(limits: Limits): Promise<void> {
+  async #fetch(limits: Limits, renderer: Renderer): Promise<void> {
     const now = this.#wanted(limits);
     const before = this.#shown;
     if (isSame(now, before)) return;
@@ -133,9 +144,11 @@ class Page {
     const changed = SOURCES.filter((source) => before === null || !isSameScene(now[source], before[source]));
     const tables: (SkyTables | null)[] = [];
     for (const source of changed) tables.push(now[source] && (await this.#skies.sky(now[source])));
-    changed.forEach((source, i) => this.#renderer.set(source, tables[i]!));
-    this.#renderer.place(now.eye);
-    this.#renderer.beside(other?.coefficients ?? null);
+    const land = now.land && (await this.#skies.land(now.land.altitude, now.land.elevation, now.land.azimuth));
+    if (land) renderer.uploadLand(land);
+    changed.forEach((source, i) => renderer.set(source, tables[i]!));
+    renderer.place(now.eye);
+    renderer.beside(other?.coefficients ?? null);
     this.#other = other;
     this.#shown = now;
     for (const table of tables) if (table) this.#measure("prepare", table.prepared);
@@ -156,16 +169,18 @@ class Page {
 
   readonly #paint = (): void => {
     this.#frame = 0;
-    if (!this.#renderer.hasSky) return;
+    const renderer = this.#renderer;
+    if (!renderer?.hasSky) return;
     this.#frameOf(aspect(this.#view.projection));
-    if (!this.#isMoving) this.#renderer.meter(this.#view);
-    this.#renderer.draw(this.#view);
+    renderer.draw(this.#view);
     this.#divider?.show(this.#view.compare !== "none" && this.#shown?.eye === null, this.#view.divider);
     const now = performance.now();
-    if (!this.#isMoving || now - this.#written >= READING) this.#write(now);
+    if (!this.#isMoving || now - this.#written >= READING) this.#write(now, renderer);
     if (!this.#hasPicture) performance.mark("first-picture");
     this.#hasPicture = true;
-    if (!this.#isMoving && this.#sky.isIdle && this.#isCurrent()) setState("ready");
+    if (this.#isMoving || !this.#sky.isIdle || !this.#isCurrent()) return;
+    if (renderer.isMetered(this.#view)) setState("ready");
+    else void renderer.meter({ ...this.#view }).then(() => this.#draw(), fail);
   };
 
   #isCurrent(): boolean {
@@ -173,9 +188,9 @@ class Page {
   }
 
   /** What is read, not seen. */
-  #write(now: number): void {
+  #write(now: number, renderer: Renderer): void {
     this.#written = now;
-    if (!this.#isMoving) this.#exposure = this.#renderer.exposure(this.#view);
+    if (!this.#isMoving) this.#exposure = renderer.exposure(this.#view);
     this.#controls?.show(this.#view, this.#exposure);
     if (this.#isMoving) return;
     const text = sentence(this.#view, this.#exposure, this.#shown, this.#other);
@@ -221,12 +236,14 @@ class Page {
   }
 
   png(): void {
+    if (!this.#renderer?.hasSky) return note("There is no picture yet.");
     this.#renderer.draw(this.#view);
     canvas.toBlob((blob) => (blob ? save(blob, "sky.png") : note("The browser made no PNG.")), "image/png");
   }
 
-  exr(): void {
-    save(new Blob([exr(this.#renderer.light(this.#view))], { type: "image/x-exr" }), "sky.exr");
+  async exr(): Promise<void> {
+    if (!this.#renderer?.hasSky) return note("There is no picture yet.");
+    save(new Blob([exr(await this.#renderer.light(this.#view))], { type: "image/x-exr" }), "sky.exr");
   }
 
   async link(): Promise<void> {

@@ -1,5 +1,7 @@
 // What the page and its worker say to each other.
 
+import type { Air, AirSize, Land } from "./terrain";
+
 /** Intervals above the horizon, below it, and of the azimuth. */
 export type Resolution = readonly [up: number, down: number, azimuths: number];
 
@@ -20,6 +22,10 @@ export interface Scene {
   polarised: boolean;
   /** Whether the ground is seen; it is black if not. */
   grounded: boolean;
+  /** Whether the sun's disc is seen. */
+  disc: boolean;
+  /** How finely the air before a landscape is tabulated; null without one. */
+  air: AirSize | null;
   resolution: Resolution;
 }
 
@@ -32,6 +38,9 @@ export interface SkyTables {
   degrees: Float32Array | null;
   /** Luminances of the upper hemisphere, cd m⁻², by ring and by spoke from the light's azimuth on; none from outside. */
   lattice: Float32Array;
+  /** The header of the sun's disc and its coefficients, as `wasm/sun.h` has them; absent without it. */
+  disc: Float32Array | null;
+  air: Air | null;
   /** How long the worker took, ms: to prepare the sky, and to fill the tables. */
   prepared: number;
   baked: number;
@@ -65,12 +74,14 @@ export interface Look {
 export type Question =
   | { kind: "open"; id: number; colours: string; spectra: string; code: string }
   | { kind: "sky"; id: number; scene: Scene }
+  | { kind: "land"; id: number; altitude: number; elevation: number; azimuth: number }
   | { kind: "look"; id: number; lights: Look[]; spectral: boolean }
   | { kind: "turbidity"; id: number; visibility: number };
 
 export type Answer =
   | { kind: "opened"; id: number; limits: Limits }
   | { kind: "sky"; id: number; tables: SkyTables }
+  | { kind: "land"; id: number; land: Land }
   | { kind: "look"; id: number; spectrum: Spectrum }
   | { kind: "turbidity"; id: number; turbidity: number }
   | { kind: "failed"; id: number; message: string }

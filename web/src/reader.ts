@@ -1,8 +1,10 @@
 // The reader in WebAssembly, with types.
 
+import { DISC_ROWS, DISC_TERMS } from "./disc";
 import { Failure, unusable } from "./failure";
 import type { Limits, Scene, SkyTables, Spectrum } from "./protocol";
 import type { Destination, Range } from "./ranged_file";
+import { AIR_DISTANCES, AIR_HEADER, type Air, type AirSize, CELLS, COLUMNS, type Land, RINGS, SUNLIGHT_COLUMNS, SUNLIGHT_ROWS } from "./terrain";
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -19,6 +21,7 @@ interface Exports {
     grounded: number,
     spectral: number,
   ): number;
+  plan_disc(index: number): number;
   range_total(): number;
   range_list(): number;
   prepare(
@@ -45,6 +48,19 @@ interface Exports {
   ): number;
   turbidity(index: number, visibility: number): number;
   radius(index: number): number;
+  plan_air(index: number, visibility: number): number;
+  bake_air(index: number, rows: number, columns: number, highest: number): number;
+  air_at(): number;
+  air_header_at(): number;
+  sunlight_at(): number;
+  terrain_open(index: number): number;
+  terrain_look(index: number, camera: number): number;
+  terrain_shade(elevation: number, azimuth: number): void;
+  terrain_normals_at(): number;
+  terrain_slopes_at(): number;
+  terrain_shadows_at(): number;
+  bake_disc(index: number): number;
+  disc_at(): number;
   table_at(): number;
   header_at(): number;
   lattice_at(): number;
@@ -58,6 +74,8 @@ const LATTICE = 512;
 /** Layers of the air from outside, in its coordinate of the sun: as fine as a table of this many intervals. */
 const LAYER = 0.15;
 const FINE = 48;
+/** Of the disc: header, and coefficients by elevation. */
+const DISC = 4 + 4 * DISC_TERMS * DISC_ROWS;
 /** Wavelengths of a spectrum between the nodes, nm. */
 const FIRST = 300;
 const STEP = 5;
@@ -87,6 +105,10 @@ export class Reader {
 
 export class ReaderFile implements Destination {
   #base = 0;
+  /** The altitude for which ridges are there, and the tangent of the highest elevation of one. */
+  #camera: number | null = null;
+  #highest = 0;
+  #landscape: { altitude: number; elevation: number; azimuth: number } | null = null;
 
   constructor(
     private readonly wasm: Exports,
@@ -125,10 +147,12 @@ export class ReaderFile implements Destination {
   }
 
   /** What a sky needs of the file. */
-  plan(scene: Pick<Scene, "altitude" | "visibility" | "polarised" | "grounded">, spectral: boolean): Range[] {
+  plan(scene: Pick<Scene, "altitude" | "visibility" | "polarised" | "grounded" | "disc" | "air">, spectral: boolean): Range[] {
     const { altitude, visibility } = scene; // the altitude of where rays enter, from outside
     const [polarised, grounded] = [Number(scene.polarised), Number(scene.grounded)];
     this.#check(this.wasm.plan(this.index, altitude, visibility, polarised, grounded, Number(spectral)));
+    if (scene.disc) this.#check(this.wasm.plan_disc(this.index));
+    if (scene.air) this.#check(this.wasm.plan_air(this.index, visibility));
     const total = this.wasm.range_total();
     const list = new Float64Array(this.wasm.memory.buffer, this.wasm.range_list(), 2 * total);
     return Array.from({ length: total }, (_, i) => [list[2 * i]!, list[2 * i + 1]!]);
@@ -149,10 +173,6 @@ export class ReaderFile implements Destination {
     return found;
   }
 
-  #floats(at: number, length: number): Float32Array<ArrayBuffer> {
-    return new Float32Array(this.wasm.memory.buffer, at, length).slice();
-  }
-
   #bakeSpace({ visibility, albedo, elevation, resolution, grounded }: Scene, reach: number): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, columns] = [(2 * resolution[0]) / 3, resolution[1], (3 * resolution[2]) / 4];
     const [low, high, step] = [elevation - reach, elevation + reach, (LAYER * FINE) / resolution[0]];
@@ -162,20 +182,60 @@ export class ReaderFile implements Destination {
     const header = this.#floats(this.wasm.header_at(), HEADER);
     header.set([up, down, columns], 7);
     const nodes = (header[6]! + 1) * (up + down + 2) * (columns + 1);
-    return { header, root: this.#floats(this.wasm.table_at(), 4 * nodes), degrees: null, lattice: new Float32Array() };
+    return { header, root: this.#floats(this.wasm.table_at(), 4 * nodes), degrees: null, disc: null, air: null, lattice: new Float32Array() };
   }
 
-  #bakeSky({ resolution, polarised, grounded }: Scene): Omit<SkyTables, "prepared" | "baked"> {
+  #bakeSky({ resolution, polarised, grounded, disc, air, altitude }: Scene): Omit<SkyTables, "prepared" | "baked"> {
     const [up, down, azimuths] = resolution;
     this.#check(this.wasm.bake(this.index, up, down, azimuths, Number(polarised), Number(grounded)));
+    if (disc) this.#check(this.wasm.bake_disc(this.index));
+    const before = air && this.#air(air, altitude);
     const nodes = (up + down + 2) * (azimuths + 1);
     const table = this.wasm.table_at();
     return {
       header: this.#floats(this.wasm.header_at(), HEADER),
       root: this.#floats(table, 4 * nodes),
       degrees: polarised ? this.#floats(table + 16 * nodes, 8 * nodes) : null,
+      disc: disc ? this.#floats(this.wasm.disc_at(), DISC) : null,
+      air: before,
       lattice: this.#floats(this.wasm.lattice_at(), LATTICE),
     };
+  }
+
+  /** The air before the landscape, for a camera so high (m). */
+  #air([rows, columns]: AirSize, altitude: number): Air {
+    this.#ridges(altitude);
+    this.#check(this.wasm.bake_air(this.index, rows, columns, Math.min(Math.atan(this.#highest) + 0.01, 1.5)));
+    return {
+      header: this.#floats(this.wasm.air_header_at(), AIR_HEADER),
+      table: this.#floats(this.wasm.air_at(), 8 * rows * columns * AIR_DISTANCES),
+      sunlight: this.#floats(this.wasm.sunlight_at(), 4 * SUNLIGHT_COLUMNS * SUNLIGHT_ROWS),
+    };
+  }
+
+  #ridges(altitude: number): void {
+    if (this.#camera === altitude) return;
+    if (!this.wasm.terrain_open(this.index)) throw unusable("scratch", this.url);
+    this.#highest = this.wasm.terrain_look(this.index, altitude);
+    this.#camera = altitude;
+  }
+
+  /** What differs from the landscape that was asked for last. */
+  land(altitude: number, elevation: number, azimuth: number): Land {
+    const last = this.#landscape;
+    this.#ridges(altitude);
+    const isShaded = last?.elevation === elevation && last?.azimuth === azimuth;
+    if (!isShaded) this.wasm.terrain_shade(elevation, azimuth);
+    this.#landscape = { altitude, elevation, azimuth };
+    return {
+      normals: last ? null : this.#floats(this.wasm.terrain_normals_at(), 2 * COLUMNS * RINGS),
+      slopes: last?.altitude === altitude ? null : this.#floats(this.wasm.terrain_slopes_at(), COLUMNS * RINGS),
+      shadows: isShaded ? null : this.#floats(this.wasm.terrain_shadows_at(), CELLS * CELLS),
+    };
+  }
+
+  #floats(at: number, length: number): Float32Array<ArrayBuffer> {
+    return new Float32Array(this.wasm.memory.buffer, at, length).slice();
   }
 
   /** At the wavelengths of the file, or between them. */

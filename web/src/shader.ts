@@ -3,6 +3,8 @@
 
 import { HOSEK_SHADER } from "./hosek";
 import { SPACE_SHADER } from "./space";
+import { DISC_SHADER } from "./disc";
+import { TERRAIN_SHADER } from "./terrain";
 
 export const VERTEX = `#version 300 es
 void main() {
@@ -14,19 +16,16 @@ const UNIFORMS = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
-// Of a light: sun and moon.
-struct Table {
-  vec4 horizon;    // dip, height of the light above the horizon, coordinates of it and of half of it
-  vec3 ends;       // coordinates of zenith, nadir and the azimuth opposite to the light
-  ivec3 intervals; // none: the light is not there
-  vec2 azimuth;    // its cosine and sine
-};
 uniform sampler2D roots, degrees, moon_roots, moon_degrees;
-uniform Table sun, moon;
 uniform vec2 size;
 uniform int projection; // up, side, lat-long, perspective
 uniform mat3 axes;      // right, above, ahead
 uniform float half_field;
+// Of sun and moon: dip, height above the horizon, coordinates of it and of half of it.
+uniform vec4 sun_horizon, moon_horizon;
+uniform vec3 sun_ends, moon_ends;           // coordinates of zenith, nadir and the azimuth opposite to the light
+uniform ivec3 sun_intervals, moon_intervals; // none: the light is not there
+uniform vec2 sun_azimuth, moon_azimuth;     // cosine and sine
 uniform int quantity;   // radiance, degree of polarisation
 uniform float polariser; // rad
 uniform bool has_polariser;
@@ -38,8 +37,9 @@ const float PI = 3.14159265358979;
 `;
 
 const DIRECTIONS = `
-bool look(out vec3 local) {
-  vec2 place = gl_FragCoord.xy / size * 2.0 - 1.0;
+// Of a place in pixels.
+bool look(vec2 pixel, out vec3 local) {
+  vec2 place = pixel / size * 2.0 - 1.0;
   if (projection == 2) {
     vec2 angle = vec2(place.x * PI, place.y * 0.5 * PI);
     local = vec3(cos(angle.y) * sin(angle.x), sin(angle.y), cos(angle.y) * cos(angle.x));
@@ -90,18 +90,38 @@ vec4 between(float coordinate, int count, bool is_level, out int first_node) {
 // Stokes components of X, Y and Z; the frame is the vertical one.
 struct Light { vec3 xyz, q, u; };
 
-void add(sampler2D roots, sampler2D degrees, Table of, vec3 v, bool has_degrees, inout Light sum) {
-  ivec3 intervals = of.intervals;
-  if (intervals.z == 0) return;
+struct Table {
+  vec4 horizon;
+  vec3 ends;
+  ivec3 intervals;
+  vec2 azimuth;
+};
+
+// Row and column of a direction; and 1 below the horizon.
+vec3 place_in(Table of, vec3 v) {
   float height = atan(v.z, length(v.xy)) + of.horizon.x;
   float along = dot(v.xy, of.azimuth), across = v.y * of.azimuth.x - v.x * of.azimuth.y;
   bool up = height >= 0.0;
-  int rows = up ? intervals.x : intervals.y;
+  int rows = up ? of.intervals.x : of.intervals.y;
   float end = up ? of.ends.x : of.ends.y;
   float coordinate = up ? up_coordinate(height, of.horizon) : from_horizon(-height);
   float row = clamp(float(rows) * coordinate / end, 0.0, float(rows));
   float azimuth = arsinh(atan(abs(across), along) / AZIMUTH_SCALE);
-  float column = clamp(float(intervals.z) * azimuth / of.ends.z, 0.0, float(intervals.z));
+  float column = clamp(float(of.intervals.z) * azimuth / of.ends.z, 0.0, float(of.intervals.z));
+  return vec3(row, column, up ? 0.0 : 1.0);
+}
+`;
+
+/** The light of one of the tables: textures are no arguments in all dialects. */
+const lightOf = (name: string, roots: string, degrees: string) => `
+Light ${name}_light(vec3 v, bool has_degrees) {
+  Light light = Light(vec3(0.0), vec3(0.0), vec3(0.0));
+  ivec3 intervals = ${name}_intervals;
+  if (intervals.z == 0) return light;
+  vec3 there = place_in(Table(${name}_horizon, ${name}_ends, intervals, ${name}_azimuth), v);
+  bool up = there.z == 0.0;
+  int rows = up ? intervals.x : intervals.y;
+  float row = there.x, column = there.y;
   int first_row, first_column;
   vec4 by_row = between(row, rows, false, first_row);
   vec4 by_column = between(column, intervals.z, true, first_column);
@@ -111,24 +131,23 @@ void add(sampler2D roots, sampler2D degrees, Table of, vec3 v, bool has_degrees,
     for (int j = 0; j < 4; j++) {
       int x = clamp(first_column + j, 0, intervals.z);
       float weight = by_row[i] * by_column[j];
-      root += weight * texelFetch(roots, ivec2(x, y), 0).rgb;
+      root += weight * texelFetch(${roots}, ivec2(x, y), 0).rgb;
       if (has_degrees) {
-        q += weight * texelFetch(degrees, ivec2(2 * x, y), 0).rgb;
-        u += weight * texelFetch(degrees, ivec2(2 * x + 1, y), 0).rgb;
+        q += weight * texelFetch(${degrees}, ivec2(2 * x, y), 0).rgb;
+        u += weight * texelFetch(${degrees}, ivec2(2 * x + 1, y), 0).rgb;
       }
     }
   }
+  float across = (v.y * ${name}_azimuth.x - v.x * ${name}_azimuth.y) / max(length(v.xy), 1e-12);
   vec3 xyz = root * root;
-  sum.xyz += xyz;
-  sum.q += xyz * q;
-  sum.u += xyz * u * across / max(length(v.xy), 1e-12);
+  return Light(xyz, xyz * q, xyz * u * across);
 }
+`;
 
+const LIGHTS = `${lightOf("sun", "roots", "degrees")}${lightOf("moon", "moon_roots", "moon_degrees")}
 Light lights(vec3 v, bool has_degrees) {
-  Light sum = Light(vec3(0.0), vec3(0.0), vec3(0.0));
-  add(roots, degrees, sun, v, has_degrees, sum);
-  add(moon_roots, moon_degrees, moon, v, has_degrees, sum);
-  return sum;
+  Light a = sun_light(v, has_degrees), b = moon_light(v, has_degrees);
+  return Light(a.xyz + b.xyz, a.q + b.q, a.u + b.u);
 }
 `;
 
@@ -152,12 +171,14 @@ vec3 sequential(float x) {
 }
 `;
 
-const FILM = `
+const COLOURS = `
 vec3 linear_srgb(vec3 c) {
   return vec3(dot(vec3(3.24097, -1.5373832, -0.49861076), c), dot(vec3(-0.96924365, 1.8759675, 0.04155506), c),
               dot(vec3(0.05563008, -0.20397696, 1.0569715), c));
 }
+`;
 
+const FILM = `
 vec3 into_gamut(vec3 rgb) {
   float least = min(min(rgb.r, rgb.g), min(rgb.b, 0.0));
   float luminance = dot(rgb, vec3(0.2126, 0.7152, 0.0722));
@@ -197,7 +218,7 @@ vec3 develop(vec3 rgb) {
 const MAIN = `
 void main() {
   vec3 local;
-  if (!look(local)) {
+  if (!look(gl_FragCoord.xy, local)) {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     return;
   }
@@ -211,10 +232,20 @@ void main() {
     colour = vec4(sequential(min(degree, 1.0)), 1.0);
     return;
   }
-  vec3 rgb = linear_srgb(has_polariser ? pass(v, light) : light.xyz);
-  if (is_other) rgb = (has_polariser ? 0.5 : 1.0) * hosek_wilkie(v);
+  float half_of = has_polariser ? 0.5 : 1.0;
+  if (is_other) {
+    vec3 rgb = half_of * hosek_wilkie(v);
+    colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
+    return;
+  }
+  vec3 land_rgb, disc_xyz = disc_mean();
+  float sky = sky_share(v, land_rgb);
+  vec3 rgb = sky * linear_srgb(has_polariser ? pass(v, light) : light.xyz);
+  rgb += half_of * (linear_srgb(disc_xyz) + land_rgb);
   colour = vec4(tone < 0 ? rgb : develop(rgb), 1.0);
 }
 `;
 
-export const FRAGMENT = [UNIFORMS, DIRECTIONS, TABLE, SPACE_SHADER, HOSEK_SHADER, POLARISATION, FILM, MAIN].join("");
+export const FRAGMENT = [
+  UNIFORMS, DIRECTIONS, TABLE, LIGHTS, SPACE_SHADER, HOSEK_SHADER, POLARISATION, COLOURS, TERRAIN_SHADER, DISC_SHADER, FILM, MAIN,
+].join("");

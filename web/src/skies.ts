@@ -2,6 +2,7 @@
 
 import { Failure } from "./failure";
 import type { Answer, Limits, Look, Question, Scene, SkyTables, Spectrum, Traffic } from "./protocol";
+import type { Land } from "./terrain";
 
 type Without<T> = T extends { id: number } ? Omit<T, "id"> : never;
 
@@ -42,6 +43,11 @@ export class Skies {
   async turbidity(visibility: number): Promise<number> {
     return (await this.#ask({ kind: "turbidity", visibility }, "turbidity")).turbidity;
   }
+
+  /** What changed of the landscape since the last question. */
+  async land(altitude: number, elevation: number, azimuth: number): Promise<Land> {
+    return (await this.#ask({ kind: "land", altitude, elevation, azimuth }, "land")).land;
+    }
 
   #ask<K extends Answer["kind"]>(question: Without<Question>, kind: K): Promise<Extract<Answer, { kind: K }>> {
     const id = ++this.#count;

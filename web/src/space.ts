@@ -40,7 +40,8 @@ uniform float eye;          // distance from the planet's centre, of that of whe
 uniform vec3 space_sun;     // towards the sun
 uniform vec4 space_ends;    // dip, coordinates of the horizontal, nadir and the azimuth opposite to the sun
 uniform vec2 space_layers;  // coordinate of the first, and their distance
-uniform ivec4 space_counts; // intervals: layers, up, down, azimuths
+uniform ivec3 space_counts; // intervals: layers, up, down
+uniform int space_columns;
 const float DEEPEST = -0.2095; // rad, below which a model has no sun
 
 vec3 beyond(vec3 direction) {
@@ -63,15 +64,15 @@ vec3 beyond(vec3 direction) {
   int first_layer, first_row, first_column;
   vec4 by_layer = between(clamp(layer, 0.0, float(space_counts.x)), space_counts.x, false, first_layer);
   vec4 by_row = between(clamp(float(rows) * from_horizon(abs(height)) / end, 0.0, float(rows)), rows, false, first_row);
-  float column = float(space_counts.w) * arsinh(azimuth / AZIMUTH_SCALE) / space_ends.w;
-  vec4 by_column = between(clamp(column, 0.0, float(space_counts.w)), space_counts.w, true, first_column);
+  float column = float(space_columns) * arsinh(azimuth / AZIMUTH_SCALE) / space_ends.w;
+  vec4 by_column = between(clamp(column, 0.0, float(space_columns)), space_columns, true, first_column);
   vec3 root = vec3(0.0);
   for (int i = 0; i < 4; i++) {
     int z = clamp(first_layer + i, 0, space_counts.x) * (space_counts.y + space_counts.z + 2);
     for (int j = 0; j < 4; j++) {
       int y = z + clamp(first_row + j, 0, rows) + (above ? 0 : space_counts.y + 1);
       for (int k = 0; k < 4; k++) {
-        int x = clamp(first_column + k, 0, space_counts.w);
+        int x = clamp(first_column + k, 0, space_columns);
         root += by_layer[i] * by_row[j] * by_column[k] * texelFetch(space_roots, ivec2(x, y), 0).rgb;
       }
     }

@@ -5,6 +5,8 @@ export const QUANTITIES = ["radiance", "dolp"] as const;
 export const TONES = ["linear", "filmic", "aces"] as const;
 export const GROUNDS = ["lit", "black"] as const;
 export const OTHERS = ["none", "hosek"] as const;
+export const DISCS = ["hidden", "shown"] as const;
+export const TERRAINS = ["none", "ridges"] as const;
 export const BALANCES = ["daylight", "d65"] as const;
 
 export type Projection = (typeof PROJECTIONS)[number];
@@ -24,6 +26,8 @@ export interface View {
   altitude: number;
   albedo: number;
   ground: (typeof GROUNDS)[number];
+  disc: (typeof DISCS)[number];
+  terrain: (typeof TERRAINS)[number];
   /** EV at ISO 100; automatic if null. */
   exposure: number | null;
   projection: Projection;
@@ -53,6 +57,8 @@ export const START: View = {
   altitude: 0,
   albedo: 0.2,
   ground: "lit",
+  disc: "hidden",
+  terrain: "none",
   exposure: null,
   projection: "up",
   viewAzimuth: 0,
@@ -95,6 +101,8 @@ const WORDS = {
   balance: BALANCES,
   ground: GROUNDS,
   compare: OTHERS,
+  disc: DISCS,
+  terrain: TERRAINS,
 } as const;
 
 /** The part of an address after #, with what differs from the start. */

@@ -1,18 +1,25 @@
 // Which tables a view needs.
 
 import { otherKey } from "./beside";
+import { sunDirection } from "./disc";
 import type { Look, Limits, Resolution, Scene } from "./protocol";
-import { type Vector, sunVector } from "./directions";
-import type { Eye, Source } from "./renderer";
+import type { Vector } from "./directions";
+import type { Eye, Source } from "./inputs";
 import { entry, reach } from "./space";
+import { COARSE_AIR, EYE, FINE_AIR } from "./terrain";
 import type { View } from "./view";
 
 const RADIANS = Math.PI / 180;
+/** While something moves, and when it rests. */
+export const COARSE: Resolution = [24, 8, 16];
+export const FINE: Resolution = [48, 24, 32];
 export const SOURCES: readonly Source[] = ["sun", "moon", "space"];
 
 export interface Wanted extends Record<Source, Scene | null> {
   eye: Eye;
   other: string;
+  /** What the landscape's shadows depend on; null without one. */
+  land: { altitude: number; elevation: number; azimuth: number } | null;
 }
 
 const ceiling = ({ altitudes }: Limits) => altitudes.at(-1)!;
@@ -25,20 +32,28 @@ function eyeOf({ altitude }: View, limits: Limits): Eye {
 export function wanted(view: View, limits: Limits, resolution: Resolution): Wanted {
   const eye = eyeOf(view, limits);
   const other = otherKey(view);
-  if (eye !== null) return { sun: null, moon: null, space: spaceScene(view, limits, resolution, eye), eye, other };
+  if (eye !== null) return { sun: null, moon: null, space: spaceScene(view, limits, resolution, eye), eye, other, land: null };
   const light = (elevation: number, phase: number | null) => scene(view, limits, resolution, elevation, phase);
   const moon = view.moonElevation === null ? null : light(view.moonElevation, view.moonPhase);
-  return { sun: light(view.sunElevation, null), moon, space: null, eye, other };
+  const sun = light(view.sunElevation, null);
+  const { altitude, elevation } = sun ?? { altitude: 0, elevation: 0 };
+  const land = sun?.air ? { altitude, elevation, azimuth: view.sunAzimuth * RADIANS } : null;
+  return { sun, moon, space: null, eye, other, land };
+}
+
+/** The degree of polarisation is that of the sky alone. */
+function hasLandscape({ terrain, quantity }: View): boolean {
+  return terrain === "ridges" && quantity !== "dolp";
 }
 
 /** Null for a light that is deeper than the model has any. */
 function scene(view: View, limits: Limits, resolution: Resolution, degrees: number, phase: number | null): Scene | null {
-  const { visibility, altitude, albedo, ground, quantity, polariser } = view;
+  const { visibility, altitude, albedo, ground, disc, quantity, polariser } = view;
   const [lowest, highest] = limits.elevations;
   const elevation = Math.min(degrees * RADIANS, highest);
   if (elevation < lowest) return null;
   return {
-    altitude,
+    altitude: hasLandscape(view) ? Math.max(altitude, EYE) : altitude,
     visibility: 1e3 * visibility,
     albedo,
     elevation,
@@ -47,6 +62,8 @@ function scene(view: View, limits: Limits, resolution: Resolution, degrees: numb
     polarised: quantity === "dolp" || polariser !== null,
     // The degree of polarisation is that of the sky's light alone.
     grounded: ground === "lit" && quantity !== "dolp",
+    disc: phase === null && disc === "shown" && quantity !== "dolp",
+    air: phase === null && hasLandscape(view) ? (resolution === FINE ? FINE_AIR : COARSE_AIR) : null,
     resolution,
   };
 }
@@ -64,6 +81,8 @@ function spaceScene(view: View, limits: Limits, resolution: Resolution, eye: num
     reach: far,
     polarised: false,
     grounded: view.ground === "lit",
+    disc: false,
+    air: null,
     resolution,
   };
 }
@@ -75,7 +94,7 @@ export function looks(view: View, limits: Limits, resolution: Resolution, direct
     const turned = [[sun, view.sunAzimuth], [moon, view.moonAzimuth]] as const;
     return turned.flatMap(([scene, azimuth]) => (scene ? [{ scene, direction: turn(direction, azimuth) }] : []));
   }
-  const there = space && entry(eye, direction, sunVector(view));
+  const there = space && entry(eye, direction, sunDirection(view));
   if (!there || there.elevation < limits.elevations[0]) return [];
   return [{ scene: { ...space, elevation: there.elevation }, direction: there.direction }];
 }
@@ -86,7 +105,12 @@ function turn([x, y, z]: Vector, azimuth: number): Vector {
 }
 
 export function isSame(a: Wanted, b: Wanted | null): boolean {
-  return b !== null && a.eye === b.eye && a.other === b.other && SOURCES.every((name) => isSameScene(a[name], b[name]));
+  return b !== null && a.eye === b.eye && a.other === b.other && isSameLand(a.land, b.land) && SOURCES.every((name) => isSameScene(a[name], b[name]));
+}
+
+function isSameLand(a: Wanted["land"], b: Wanted["land"]): boolean {
+  if (a === null || b === null) return a === b;
+  return a.altitude === b.altitude && a.elevation === b.elevation && a.azimuth === b.azimuth;
 }
 
 export function isSameScene(a: Scene | null, b: Scene | null): boolean {

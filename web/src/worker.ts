@@ -50,7 +50,7 @@ class Model {
 
   /** What its transmittance needs. */
   async air(visibility: number): Promise<void> {
-    const scene = { altitude: 0, visibility, polarised: false, grounded: true };
+    const scene = { altitude: 0, visibility, polarised: false, grounded: true, disc: false, air: null };
     await this.open();
     await this.#safely(async () => {
       if (await this.#ranged.need(this.file.plan(scene, false))) this.file.open();
@@ -98,7 +98,7 @@ async function look({ lights, spectral }: Extract<Question, { kind: "look" }>): 
   const model = opened(spectral ? spectra : colours);
   let sum: Spectrum | undefined;
   for (const { scene, direction } of lights) {
-    await model.prepare({ ...scene, polarised: true, grounded: false, reach: null }, spectral);
+    await model.prepare({ ...scene, polarised: true, grounded: false, reach: null, disc: false, air: null }, spectral);
     const one = model.file.look(direction, spectral);
     if (sum) one.forEach((value, i) => i % 4 && (sum![i]! += value));
     else sum = one;
@@ -112,12 +112,21 @@ async function turbidity({ visibility }: Extract<Question, { kind: "turbidity" }
   return model.file.turbidity(visibility);
 }
 
+const buffers = (all: (Float32Array | null)[]) => all.flatMap((values) => (values ? [values.buffer] : []));
+
 async function answer(question: Question): Promise<void> {
   if (question.kind === "open") return say(await open(question));
   if (question.kind === "look") return say({ kind: "look", id: question.id, spectrum: await look(question) });
   if (question.kind === "turbidity") return say({ kind: "turbidity", id: question.id, turbidity: await turbidity(question) });
+  if (question.kind === "land") {
+    const model = opened(colours);
+    await model.open();
+    const land = model.file.land(question.altitude, question.elevation, question.azimuth);
+    return say({ kind: "land", id: question.id, land }, buffers([land.normals, land.slopes, land.shadows]));
+  }
   const tables = await sky(question.scene);
-  const transfer = [tables.header.buffer, tables.root.buffer, tables.lattice.buffer, ...(tables.degrees ? [tables.degrees.buffer] : [])];
+  const { header, root, lattice, degrees, disc, air } = tables;
+  const transfer = buffers([header, root, lattice, degrees, disc, ...(air ? [air.header, air.table, air.sunlight] : [])]);
   say({ kind: "sky", id: question.id, tables }, transfer);
 }
 

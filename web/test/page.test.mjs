@@ -7,6 +7,7 @@ import { after, before, test } from "node:test";
 import { launch, newPage, open, ready } from "./browser.mjs";
 import { compare, enter, SIZE } from "./helpers.mjs";
 import { difference, readExr, render } from "./reference.mjs";
+import { freeDistance, heights, luminances, pixelDirection } from "./ridges.mjs";
 import { serve } from "./server.mjs";
 
 const FOLDER = new URL("../dist", import.meta.url).pathname;
@@ -75,6 +76,95 @@ test("perspective and polariser are the library's above its flat landscape", asy
     await enter(page, { "polariser-none": false, polariser: angle });
     await compare(page, [...view, "--polariser", `${angle}`], { part: 0.75 });
   }
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+/** Sum of a plane of an EXR. */
+const total = (plane) => plane.reduce((a, b) => a + b, 0);
+
+test("the sun's disc is the library's, however large pixels are", async (t) => {
+  const { page, complaints } = await newPage(browser);
+  for (const [link, args, part] of [
+    ["sunElevation=20", []],
+    ["sunElevation=0.1", ["--sun-elevation", "0.1"]],
+    ["sunElevation=90", ["--sun-elevation", "90"]],
+    ["projection=side&sunElevation=5&altitude=3000", ["--projection", "side", "--sun-elevation", "5", "--altitude", "3000", "--ground"]],
+    ["projection=lat-long&sunAzimuth=-180&ground=black", ["--projection", "lat-long", "--sun-azimuth", "-180"]],
+    // The disc fills much of this picture, its lower part is behind the horizon, which is below the upper 3/4.
+    ["projection=perspective&sunElevation=0.05&pitch=0.25&field=1&altitude=2&exposure=11",
+      ["--terrain", "flat", "--sun-elevation", "0.05", "--pitch", "0.25", "--field-of-view", "1", "--altitude", "0", "--exposure", "11"], 0.75],
+  ]) {
+    await t.test(link, async () => {
+      await open(page, server.url, `size=${SIZE}&disc=shown&${link}`);
+      await compare(page, ["--sun", ...args], { part });
+      const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#exr").click()]);
+      const mine = readExr(readFileSync(await download.path()));
+      const theirs = readExr(render("exr", ["--size", `${SIZE}`, "--sun", ...args]));
+      // What is left of green and blue in the light of a sun that sets is as good as nothing.
+      const most = Math.max(...Object.values(theirs.planes).map(total));
+      const off = ["R", "G", "B"].map((name) => (total(mine.planes[name]) - total(theirs.planes[name])) / most);
+      console.log(`  ${link}: light off by ${off.map((share) => `${(100 * share).toFixed(2)} %`).join(", ")}`);
+      assert.ok(off.every((share) => Math.abs(share) < 0.02), `${off}`);
+    });
+  }
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+/** Luminance of the pixels of an EXR. */
+const luminance = ({ planes: { R, G, B } }) => R.map((r, i) => 0.2126 * r + 0.7152 * G[i] + 0.0722 * B[i]);
+
+/** Pixels of ridges, away from outlines, with what is seen there. */
+function ridgePixels(height, camera, view) {
+  const distance = (pixel) => freeDistance(height, camera, pixelDirection(pixel, SIZE, view));
+  const found = [];
+  for (let row = 3; row < SIZE - 3; row += 5) {
+    for (let column = 4; column < 1.5 * SIZE - 4; column += 12) {
+      const all = [[0, 0], [-1, -1], [1, -1], [-1, 1], [1, 1]].map(([x, y]) => distance([column + x, row + y]));
+      if (Math.max(...all) > 1.1 * Math.min(...all)) continue;
+      found.push({ pixel: [column, row], direction: pixelDirection([column, row], SIZE, view), distance: all[0] });
+    }
+  }
+  return found.filter(({ distance }) => distance < 1e5);
+}
+
+test("ridges are where they stand, and the air before them is the library's", async (t) => {
+  const { page, complaints } = await newPage(browser);
+  const height = await heights();
+  const take = async () => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#exr").click()]);
+    return readExr(readFileSync(await download.path()));
+  };
+  const base = { altitude: 400, visibility: 59.4, sunElevation: 20, sunAzimuth: 0, viewAzimuth: 30, pitch: 1, field: 20 };
+  const levels = [];
+  for (const change of [{}, { visibility: 25 }, { sunElevation: 3, sunAzimuth: 100 }, { altitude: 9000, pitch: -12 }]) {
+    await t.test(JSON.stringify(change), async () => {
+      const view = { ...base, ...change };
+      const link = Object.entries(view).map(([key, value]) => `${key}=${value}`).join("&");
+      // Ridges that send no light of their own: what is seen is the air before them.
+      await open(page, server.url, `size=${SIZE}&projection=perspective&terrain=ridges&ground=black&${link}`);
+      const picture = await take();
+      const mine = luminance(picture);
+      const pixels = ridgePixels(height, view.altitude, view);
+      const theirs = luminances(pixels, view);
+      const errors = pixels.map(({ pixel: [x, y] }, i) => Math.abs(mine[y * picture.width + x] / theirs[i] - 1)).sort((a, b) => a - b);
+      const [median, p95] = [0.5, 0.95].map((share) => errors[Math.floor(share * errors.length)]);
+      const far = pixels.map(({ distance }) => distance / 1e3).sort((a, b) => a - b);
+      const text = `${JSON.stringify(change)}: ${pixels.length} pixels, ${far[0].toFixed(1)} to ${far.at(-1).toFixed(1)} km, ` +
+        `off by ${(100 * median).toFixed(2)} % (median), ${(100 * p95).toFixed(2)} % (p95), ${(100 * errors.at(-1)).toFixed(2)} % (most)`;
+      console.log(`  ${text}`);
+      assert.ok(pixels.length > 40 && far.at(-1) > 3 * far[0], text);
+      assert.ok(median < 0.01 && p95 < 0.04, text);
+      levels.push(mine.reduce((a, b) => a + b) / mine.length);
+      // In sun and skylight they are brighter, by what the air leaves of that.
+      await enter(page, { ground: "lit" });
+      const lit = luminance(await take());
+      const more = pixels.map(({ pixel: [x, y] }) => lit[y * picture.width + x] - mine[y * picture.width + x]);
+      assert.ok(more.every((value) => value > 0), `${Math.min(...more)}`);
+    });
+  }
+  assert.ok(levels.every((level, i) => i === 0 || Math.abs(level / levels[0] - 1) > 0.05), `${levels}`);
   assert.deepEqual(complaints, []);
   await page.context().close();
 });

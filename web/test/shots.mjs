@@ -9,6 +9,7 @@ const SHOTS = {
   "desktop-space": [{ width: 1100, height: 640 }, "projection=side&altitude=1500000&sunElevation=8&sunAzimuth=40&size=320"],
   "desktop-moonlit": [{ width: 1100, height: 640 }, "sunElevation=-14&moonElevation=25&moonPhase=30&projection=perspective&pitch=20&size=320"],
   "desktop-hosek": [{ width: 1100, height: 640 }, "projection=lat-long&compare=hosek&sunElevation=8&sunAzimuth=0&size=240"],
+  "desktop-ridges": [{ width: 1100, height: 640 }, "projection=perspective&terrain=ridges&sunElevation=14&sunAzimuth=45&pitch=2&field=30&altitude=400&size=320&exposure=13.5"],
   "desktop-polarised": [{ width: 1100, height: 640 }, "quantity=dolp&sunElevation=10&size=320"],
   phone: [{ width: 360, height: 740 }, "sunElevation=8&size=240"],
 };

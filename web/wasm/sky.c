@@ -12,6 +12,7 @@
 #include "ground.h"
 #include "moon.h"
 #include "space.h"
+#include "sun.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 
@@ -36,6 +37,8 @@ static float header[HEADER], lattice[RINGS * SPOKES];
 static double ranges[2 * MOST_RANGES];
 static uint32_t range_count;
 static double answers[4 * WELKIN_MAX_WAVELENGTHS];
+static welkin_baked last_baked; /* lies in the memory of the table */
+static float disc[SUN_HEADER + SUN_FLOATS];
 
 /* Memory for the bytes of a file of this length, all zero; null if there is none. */
 EXPORT(reserve) unsigned char *reserve(uint32_t index, uint32_t length)
@@ -75,6 +78,8 @@ EXPORT(elevation_limit) double elevation_limit(uint32_t index, int highest)
 }
 
 EXPORT(radius) double radius(uint32_t index) { return slots[index].file.planet_radius; }
+#include "air.h"
+#include "terrain.h"
 
 static void want(const welkin__entry *entry)
 {
@@ -128,6 +133,29 @@ welkin_error plan(uint32_t index, double altitude, double visibility, int polari
     if (polarised) want(&scene.polarisation_basis);
     for (i = 0; polarised && i < scene.radiances; i++) want(&scene.polarisation[i].entry);
     return WELKIN_OK;
+}
+
+/* Adds what the sun's disc needs. */
+EXPORT(plan_disc) welkin_error plan_disc(uint32_t index) { return want_kind(&slots[index].file, WELKIN__TRANSMITTANCE); }
+
+/* Adds what the air before a landscape needs. */
+EXPORT(plan_air) welkin_error plan_air(uint32_t index, double visibility)
+{
+    const welkin_file *f = &slots[index].file;
+    welkin_conditions c = {welkin_altitude(f, 0), visibility, 0, 0, 0};
+    welkin__stencil nodes;
+    uint32_t i;
+    welkin__entry entry;
+    welkin_error error = want_kind(f, WELKIN__TRANSMITTANCE);
+    if (!error) error = want_kind(f, WELKIN__SOURCE_BASIS);
+    if (error || !welkin__conditions_into_range(f, &c)) return error ? error : WELKIN_ERROR_RANGE;
+    nodes = welkin__cubic(f->bytes + f->visibility_at, f->visibilities, c.visibility, WELKIN__INVERSE);
+    for (i = 0; i < nodes.count && !error; i++) {
+        if (nodes.weight[i] == 0) continue;
+        error = welkin__find(f, WELKIN__SOURCE, WELKIN__NONE, nodes.node[i], &entry);
+        if (!error) want(&entry);
+    }
+    return error;
 }
 
 EXPORT(range_total) uint32_t range_total(void) { return range_count; }
@@ -279,6 +307,7 @@ welkin_error bake(uint32_t index, uint32_t up, uint32_t down, uint32_t azimuths,
     if (!error) error = spread(s, &baked, polarised);
     if (!error && grounded) error = add_ground(s, &baked, polarised);
     if (error) return error;
+    last_baked = baked;
     describe(&baked, asin(s->sky.sun[2]));
     luminances(&baked);
     return WELKIN_OK;
@@ -323,6 +352,23 @@ EXPORT(turbidity) double turbidity(uint32_t index, double visibility)
         if (fabs(welkin_wavelength(f, w) - 550) < fabs(welkin_wavelength(f, best) - 550)) best = w;
     return (-log((double)through[best]) - ozone) / molecules;
 }
+
+/* The disc over the prepared sky: its header, and its table. */
+EXPORT(bake_disc) welkin_error bake_disc(uint32_t index)
+{
+    return sun_fill(&slots[index].file, &slots[index].conditions, disc + SUN_HEADER, disc);
+}
+
+/* The air below an elevation under the sky that was baked last. */
+EXPORT(bake_air) welkin_error bake_air(uint32_t index, uint32_t rows, uint32_t columns, double highest)
+{
+    return air_bake(&slots[index], &last_baked, rows, columns, highest);
+}
+
+EXPORT(air_at) float *air_at(void) { return air_table; }
+EXPORT(air_header_at) float *air_header_at(void) { return air_header; }
+EXPORT(sunlight_at) float *sunlight_at(void) { return sunlight; }
+EXPORT(disc_at) float *disc_at(void) { return disc; }
 
 EXPORT(table_at) float *table_at(void) { return table; }
 EXPORT(header_at) float *header_at(void) { return header; }

@@ -34,7 +34,7 @@ impl Spread {
     }
 }
 
-/// Head of [`csv`].
+/// Head of the CSV.
 pub const HEAD: &str = "scan,by,at,count,mean_ln,median_abs_ln,rms_ln\n";
 
 /// Width of the bins of angles from the sun, degrees.

@@ -21,7 +21,9 @@ macro_rules! fields {
 }
 
 /// Struct of the shaders, program that has it, version, size and fields in the library.
-fn headers() -> [(&'static str, &'static str, u32, (usize, Vec<Field>)); 5] {
+type Header = (&'static str, &'static str, u32, (usize, Vec<Field>));
+
+fn headers() -> [Header; 5] {
     [
         (
             "SkyHeader",
@@ -53,8 +55,8 @@ fn headers() -> [(&'static str, &'static str, u32, (usize, Vec<Field>)); 5] {
             "AerialHeader",
             "fill_volume",
             AerialBuffers::LAYOUT,
-            fields!(AerialHeader: sun horizon up nearest forward farthest left nodes_per_octave white pole shrink
-                crowding intervals sun_intervals distances unused layout),
+            fields!(AerialHeader: sun horizon up height forward top left bend white pole shrink crowding intervals
+                sun_intervals distances steepness haze nearness per_stretch unused layout),
         ),
     ]
 }

@@ -2,7 +2,7 @@
 
 use crate::common::gpu::{Binding, bytes, device, padded};
 use crate::common::{Errors, directions, horizon, scenes};
-use welkin::{BakedSky, Model, Moon, PolarisationFrame, SkyBuffers, StokesSpectra};
+use welkin::{BakedSky, Model, Moon, PolarisationFrame, Response, SkyBuffers, StokesSpectra};
 
 /// `[direction][group][1 or 3]`.
 fn run(
@@ -79,46 +79,117 @@ fn moonlit_colours() {
     assert!(p99 < 1e-3 && max < 1e-2);
 }
 
-#[test]
-fn spectra_and_stokes_vectors() {
-    let Some(gpu) = device() else { return };
-    let model = Model::default_model().unwrap();
-    let [mut radiance, mut degrees] = [(); 2].map(|()| Errors::default());
-    for conditions in scenes() {
-        let sky = model
-            .polarised_sky(&conditions)
-            .unwrap()
-            .bake(BakedSky::TOLERANCE)
-            .unwrap();
-        let buffers = sky.buffers();
-        let (n, groups) = (
-            buffers.header.channels as usize,
-            buffers.header.groups as usize,
-        );
-        let directions = directions(buffers.header.sun, horizon(&conditions));
-        let got = run(&gpu, &buffers, &directions);
+/// What errors are gathered of.
+#[derive(Default)]
+struct Polarised {
+    radiance: Errors,
+    degrees: Errors,
+}
+
+impl Polarised {
+    /// Compares a scene; `stokes` is what the library says of a direction.
+    fn add(
+        &mut self,
+        gpu: &crate::common::gpu::Gpu,
+        buffers: &SkyBuffers,
+        horizon: f64,
+        mut stokes: impl FnMut([f32; 3], StokesSpectra),
+    ) {
+        let n = buffers.header.channels as usize;
+        let directions = directions(buffers.header.sun, horizon);
+        let got = run(gpu, buffers, &directions);
         let [mut i, mut q, mut u] = [(); 3].map(|()| vec![0.0; n]);
-        for (d, got) in directions.iter().zip(got.chunks_exact(3 * groups)) {
+        let rows = got.chunks_exact(3 * buffers.header.groups as usize);
+        for (d, got) in directions.iter().zip(rows) {
             let out = StokesSpectra {
                 i: &mut i,
                 q: &mut q,
                 u: &mut u,
             };
-            sky.stokes(*d, PolarisationFrame::Vertical, out).unwrap();
+            stokes(*d, out);
             for w in 0..n {
                 let at = |k: usize| got[3 * (w / 4) + k][w % 4];
-                radiance.add(at(0), i[w], 0.0);
+                self.radiance.add(at(0), i[w], 0.0);
                 if i[w] == 0.0 {
                     continue;
                 }
                 // Degrees as they are: they go through zero.
-                degrees.add(at(1), q[w] / i[w], 1.0);
-                degrees.add(at(2), u[w] / i[w], 1.0);
+                self.degrees.add(at(1), q[w] / i[w], 1.0);
+                self.degrees.add(at(2), u[w] / i[w], 1.0);
             }
         }
     }
-    let [p99, max] = radiance.report("spectral radiance");
+
+    fn check(self, of: &str) {
+        let [p99, max] = self.radiance.report(&format!("radiance {of}"));
+        assert!(p99 < 1e-3 && max < 1e-2, "{of}");
+        let [p99, max] = (self.degrees).report(&format!("Q/I and U/I {of} (differences)"));
+        assert!(p99 < 1e-3 && max < 1e-2, "{of}");
+    }
+}
+
+#[test]
+fn spectra_and_stokes_vectors() {
+    let Some(gpu) = device() else { return };
+    let model = Model::default_model().unwrap();
+    let mut errors = Polarised::default();
+    for conditions in scenes() {
+        let sky = model.polarised_sky(&conditions).unwrap();
+        let sky = sky.bake(BakedSky::TOLERANCE).unwrap();
+        errors.add(&gpu, &sky.buffers(), horizon(&conditions), |d, out| {
+            sky.stokes(d, PolarisationFrame::Vertical, out).unwrap();
+        });
+    }
+    errors.check("at all wavelengths");
+}
+
+/// Seven bands, so that the last group is not full: narrow ones, and wide ones that overlap.
+fn responses() -> Vec<Response> {
+    let mut out: Vec<Response> = [400.0, 500.0, 600.0].map(Response::wavelength).into();
+    for centre in [420.0, 480.0, 550.0, 640.0] {
+        let nodes = [-60.0, -20.0, 10.0, 70.0].map(|off: f64| centre + off);
+        out.push(Response::table(&nodes, &[0.0, 0.9, 1.0, 0.0]).unwrap());
+    }
+    out
+}
+
+#[test]
+fn bands() {
+    let Some(gpu) = device() else { return };
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&responses()).unwrap();
+    let mut errors = Errors::default();
+    for conditions in scenes() {
+        let sky = model.band_sky(&conditions, &bands).unwrap();
+        let sky = sky.bake(BakedSky::TOLERANCE).unwrap();
+        let buffers = sky.buffers();
+        assert_eq!((buffers.header.channels, buffers.header.groups), (7, 2));
+        let directions = directions(buffers.header.sun, horizon(&conditions));
+        let got = run(&gpu, &buffers, &directions);
+        let mut expected = [0.0; 7];
+        for (d, got) in directions.iter().zip(got.chunks_exact(2)) {
+            sky.radiance(*d, &mut expected).unwrap();
+            for (got, expected) in got.as_flattened().iter().zip(expected) {
+                errors.add(*got, expected, 0.0);
+            }
+        }
+    }
+    let [p99, max] = errors.report("radiance in bands");
     assert!(p99 < 1e-3 && max < 1e-2);
-    let [p99, max] = degrees.report("Q/I and U/I (differences)");
-    assert!(p99 < 1e-3 && max < 1e-2);
+}
+
+#[test]
+fn bands_and_stokes_vectors() {
+    let Some(gpu) = device() else { return };
+    let model = Model::default_model().unwrap();
+    let bands = model.bands(&responses()).unwrap();
+    let mut errors = Polarised::default();
+    for conditions in scenes() {
+        let sky = model.polarised_band_sky(&conditions, &bands).unwrap();
+        let sky = sky.bake(BakedSky::TOLERANCE).unwrap();
+        errors.add(&gpu, &sky.buffers(), horizon(&conditions), |d, out| {
+            sky.stokes(d, PolarisationFrame::Vertical, out).unwrap();
+        });
+    }
+    errors.check("in bands, polarised");
 }

@@ -81,7 +81,7 @@ fn other_compilers_take_them() {
     }
 }
 
-const FUNCTIONS: [(&str, &str, &str); 13] = [
+const FUNCTIONS: [(&str, &str, &str); 14] = [
     (
         "sky_directions",
         "sky_point",
@@ -116,6 +116,7 @@ const FUNCTIONS: [(&str, &str, &str); 13] = [
         "what a line crosses of a layer (a turn for four constituents)",
     ),
     ("fill_volume", "aerial_ray", "a ray of a volume, looked up"),
+    ("fill_volume", "aerial_taps", "a distance along it"),
     ("fill_volume", "aerial_node", "a node of its distance"),
     ("fill_volume", "aerial_blend", "a slice between nodes"),
     (

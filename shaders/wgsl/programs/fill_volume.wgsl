@@ -34,7 +34,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var next = 0u;
     for (var slice = 0u; slice < volume.slices; slice++) {
         let distance = depths[slice] * stretch;
-        let taps = aerial_taps(aerial, distance);
+        let taps = aerial_taps(aerial, ray, distance);
         next = max(next, taps.first);
         while next < taps.first + 4u {
             nodes[0] = nodes[1];

@@ -1,6 +1,8 @@
 //! A compute device without a window.
 
+use std::cell::Cell;
 use std::sync::{Mutex, MutexGuard, OnceLock};
+use std::time::{Duration, Instant};
 
 use welkin_shaders::PROGRAMS;
 use wgpu::util::DeviceExt;
@@ -8,6 +10,9 @@ use wgpu::util::DeviceExt;
 pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
+    name: String,
+    repeats: Cell<bool>,
+    took: Cell<Duration>,
 }
 
 /// What a program is bound to in group 1 from binding 1 on.
@@ -44,14 +49,34 @@ fn open() -> Option<Gpu> {
     let instance = wgpu::Instance::new(descriptor);
     let options = wgpu::RequestAdapterOptions::default();
     let adapter = pollster::block_on(instance.request_adapter(&options)).ok()?;
-    println!("on {}", adapter.get_info().name);
+    let name = adapter.get_info().name;
+    println!("on {name}");
     let (device, queue) =
         pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))
             .expect("a device of the adapter");
-    Some(Gpu { device, queue })
+    Some(Gpu {
+        device,
+        queue,
+        name,
+        repeats: Cell::new(false),
+        took: Cell::default(),
+    })
 }
 
 impl Gpu {
+    /// What the device calls itself.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What a pass takes that has run before, of those that `runs` asks for: the last one.
+    pub fn time(&self, runs: impl FnOnce(&Self)) -> Duration {
+        self.repeats.set(true);
+        runs(self);
+        self.repeats.set(false);
+        self.took.get()
+    }
+
     /// Runs a program of this crate; see [`Gpu::run_source`].
     pub fn run(
         &self,
@@ -99,20 +124,23 @@ impl Gpu {
             Binding::Input(bytes) => self.filled(bytes, Usage::STORAGE),
             Binding::Output(n) => self.empty(*n, Usage::STORAGE | Usage::COPY_SRC),
         }));
-        let mut encoder = self
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(
-                0,
-                &self.group(&pipeline, 0, std::slice::from_ref(&table)),
-                &[],
-            );
-            pass.set_bind_group(1, &self.group(&pipeline, 1, &own), &[]);
-            pass.dispatch_workgroups(groups[0], groups[1], 1);
+        let groups_of = [
+            self.group(&pipeline, 0, std::slice::from_ref(&table)),
+            self.group(&pipeline, 1, &own),
+        ];
+        if self.repeats.get() {
+            // The first time it may be compiled.
+            for _ in 0..2 {
+                let start = Instant::now();
+                self.queue
+                    .submit([self.pass(&pipeline, &groups_of, groups).finish()]);
+                self.device
+                    .poll(wgpu::PollType::wait_indefinitely())
+                    .expect("the device");
+                self.took.set(start.elapsed());
+            }
         }
+        let mut encoder = self.pass(&pipeline, &groups_of, groups);
         let outputs =
             bindings
                 .iter()
@@ -130,6 +158,25 @@ impl Gpu {
             .collect();
         self.queue.submit([encoder.finish()]);
         copies.iter().map(|copy| self.read(copy)).collect()
+    }
+
+    fn pass(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        bound: &[wgpu::BindGroup; 2],
+        groups: [u32; 2],
+    ) -> wgpu::CommandEncoder {
+        let descriptor = wgpu::CommandEncoderDescriptor::default();
+        let mut encoder = self.device.create_command_encoder(&descriptor);
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            for (i, group) in (0..).zip(bound) {
+                pass.set_bind_group(i, group, &[]);
+            }
+            pass.dispatch_workgroups(groups[0], groups[1], 1);
+        }
+        encoder
     }
 
     fn filled(&self, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {

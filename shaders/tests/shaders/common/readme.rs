@@ -54,8 +54,15 @@ pub fn fill(place: &str, text: &str) {
 
 /// Writes a row of the errors, which are those of a device and so not compared.
 pub fn record(row: [String; 3]) {
+    insert("errors", ["what", "%", "of"], row);
+}
+
+/// Writes a row of a table that a machine fills, in place of that of the same name.
+pub fn insert(place: &str, heads: [&str; 3], row: [String; 3]) {
     let readme = std::fs::read_to_string(path()).unwrap();
-    let (_, rest) = readme.split_once("<!-- errors -->\n").expect("a place");
+    let (_, rest) = readme
+        .split_once(&format!("<!-- {place} -->\n"))
+        .expect("a place");
     let known = rest.split_once("<!-- end -->").expect("its end").0;
     let rows = known.lines().skip(2).map(|line| {
         let mut cells = line.split('|').skip(1).map(|cell| cell.trim().to_string());
@@ -66,7 +73,7 @@ pub fn record(row: [String; 3]) {
         .collect();
     rows.push(row);
     rows.sort();
-    fill("errors", &table(&["what", "%", "of"], &rows));
+    fill(place, &table(&heads, &rows));
 }
 
 pub fn table<const N: usize>(heads: &[&str; N], rows: &[[String; N]]) -> String {

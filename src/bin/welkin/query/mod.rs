@@ -8,7 +8,7 @@ mod columns;
 mod kept;
 mod progress;
 mod quantity;
-mod shared;
+pub mod shared;
 
 use std::fmt;
 use std::fs::File;
