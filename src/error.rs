@@ -251,6 +251,7 @@ impl fmt::Display for Range<'_> {
             (true, true) => return write!(f, "finite"),
             (true, false) => write!(f, "at most {max}")?,
             (false, true) => write!(f, "finite and at least {min}")?,
+            (false, false) if self.min == self.max => write!(f, "{min}")?,
             (false, false) => write!(f, "in {min}..={max}")?,
         }
         let space = if self.unit.is_empty() { "" } else { " " };
@@ -424,6 +425,10 @@ mod tests {
         assert_eq!(
             out_of_range("solar_elevation", [2.0, -0.0625, 1.5], "rad"),
             "solar_elevation must be in -0.0625..=1.5 rad, got 2 rad"
+        );
+        assert_eq!(
+            out_of_range("visibility", [2e4, 3e4, 3e4], "m"),
+            "visibility must be 30000 m, got 20000 m"
         );
         assert_eq!(
             out_of_range("x", [-1e300, f64::MIN_POSITIVE, f64::MAX], ""),

@@ -34,6 +34,27 @@ fn middle(path: &Path) -> [f32; 3] {
     })
 }
 
+/// The names of recipes are those of the command.
+#[test]
+fn grounds_have_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |albedo: &str| {
+        let output = run(folder.path(), &["light", "--json", "--albedo", albedo], "");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{text}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(said("sea"), said("0.06"));
+    assert_eq!(said("urban"), said("0.18"));
+    assert_ne!(said("grass"), said("sand"));
+    let output = run(folder.path(), &["light", "--albedo", "moss"], "");
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.contains("none of grass, snow, sand, sea, urban, and no file"),
+        "{text}"
+    );
+}
+
 #[test]
 fn pictures_are_over_the_ground() {
     let folder = tempfile::tempdir().unwrap();
@@ -149,7 +170,7 @@ fn what_is_wrong_is_said() {
         ),
         (
             &["render", "--albedo", "none.csv"],
-            "no number, and no file",
+            "no number, none of grass, snow, sand, sea, urban, and no file",
         ),
         (&["light", "--albedo", "500:0.1,400:0.2"], "increase"),
         (&["light", "--albedo", "500:x"], "must be a number"),

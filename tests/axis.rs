@@ -236,6 +236,48 @@ mod command {
         assert_eq!(text, "welkin: ozone moved from 600 to 500 DU\n");
     }
 
+    /// And nothing is taken for what is not given.
+    #[test]
+    fn commands_tell_of_the_parameter() {
+        let folder = folder();
+        let folder = folder.path();
+        let told = |line: &str| {
+            let output = call(folder, line);
+            let text = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{line}: {text}");
+            String::from_utf8(output.stdout).unwrap()
+        };
+        let light = told("light --model ozone.welkin --parameter 345.6");
+        assert!(light.contains("  ozone 345.6 DU, albedo 0.2"), "{light}");
+        let picture = told("render --size 8 --model ozone.welkin --parameter 345.6 --out a.exr");
+        assert!(
+            picture.contains("  ozone 345.6 DU, albedo 0.2"),
+            "{picture}"
+        );
+        assert!(!picture.contains("visibility"), "{picture}");
+        let file = std::fs::read(folder.join("a.exr")).unwrap();
+        let has = |name: &str| file.windows(name.len()).any(|w| w == name.as_bytes());
+        assert!(has("parameterValue") && !has("visibilityKm"));
+        let said = said(
+            folder,
+            "light --json --model ozone.welkin --parameter 345.6",
+        );
+        assert_eq!(said["conditions"]["parameter"]["value"], 345.6);
+        for line in [
+            "light",
+            "render --out b.exr",
+            "export --for pbrt --out b",
+            "froxels --out b.exr",
+        ] {
+            let refused = refusal(folder, &format!("{line} --model ozone.welkin"));
+            assert!(
+                refused.contains("depends on ozone: --parameter 100 to 500 DU is needed"),
+                "{refused}"
+            );
+        }
+        assert!(!folder.join("b.exr").exists());
+    }
+
     #[test]
     fn a_table_needs_no_visibilities_beside_a_parameter() {
         let folder = folder();

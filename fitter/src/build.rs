@@ -7,12 +7,12 @@ use crate::estimate;
 use crate::finite;
 use crate::fitting::{Fitting, unit_name};
 use crate::pack::{self, AirTables, PackedBasis};
-use crate::progress::bar;
+use crate::progress::{stage, whole};
 use crate::report;
 use crate::round_trip;
 use crate::spectrum;
 use crate::successive_orders::{FIELDS, NW};
-use crate::units::{Plan, Solved};
+use crate::units::{Between, Plan, Solved};
 use crate::{polarimetry, polarise};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
@@ -46,13 +46,19 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
     let polarisation = fit_polarisation(plan, fitting, &store, media, &chunks, &places)?;
     let fitting_time = started.elapsed() - tracing;
     let (mut head, mut file) = radiance_file(plan, &solved, tables, &places, &fit)?;
-    if let Some(spectrum) = spectrum::pack(plan, work, &solved)? {
+    let pack = || spectrum::pack(plan, work, &solved);
+    let spectrum = match plan.between {
+        // Has a bar of its own.
+        Between::Learned(_) => pack(),
+        Between::Default | Between::Nothing => whole("between the wavelengths", pack),
+    };
+    if let Some(spectrum) = spectrum? {
         head.xyz = spectrum.xyz;
         let spectrum = format::Chunk::new(None, None, Payload::Spectrum(spectrum.spectrum));
         file.insert(1, spectrum);
     }
     check_rounding(plan, &chunks, &places, &fit, &file)?;
-    file.extend(finite::chunks(&solved)?);
+    file.extend(whole("finite segments", || finite::chunks(&solved))?);
     file.extend(polarisation);
     let (bytes, errors, polarimetry) = assemble(plan, fitting, head, file, &places)?;
     write(&[(out, &bytes)]).context("cannot write the model")?;
@@ -67,7 +73,10 @@ pub fn build(plan: &Plan, fitting: Fitting, work: &Path, out: &Target) -> Result
         })
         .collect();
     Ok(format!(
-        "{}\n{}\n{}\n{} bytes in {}\ntracing {:.0} s, fitting {:.0} s\n",
+        "the fit against the light that was solved, relative errors of radiance, by chunk\n{}\n\
+         the same, by what is seen\n{}\n\
+         the fit against the light that was solved, errors of the degree and the angle of polarisation\n{}\n\
+         {} bytes in {}\ntracing {:.0} s, fitting {:.0} s\n",
         report::chunk_table(&rows),
         assess::table(&errors.concat()),
         polarimetry::table(&polarimetry),
@@ -99,7 +108,7 @@ pub(crate) fn split(traced: Vec<Traced>) -> (Vec<Chunk>, Vec<Place>) {
 
 pub(crate) fn solve_all(plan: &Plan, work: &Path) -> Result<Vec<Solved>> {
     let solve = |&visibility: &f64| {
-        let progress = bar(100, &format!("light field {:.1} km", visibility / 1e3));
+        let progress = stage(100, &format!("light field {:.1} km", visibility / 1e3));
         let tell = |share: f64| progress.set_position((100.0 * share) as u64);
         let solved = plan.solve(work, visibility, &tell);
         progress.finish();
@@ -123,7 +132,7 @@ pub(crate) fn trace_all(
     (solved, estimates): (&[Solved], &[Estimates]),
 ) -> Result<Vec<Traced>> {
     let altitudes = plan.grid.altitudes.len();
-    let progress = bar(altitudes * solved.len(), "tracing");
+    let progress = stage(altitudes * solved.len(), "tracing");
     let mut out = vec![];
     for altitude in 0..altitudes {
         for (visibility, s) in solved.iter().enumerate() {
@@ -178,7 +187,7 @@ fn fit_group(
         fit.context("a fit of another size")
     };
     let first = || -> Result<Vec<f32>> {
-        let progress = bar(options.sweeps, "decomposing");
+        let progress = stage(options.sweeps, "decomposing");
         let tell = |sweep: usize, rms: f64| {
             progress.set_position(sweep as u64 + 1);
             progress.set_message(format!("decomposing, rms {:.3} %", 100.0 * rms));
@@ -190,7 +199,7 @@ fn fit_group(
     let values = store.unit(&name("decomposition", 0), first)?;
     let refine = || -> Result<Vec<f32>> {
         let mut fit = read(values)?;
-        let progress = bar(fitting.refinements, "refining");
+        let progress = stage(fitting.refinements, "refining");
         decompose::refine_all(chunks, nodes, &mut fit, fitting.refinements, &|sweep| {
             progress.set_position(sweep as u64);
         });
@@ -233,17 +242,23 @@ fn assemble(
 ) -> Result<Assembled> {
     let model = Model::from_bytes(encode(&head, &file)?)?;
     let visibility = |p: &Place| plan.grid.visibilities[p.visibility];
+    let progress = stage(places.len(), "measuring the fit");
     let errors = places
         .par_iter()
         .map(|p| assess::errors(&model, visibility(p), &p.truth))
+        .inspect(|_| progress.inc(1))
         .collect::<Result<Vec<_>>>()?;
+    progress.finish();
+    let progress = stage(places.len(), "measuring the polarisation");
     let polarimetry = match model.is_polarised() {
         true => places
             .par_iter()
             .map(|p| polarimetry::errors(&model, visibility(p), &p.truth))
+            .inspect(|_| progress.inc(1))
             .collect::<Result<Vec<_>>>()?,
         false => vec![],
     };
+    progress.finish();
     let relative = errors.iter().map(|e| e.iter().map(|e| e.relative));
     let radiance = |payload: &Payload| matches!(payload, Payload::Radiance(_));
     note(&mut file, radiance, relative);
@@ -289,7 +304,9 @@ fn check_rounding(
             _ => None,
         })
         .collect();
-    radiance.par_iter().enumerate().try_for_each(|(k, packed)| {
+    let progress = stage(radiance.len(), "checking the rounding");
+    let outcome = radiance.par_iter().enumerate().try_for_each(|(k, packed)| {
+        progress.inc(1);
         let fitted = (&fit.own[k], &fit.basis);
         let outcome = round_trip::check(&plan.grid, &chunks[k], fitted, (packed, &shared));
         let [altitude, visibility] = [
@@ -297,7 +314,9 @@ fn check_rounding(
             plan.grid.visibilities[places[k].visibility],
         ];
         outcome.with_context(|| format!("chunk at {altitude} m, visibility {visibility} m"))
-    })
+    });
+    progress.finish();
+    outcome
 }
 
 /// The head, and the basis and the estimates, then for each altitude its radiance chunks.

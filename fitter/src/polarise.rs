@@ -6,7 +6,7 @@ use crate::decompose::{
 };
 use crate::fitting::unit_name;
 use crate::pack::PackedBasis;
-use crate::progress::bar;
+use crate::progress::stage;
 use crate::units::{Plan, Solved};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
@@ -28,7 +28,7 @@ pub fn fit(
     let name = unit_name("polarisation", &plan.grid, nodes, options, 0);
     let values = store.unit(&name, || {
         let compressed = compress_all(plan, store, (solved, estimates), (chunks, nodes), places)?;
-        let progress = bar(options.sweeps, "decomposing polarisation");
+        let progress = stage(options.sweeps, "decomposing polarisation");
         let tell = |sweep: usize, rms: f64| {
             progress.set_position(sweep as u64 + 1);
             progress.set_message(format!("polarisation, rms {:.3} %", 100.0 * rms));
@@ -49,7 +49,7 @@ fn compress_all(
     (chunks, nodes): (&[Chunk], &[usize]),
     places: &[Place],
 ) -> Result<Vec<PolarisedChunk>> {
-    let progress = bar(chunks.len(), "compressing polarisation");
+    let progress = stage(chunks.len(), "compressing polarisation");
     let compress = |(chunk, &(a, v)): (&Chunk, &Place)| {
         let tensor = plan.tensor(store, &solved[v], a)?;
         let gatherer = solved[v].gatherer();

@@ -307,7 +307,7 @@ fn fewer_temperatures_of_ozone_are_nearly_as_good() {
 }
 
 /// Text and what the error must say.
-const REFUSED: [(&str, &str); 27] = [
+const REFUSED: [(&str, &str); 40] = [
     ("[layers.a]\nmixture = \"urban\"\ncolour = 3", "colour"),
     ("[gases]\nozone = 300", "ozone"),
     (
@@ -372,6 +372,54 @@ const REFUSED: [(&str, &str); 27] = [
     ("[ground]\nsurface = \"cheese\"", "ground.surface"),
     ("[ground]\nalbedo = 1.5", "ground.albedo"),
     ("[sun]\ndistance_au = 0", "sun.distance_au"),
+    (
+        "[layers.d]\nbottom_km = 3\ntop_km = 5\nmixture = \"desert\"\nvisibility_km = 20",
+        "layers.d.visibility_km: there are no particles at the ground",
+    ),
+    (
+        "[layers.d]\nmixture = \"desert\"\nvisibility_km = 20\nprofile = { altitude_km = [1, 2], relative = [1, 1] }",
+        "layers.d.visibility_km: there are no particles at the ground",
+    ),
+    (
+        "name = \"a\"\n[layers.d]\ntop_m = 2000",
+        "line 3, column 1: unknown field `top_m`, expected one of `bottom_km`, `top_km`",
+    ),
+    ("[layers.d]\ntop_km = ", "line 2, column 10: "),
+    (
+        "[layers.d]\nmixture = \"desert\"\nprofile = 3",
+        "line 3, column 11: expected the name of a CSV file",
+    ),
+    (
+        "[gases.table]\naltitude_km = [0, 10000, 50000]\ntemperature_k = [288, 223, 270]\n\
+         air_per_cm3 = [2.5e19, 1e18, 2.1e16]",
+        "gases.table: altitude_km = 50000.0 is outside 0..200",
+    ),
+    (
+        "[layers.d]\nmixture = \"desert\"\nprofile = { altitude_km = [1000, 2000], relative = [1, 1] }",
+        "layers.d.profile: altitude_km = 1000.0 is outside 0..200",
+    ),
+    (
+        "[layers.d]\nmixture = \"desert\"\nprofile = { altitude_km = [1, 2], relative = [0, 0] }",
+        "layers.d.profile: relative is 0 everywhere",
+    ),
+    (
+        "[sun]\nspectrum = { wavelength_nm = [400, 700], irradiance_w_m2_nm = [1, 1] }",
+        "sun.spectrum: wavelength_nm runs from 400 to 700, not from 300 to 1100",
+    ),
+    (
+        "[sun]\nspectrum = { wavelength_nm = [300, 1100], irradiance_w_m2_nm = [1, 0] }",
+        "sun.spectrum: irradiance_w_m2_nm = 0.0 is not above 0",
+    ),
+    ("[ground]\n", "ground: one of surface, albedo and table"),
+    (
+        "[layers.d]\nparticles_per_cm3 = {}",
+        "layers.d.particles_per_cm3",
+    ),
+    (
+        "[layers.d]\noptical_depth_550 = 1\noptics = { wavelength_nm = [300, 2500], extinction = [1, 1], \
+         single_scattering_albedo = [1, 1] }\nphase = { angle_deg = [0, 90, 180], p11_550 = [5, 0, 1] }",
+        "layers.d.phase: p11_550 = 0.0 is not above 0",
+    ),
 ];
 
 #[test]
@@ -380,6 +428,7 @@ fn what_cannot_be_is_refused_with_its_place() {
         let error = parse(text).expect_err(text);
         let message = format!("{error:#}");
         assert!(message.contains(says), "{text}\n{message}");
+        assert!(!message.contains('\n') && message.len() < 400, "{message}");
         assert!(
             error.downcast_ref::<RecipeError>().is_some(),
             "{text}\n{message}"
@@ -519,6 +568,51 @@ fn what_the_page_shows_are_recipes() {
         assert_eq!(parse(text).unwrap().cautions().unwrap(), [""; 0]);
     }
     assert_eq!(parse("").unwrap().layers(&[550.0]).unwrap(), []);
+}
+
+/// Ash of a short scale height is where the recipe says, and not at the ground.
+#[test]
+fn a_layer_aloft_stays_aloft() {
+    let text = "[layers.ash]\nbottom_km = 12\ntop_km = 20\nscale_height_km = 0.4\n\
+        particles_per_cm3 = { suso = 1 }\noptical_depth_550 = 0.1\n";
+    let recipe = parse(text).unwrap();
+    assert!((depth(&recipe, 550.0) / 0.1 - 1.0).abs() < 1e-9);
+    assert!(extinction(&recipe) < 1e-6, "{}", extinction(&recipe));
+    let clear = parse("").unwrap().visibility().unwrap();
+    assert!((recipe.visibility().unwrap() / clear - 1.0).abs() < 1e-6);
+    let (altitudes, layers) = recipe.particles(&[550.0]).unwrap();
+    let nodes: Vec<(f64, f64)> = altitudes
+        .into_iter()
+        .zip(layers[0].profile.clone())
+        .collect();
+    let lower = nodes.windows(2).filter(|w| w[1].0 <= 9000.0);
+    let column: f64 = lower
+        .map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0))
+        .sum();
+    let below = column * layers[0].extinction[0];
+    assert!(below < 1e-3, "{below}");
+}
+
+#[test]
+fn a_profile_is_nothing_outside_its_rows() {
+    let text = "[layers.a]\nmixture = \"desert\"\noptical_depth_550 = 0.2\n\
+        profile = { altitude_km = [1, 2, 3], relative = [1, 1, 1] }\n";
+    let recipe = parse(text).unwrap();
+    let (altitudes, layers) = recipe.particles(&[550.0]).unwrap();
+    let at = |z: f64| layers[0].profile[altitudes.iter().position(|a| *a == z).unwrap()];
+    assert_eq!([at(0.0), at(990.0), at(3010.0)], [0.0; 3]);
+    assert_eq!([at(1000.0), at(2000.0), at(3000.0)], [1.0; 3]);
+    // So the layer has all of its optical depth within.
+    let per_km = 1000.0 * layers[0].extinction[0];
+    assert!((per_km / 0.1 - 1.0).abs() < 0.01, "{per_km}");
+}
+
+/// Nothing is 0, not −0.
+#[test]
+fn a_layer_of_nothing_has_no_optical_depth() {
+    let recipe = parse("[layers.a]\nparticles_per_cm3 = { soot = 0 }\n").unwrap();
+    let layers = recipe.layers(&[550.0]).unwrap();
+    assert_eq!(format!("{:.1}", layers[0].optical_depth[0]), "0.0");
 }
 
 #[test]

@@ -97,6 +97,91 @@ fn the_plot_has_every_layer() {
     assert!(!folder.path().join("mars.png").exists());
 }
 
+/// Text of others goes neither raw to the terminal nor into XML.
+#[test]
+fn names_of_layers_are_made_printable() {
+    let folder = tempfile::tempdir().unwrap();
+    let text_of = "[layers.\"a b<&\\u001b[31mred\"]\ntop_km = 1\nmixture = \"urban\"\n";
+    std::fs::write(folder.path().join("odd.toml"), text_of).unwrap();
+    let said = text(folder.path(), &["odd.toml", "--plot", "odd.svg"]);
+    assert!(said.contains("a b<&\\u{1b}[31mred"), "{said}");
+    let svg = std::fs::read_to_string(folder.path().join("odd.svg")).unwrap();
+    assert!(svg.contains("a b&lt;&amp;\\u{1b}[31mred"));
+    assert!(!svg.contains('\u{1b}'));
+}
+
+#[test]
+fn separators_and_short_tables_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    for (name, text) in [
+        (
+            "semi.csv",
+            "altitude_km;temperature_k;air_per_cm3\n0;288;2,5e19\n",
+        ),
+        (
+            "tabs.csv",
+            "altitude_km\ttemperature_k\tair_per_cm3\n0\t288\t2.5e19\n",
+        ),
+    ] {
+        write(name, text);
+        write("air.toml", &format!("[gases]\ntable = \"{name}\"\n"));
+        let said = complaint(folder.path(), &["air.toml"]);
+        assert!(
+            said.contains(name) && said.contains("commas are expected"),
+            "{said}"
+        );
+    }
+    let optics = "[layers.d]\noptical_depth_550 = 0.2\noptics = { wavelength_nm = [400, 1000], \
+        extinction = [1, 1], single_scattering_albedo = [0.9, 0.9], asymmetry = [0.7, 0.7] }\n";
+    write("short.toml", optics);
+    let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .current_dir(folder.path())
+        .args(["make", "short.toml", "--out", "short.welkin"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        said.contains("short.toml: layers.d.optics: 300 nm is outside the table, 400..1000 nm"),
+        "{said}"
+    );
+}
+
+/// Before anything is traced.
+#[test]
+fn aureole_says_what_a_model_does_not_have() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/default.welkin");
+    let colours = folder.path().join("colours.welkin");
+    let (mut head, mut chunks) = welkin::format::unpack(&std::fs::read(model).unwrap()).unwrap();
+    chunks.retain(|chunk| !matches!(chunk.payload, welkin::format::Payload::Spectrum(_)));
+    let selection = welkin::format::Selection {
+        wavelengths: vec![9, 12, 15],
+        ..welkin::format::Selection::all(&head)
+    };
+    welkin::format::crop(&mut head, &mut chunks, &selection).unwrap();
+    std::fs::write(&colours, welkin::format::encode(&head, &chunks).unwrap()).unwrap();
+    let says = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+            .current_dir(folder.path())
+            .args(["aureole", "continental-average", "colours.welkin"])
+            .args(arguments)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let lacking = says(&[]);
+    assert!(
+        lacking.contains("colours.welkin: has no node at 343 nm, only at 430, 550, 650"),
+        "{lacking}"
+    );
+    let low = says(&["--wavelengths", "550", "--suns", "20,95"]);
+    assert!(low.contains("up to 90 degrees, got 95"), "{low}");
+    let plot = says(&["--wavelengths", "550", "--plot", "a.svg", "0"]);
+    assert!(plot.contains("up to 90 degrees, got 0"), "{plot}");
+}
+
 #[test]
 fn mistakes_are_explained() {
     let folder = tempfile::tempdir().unwrap();
@@ -139,5 +224,17 @@ fn make_says_which_suns_a_model_cannot_have() {
     assert!(!output.status.success(), "{output:?}");
     let complaint = String::from_utf8(output.stderr).unwrap();
     assert!(complaint.contains("solar elevations"), "{complaint}");
+    assert!(!complaint.contains("wrong order"), "{complaint}");
+    let output = Command::new(env!("CARGO_BIN_EXE_welkin-fit"))
+        .current_dir(folder.path())
+        .args(["make", "desert", "--out", "desert.welkin"])
+        .args(["--elevations", "40..5"])
+        .output()
+        .unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        complaint.contains("solar elevations 40..5 are in the wrong order"),
+        "{complaint}"
+    );
     assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none());
 }

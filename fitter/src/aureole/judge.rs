@@ -3,7 +3,7 @@
 use super::lines::{Line, Place};
 use super::{ALBEDO, Traced};
 use crate::assess::Quantiles;
-use anyhow::Result;
+use anyhow::{Context, Result, ensure};
 use std::fmt::Write;
 use welkin::{Conditions, Model, PolarisationFrame, Stokes};
 
@@ -42,15 +42,49 @@ fn near(line: &Line, from: f64, to: f64) -> bool {
     line.place == Place::Aureole && (from..to).contains(&line.to_sun().to_degrees())
 }
 
-/// Intensity and degree of linear polarisation of a model along a line, at some of its nodes.
-pub fn evaluate(model: &Model, line: &Line, nodes: &[usize]) -> Result<Vec<[f64; 2]>> {
-    let sky = model.polarised_sky(&Conditions {
-        solar_elevation: line.sun,
+/// Refuses a model that cannot be judged at wavelengths (nm) under suns (rad), before anything is traced for it.
+pub fn check(model: &Model, wavelengths: &[f64], suns: &[f64]) -> Result<()> {
+    lanes(model, wavelengths)?;
+    let [low, high] = model.solar_elevation_range().map(f64::to_degrees);
+    for sun in suns {
+        let degrees = sun.to_degrees();
+        // The conversion of units rounds.
+        ensure!(
+            (low - 1e-9..=high + 1e-9).contains(&degrees),
+            "its suns stand at {low:.1}..{high:.1} degrees, none at {degrees:.1}"
+        );
+        model.polarised_sky(&conditions(model, *sun))?;
+    }
+    Ok(())
+}
+
+/// Where the model has its nodes at wavelengths in nm.
+fn lanes(model: &Model, wavelengths: &[f64]) -> Result<Vec<usize>> {
+    let own = model.wavelengths();
+    let index = |nm: &f64| {
+        let found = own.iter().position(|node| node == nm);
+        found.with_context(|| {
+            let nodes: Vec<String> = own.iter().map(f64::to_string).collect();
+            format!("has no node at {nm} nm, only at {}", nodes.join(", "))
+        })
+    };
+    wavelengths.iter().map(index).collect()
+}
+
+fn conditions(model: &Model, sun: f64) -> Conditions {
+    Conditions {
+        solar_elevation: sun,
         solar_azimuth: 0.0,
         visibility: model.head().visibilities[0],
         albedo: ALBEDO,
         altitude: 0.0,
-    })?;
+    }
+}
+
+/// Intensity and degree of linear polarisation of a model along a line, at its nodes of wavelengths in nm.
+pub fn evaluate(model: &Model, line: &Line, wavelengths: &[f64]) -> Result<Vec<[f64; 2]>> {
+    let nodes = lanes(model, wavelengths)?;
+    let sky = model.polarised_sky(&conditions(model, line.sun))?;
     let mut light = vec![Stokes::default(); model.wavelengths().len()];
     sky.relative_stokes(line.direction(), PolarisationFrame::Vertical, &mut light)?;
     let of = |&w: &usize| {
@@ -84,11 +118,11 @@ pub struct Row {
 pub fn rows(
     models: &[(String, Model)],
     traced: &[Traced],
-    (nodes, wavelengths): (&[usize], &[f64]),
+    wavelengths: &[f64],
 ) -> Result<Vec<Row>> {
     let mut out = vec![];
     for (name, model) in models {
-        let errors = errors(model, traced, nodes)?;
+        let errors = errors(model, traced, wavelengths)?;
         let mut add = |part: String, belongs: &dyn Fn(&Error) -> bool| {
             let chosen: Vec<&Error> = errors.iter().filter(|e| belongs(e)).collect();
             out.extend(row(name, part, &chosen));
@@ -162,10 +196,10 @@ pub fn csv(rows: &[Row]) -> Result<Vec<u8>> {
     Ok(out.into_inner().map_err(|e| e.into_error())?)
 }
 
-fn errors(model: &Model, traced: &[Traced], nodes: &[usize]) -> Result<Vec<Error>> {
+fn errors(model: &Model, traced: &[Traced], wavelengths: &[f64]) -> Result<Vec<Error>> {
     let mut out = vec![];
     for Traced { line, light } in traced {
-        let ours = evaluate(model, line, nodes)?;
+        let ours = evaluate(model, line, wavelengths)?;
         for (lane, (truth, [intensity, polarisation])) in light.iter().zip(ours).enumerate() {
             let i = truth.stokes[0];
             if i > 0.0 {

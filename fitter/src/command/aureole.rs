@@ -2,7 +2,7 @@
 
 use super::atmosphere::draw::{Panel, Series, svg};
 use super::make::find;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use welkin::Model;
@@ -44,15 +44,17 @@ pub fn run(args: &Args) -> Result<()> {
     let recipe = find(&args.recipe)?.with_mie()?;
     let nodes = nodes(&args.wavelengths)?;
     let models: Vec<(String, Model)> = args.models.iter().map(open).collect::<Result<_>>()?;
-    let suns = args.suns.iter().map(|s| s.to_radians());
-    let suns: Vec<f64> = suns.collect();
-    ensure!(
-        suns.iter().all(|s| *s > 0.0 && *s < 1.58),
-        "suns must stand above the horizon"
-    );
+    let suns = above_horizon(&args.suns)?;
+    let plot = args.plot.as_deref().map(parse_plot).transpose()?;
+    let plotted = plot.iter().map(|(_, sun)| sun.to_radians());
+    let all_suns: Vec<f64> = suns.iter().copied().chain(plotted).collect();
+    for ((_, model), path) in models.iter().zip(&args.models) {
+        let outcome = judge::check(model, &args.wavelengths, &all_suns);
+        outcome.with_context(|| path.display().to_string())?;
+    }
     let effort = (args.noise, args.walks);
     let traced = trace(&recipe, (&nodes, &all(&suns)), effort)?;
-    let rows = judge::rows(&models, &traced, (&nodes, &args.wavelengths))?;
+    let rows = judge::rows(&models, &traced, &args.wavelengths)?;
     println!("{}", judge::table(&rows)?);
     let mut costs = String::new();
     for (name, model) in &models {
@@ -64,16 +66,37 @@ pub fn run(args: &Args) -> Result<()> {
         let text = [comments.as_bytes(), &judge::csv(&rows)?].concat();
         write(&[(&Target::new(path), &text)])?;
     }
-    if let Some([path, sun]) = args.plot.as_deref() {
-        let sun: f64 = sun.parse().context("the elevation of the plot")?;
+    if let Some((path, sun)) = plot {
         let lines = vertical(sun.to_radians());
         let traced = trace(&recipe, (&nodes, &lines), effort)?;
-        let panels = panels(&models, &traced, (&nodes, &args.wavelengths))?;
+        let panels = panels(&models, &traced, &args.wavelengths)?;
         let title = format!("{}, sun at {sun}°, along its vertical", recipe.name());
         let text = svg(&title, &panels)?;
-        write(&[(&Target::new(Path::new(path)), text.as_bytes())])?;
+        write(&[(&Target::new(path), text.as_bytes())])?;
     }
     Ok(())
+}
+
+/// Elevations in degrees as radians.
+fn above_horizon(degrees: &[f64]) -> Result<Vec<f64>> {
+    for sun in degrees {
+        ensure!(
+            *sun > 0.0 && *sun <= 90.0,
+            "suns must stand above the horizon, at up to 90 degrees, got {sun}"
+        );
+    }
+    Ok(degrees.iter().map(|sun| sun.to_radians()).collect())
+}
+
+/// Where the plot goes and the elevation of its sun, degrees.
+fn parse_plot(values: &[String]) -> Result<(&Path, f64)> {
+    let [path, sun] = values else {
+        bail!("--plot: expected a file and an elevation");
+    };
+    let what = || format!("--plot: the elevation {sun:?} is no number");
+    let sun: f64 = sun.parse().with_context(what)?;
+    above_horizon(&[sun]).context("--plot")?;
+    Ok((Path::new(path), sun))
 }
 
 fn open(path: &PathBuf) -> Result<(String, Model)> {
@@ -87,7 +110,7 @@ fn open(path: &PathBuf) -> Result<(String, Model)> {
 fn panels(
     models: &[(String, Model)],
     traced: &[Traced],
-    (nodes, wavelengths): (&[usize], &[f64]),
+    wavelengths: &[f64],
 ) -> Result<Vec<Panel>> {
     let lane = wavelengths.len() / 2;
     let mut curves: Vec<(String, Vec<[f64; 2]>)> = vec![];
@@ -100,7 +123,7 @@ fn panels(
     for (name, model) in models {
         let own = traced
             .iter()
-            .map(|t| Ok(judge::evaluate(model, &t.line, nodes)?[lane]))
+            .map(|t| Ok(judge::evaluate(model, &t.line, wavelengths)?[lane]))
             .collect::<Result<_>>()?;
         curves.push((name.clone(), own));
     }

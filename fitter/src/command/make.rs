@@ -3,7 +3,7 @@
 use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use welkin::output::Target;
+use welkin::output::{Target, printable};
 use welkin_fitter::make::{Axis, Bands, Quality, Request, Scene};
 use welkin_fitter::recipe::Recipe;
 
@@ -39,6 +39,9 @@ pub struct Args {
     #[arg(long)]
     work: Option<PathBuf>,
 }
+
+/// First and last wavelength that is solved for every model, nm.
+const WAVELENGTHS: [f64; 2] = [300.0, 1100.0];
 
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum BandsArg {
@@ -78,6 +81,8 @@ fn range(text: &str) -> Result<[f64; 2]> {
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
     let recipe = find(&args.recipe)?;
+    let reaches = recipe.reaches(&WAVELENGTHS);
+    reaches.with_context(|| args.recipe.display().to_string())?;
     let recipe = match args.phase {
         PhaseArg::Recipe => recipe,
         PhaseArg::Mie => recipe.with_mie()?,
@@ -105,6 +110,9 @@ pub fn run(args: &Args) -> Result<()> {
             QualityArg::Best => Quality::Best,
         },
     };
+    for caution in request.recipe.cautions()? {
+        eprintln!("mind: {}", printable(&caution));
+    }
     let target = Target::new(&args.out);
     eprintln!("{}", request.estimate()?);
     let report = request.make(&work, &target)?;

@@ -7,7 +7,7 @@ use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
 use crate::atmosphere::absorption_bands::AbsorptionBands;
 use crate::dataset::Grid;
-use crate::progress::bar;
+use crate::progress::stage;
 use crate::tracer::{Options, Query, Tracer};
 use crate::units::Plan;
 use anyhow::Result;
@@ -70,7 +70,7 @@ pub fn judge(model: &Model, plan: &Plan, axis: Option<&Axis>, extent: Extent) ->
     let at_nodes = nodes.map(|&visibility| (visibility, plan.air.clone()));
     let between = axis.map_or(Ok(vec![]), Axis::between)?;
     let airs: Vec<(f64, Air)> = at_nodes.chain(between).collect();
-    let progress = bar(count * airs.len(), "judging by the tracer");
+    let progress = stage(count * airs.len(), "judging by the tracer");
     for (v, (visibility, air)) in airs.iter().enumerate() {
         let visibility = *visibility;
         let is_between = v >= plan.grid.visibilities.len();
@@ -242,7 +242,7 @@ impl fmt::Display for Judgement {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         writeln!(
             f,
-            "against the unbiased tracer, between nodes (noise of the tracer included)\n{:<26}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}",
+            "the model against the unbiased tracer, between nodes (noise of the tracer included): what its errors are\n{:<26}{:>8}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}",
             "", "values", "median", "p95", "p99", "max", "mean", "noise"
         )?;
         for (name, belongs) in CLASSES {

@@ -58,11 +58,12 @@ impl Request {
         let cores = rayon::current_num_threads();
         let seconds = self.quality.core_seconds(&plan, fitting) / cores as f64;
         Ok(format!(
-            "{} altitudes, {} airs, {} suns: about {:.0} minutes on {cores} cores",
-            plan.grid.altitudes.len(),
-            plan.grid.visibilities.len(),
-            plan.grid.elevation_sites().len(),
-            (seconds / 60.0).ceil()
+            "{}, {}, {}: about {} on {}",
+            count(plan.grid.altitudes.len(), "altitude"),
+            count(plan.grid.visibilities.len(), "air"),
+            count(plan.grid.elevation_sites().len(), "sun"),
+            count((seconds / 60.0).ceil() as usize, "minute"),
+            count(cores, "core")
         ))
     }
 
@@ -84,8 +85,10 @@ impl Request {
             None => bytes,
         };
         let model = Model::from_bytes(bytes.clone())?;
-        let judgement = judge::judge(&model, &plan, self.axis.as_ref(), self.quality.judged())?;
+        // Whoever interrupts the judgement has the model.
         write(&[(out, &bytes)]).context("cannot write the model")?;
+        let judgement = judge::judge(&model, &plan, self.axis.as_ref(), self.quality.judged());
+        let judgement = judgement.with_context(|| format!("{out} is made, but not judged"))?;
         writeln!(report, "{judgement}")?;
         writeln!(
             report,
@@ -95,6 +98,12 @@ impl Request {
         )?;
         Ok(report)
     }
+}
+
+/// So many of something.
+fn count(number: usize, what: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {what}{plural}")
 }
 
 /// Builds with fewer components, where so many cancel each other that half precision spoils them: of few altitudes and

@@ -48,6 +48,7 @@ impl Scene {
     pub fn narrow(&self, grid: &mut Grid) -> Result<()> {
         let [low, high] = self.altitudes;
         let [lowest, highest] = ALTITUDES;
+        in_order("altitudes", [low, high])?;
         ensure!(
             (lowest..=highest).contains(&low) && low <= high && high <= highest,
             "altitudes must be a range in {lowest}..{highest} m, got {low}..{high}"
@@ -64,14 +65,15 @@ impl Scene {
 
     fn narrow_suns(&self, axis: &mut ElevationAxis) -> Result<()> {
         let [low, high] = self.elevations;
+        in_order("solar elevations", [low, high].map(f64::to_degrees))?;
         let excess = 1e-9;
         ensure!(
             axis.min - excess <= low && low < high && high <= axis.max + excess,
             "solar elevations must be a range in {:.0}..{:.0}°, got {}..{}",
             axis.min.to_degrees(),
             axis.max.to_degrees(),
-            low.to_degrees(),
-            high.to_degrees()
+            rounded(low.to_degrees()),
+            rounded(high.to_degrees())
         );
         let kept = axis.coordinate(high) - axis.coordinate(low);
         axis.intervals = (kept.ceil() as usize).clamp(FEWEST, axis.intervals.max(FEWEST));
@@ -79,6 +81,23 @@ impl Scene {
         axis.max = high.min(axis.max);
         Ok(())
     }
+}
+
+/// The lower end comes first.
+fn in_order(what: &str, [low, high]: [f64; 2]) -> Result<()> {
+    let [first, last] = [low, high].map(rounded);
+    let is_reversed = low > high;
+    ensure!(
+        !is_reversed,
+        "{what} {first}..{last} are in the wrong order: the lower end comes first, {last}..{first}"
+    );
+    Ok(())
+}
+
+/// Without the digits that the conversion of units makes up.
+fn rounded(value: f64) -> f64 {
+    let round = (value * 1e9).round() / 1e9;
+    if round.is_finite() { round } else { value }
 }
 
 #[cfg(test)]
@@ -135,7 +154,12 @@ mod tests {
         };
         assert!(refused([0.0, 2e5], ELEVATIONS).contains("altitudes"));
         assert!(refused([f64::NAN, 2e3], ELEVATIONS).contains("altitudes"));
-        assert!(refused([2e3, 1e3], ELEVATIONS).contains("altitudes"));
+        assert!(
+            refused([2e3, 1e3], ELEVATIONS).contains("altitudes 2000..1000 are in the wrong order")
+        );
+        assert!(
+            refused(ALTITUDES, [40.0, -6.0]).contains("elevations 40..-6 are in the wrong order")
+        );
         assert!(refused(ALTITUDES, [-20.0, 10.0]).contains("solar elevations"));
         assert!(refused(ALTITUDES, [10.0, 10.0]).contains("solar elevations"));
     }

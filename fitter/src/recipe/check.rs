@@ -173,6 +173,14 @@ fn content(place: &str, layer: &Layer) -> Checked {
         0.0,
         99.0,
     )?;
+    if layer
+        .particles_per_cm3
+        .as_ref()
+        .is_some_and(|all| all.is_empty())
+    {
+        let what = "names no particles, such as { waso = 7000 }";
+        return Err(field(format!("{place}.particles_per_cm3"), what));
+    }
     for (component, number) in layer.particles_per_cm3.iter().flatten() {
         let name = format!("{place}.particles_per_cm3.{component}");
         within(&name, *number, 0.0, 1e9)?;

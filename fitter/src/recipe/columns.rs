@@ -5,6 +5,9 @@ use super::file::Columns;
 use crate::atmosphere::table::Curve;
 use std::collections::BTreeMap;
 
+/// Highest row of a table, km: more are metres.
+const HIGHEST: f64 = 200.0;
+
 /// A table with a place in the recipe.
 #[derive(Clone, Copy)]
 pub struct Functions<'a> {
@@ -71,10 +74,25 @@ impl<'a> Functions<'a> {
             return Err(field(self.place, what));
         }
         if let Some(bad) = y.iter().find(|v| !(least..=most).contains(*v)) {
-            let what = format!("{name} = {bad:?} is outside {least}..{most}");
+            let what = match least == f64::MIN_POSITIVE && *bad <= most {
+                true => format!("{name} = {bad:?} is not above 0"),
+                false => format!("{name} = {bad:?} is outside {least:?}..{most:?}"),
+            };
             return Err(field(self.place, what));
         }
         Curve::new(x.to_vec(), y.to_vec()).map_err(|e| field(self.place, e.to_string()))
+    }
+
+    /// Refuses altitudes in km that there are not.
+    pub fn only_altitudes(&self) -> Result<(), RecipeError> {
+        let bad = self
+            .range()
+            .into_iter()
+            .find(|km| !(0.0..=HIGHEST).contains(km));
+        bad.map_or(Ok(()), |km| {
+            let what = format!("{} = {km:?} is outside 0..{HIGHEST}", self.of);
+            Err(field(self.place, what))
+        })
     }
 
     /// First and last value of the column that all others are functions of.

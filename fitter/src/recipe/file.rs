@@ -136,7 +136,10 @@ impl Default for Sun {
 
 /// Columns of numbers, named; or the CSV file that has them, until it is read.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "expected the name of a CSV file, or columns of numbers such as { altitude_km = [0, 2], relative = [1, 0] }"
+)]
 pub enum Columns {
     File(PathBuf),
     Inline(BTreeMap<String, Vec<f64>>),

@@ -246,6 +246,7 @@ fn own(columns: &Columns) -> Result<GasProfile, RecipeError> {
         "water_per_cm3",
     ];
     table.only(|name| known.contains(&name))?;
+    table.only_altitudes()?;
     let [from, to] = table.range();
     if from != 0.0 || to < 30.0 {
         let what = format!("altitude_km runs from {from} to {to}, not from 0 to 30 or higher");

@@ -20,6 +20,7 @@ mod shape;
 mod shipped;
 mod sun;
 mod surface;
+mod syntax;
 mod tables;
 
 pub use error::RecipeError;
@@ -88,7 +89,8 @@ impl Recipe {
     /// All that is wrong is a [`RecipeError`], which says where.
     pub fn parse(text: &str, folder: Option<&Path>) -> Result<Self> {
         let parsed = toml::from_str(text);
-        let mut file: File = parsed.map_err(|e| RecipeError::Syntax(e.to_string()))?;
+        let mut file: File = parsed.map_err(|e| syntax::error(text, &e))?;
+        syntax::no_empty_ground(text)?;
         tables::read_all(&mut file, folder)?;
         Self::checked(file)
     }
@@ -154,6 +156,15 @@ impl Recipe {
             wavelengths,
             constituents,
         })
+    }
+
+    /// Refuses wavelengths (nm) that a table of the recipe's own optics does not have.
+    pub fn reaches(&self, wavelengths: &[f64]) -> Result<()> {
+        let parts = self.parts()?;
+        let layers = parts.particles.iter();
+        Ok(layers
+            .map(|layer| layer.reaches(wavelengths))
+            .collect::<Result<(), RecipeError>>()?)
     }
 
     /// Radius of the planet, m.

@@ -74,6 +74,14 @@ impl Optics {
         Ok(Self::Components(parts.collect::<Result<_>>()?))
     }
 
+    /// Refuses wavelengths (nm) that a table of the recipe's own does not have.
+    pub fn reaches(&self, wavelengths: &[f64]) -> Result<(), RecipeError> {
+        match self {
+            Self::Components(_) => Ok(()),
+            Self::Own(own) => own.reaches(wavelengths),
+        }
+    }
+
     /// What scatters where the profile is 1, at wavelengths in nm.
     pub fn scatterers(&self, wavelengths: &[f64]) -> Result<Vec<Scatterer>> {
         match self {
@@ -135,12 +143,19 @@ impl Own {
         })
     }
 
-    fn scatterer(&self, wavelengths: &[f64]) -> Result<Scatterer> {
+    fn reaches(&self, wavelengths: &[f64]) -> Result<(), RecipeError> {
         let [from, to] = self.range;
-        if let Some(w) = wavelengths.iter().find(|w| !(from..=to).contains(*w)) {
-            let what = format!("{w} nm is outside the table, {from}..{to} nm");
-            return Err(field(&self.place, what).into());
+        match wavelengths.iter().find(|w| !(from..=to).contains(*w)) {
+            Some(w) => {
+                let what = format!("{w} nm is outside the table, {from}..{to} nm");
+                Err(field(&self.place, what))
+            }
+            None => Ok(()),
         }
+    }
+
+    fn scatterer(&self, wavelengths: &[f64]) -> Result<Scatterer> {
+        self.reaches(wavelengths)?;
         let each = |curve: &Curve| {
             wavelengths
                 .iter()

@@ -14,6 +14,9 @@ pub const KOSCHMIEDER: f64 = 3.912;
 /// Humidity where the recipe says nothing, percent: that of the model's own air.
 const HUMIDITY: f64 = 50.0;
 
+/// Why a layer has no visibility.
+const NOT_AT_GROUND: &str = "there are no particles at the ground to have it";
+
 /// A layer of the recipe.
 pub struct Particles {
     name: String,
@@ -60,6 +63,11 @@ impl Particles {
         &self.name
     }
 
+    /// Refuses wavelengths (nm) that a table of the recipe's own does not have.
+    pub fn reaches(&self, wavelengths: &[f64]) -> Result<(), RecipeError> {
+        self.optics.reaches(wavelengths)
+    }
+
     /// The layer at wavelengths in nm.
     pub fn constituent(&self, altitudes: &[f64], wavelengths: &[f64]) -> Result<Constituent> {
         let mut scatterers = self.optics.scatterers(wavelengths)?;
@@ -74,7 +82,8 @@ impl Particles {
                 .chain(scattering)
                 .for_each(|v| *v *= self.amount);
         }
-        let total = |w: usize| scatterers.iter().map(|s| s.extinction[w]).sum();
+        // The sum of nothing is −0.
+        let total = |w: usize| 0.0 + scatterers.iter().map(|s| s.extinction[w]).sum::<f64>();
         Ok(Constituent {
             name: self.name.clone(),
             profile: altitudes.iter().map(|&z| self.shape.at(z)).collect(),
@@ -141,6 +150,9 @@ fn fill_in_visibility(
         return Ok(());
     };
     let place = format!("layers.{}.visibility_km", layers[i].name);
+    if !unscaled[i].on_ground {
+        return Err(field(place, NOT_AT_GROUND));
+    }
     let km = unscaled[i].layer.visibility_km.unwrap_or_default();
     let others: f64 = unscaled
         .iter()
@@ -162,10 +174,7 @@ fn missing(place: &str, km: f64, rest: f64, ground: f64) -> Result<f64, RecipeEr
         ));
     }
     if ground <= 0.0 {
-        return Err(field(
-            place,
-            "there are no particles at the ground to have it",
-        ));
+        return Err(field(place, NOT_AT_GROUND));
     }
     Ok(wanted / ground)
 }

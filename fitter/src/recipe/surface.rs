@@ -6,7 +6,7 @@ use super::file::Ground;
 use crate::atmosphere::table::{Curve, Table};
 use anyhow::Result;
 
-/// Names of the surfaces of `fitter/data/surfaces.csv`.
+/// Names of the surfaces of `src/bin/welkin/surfaces.csv`, which the command knows as well.
 pub const NAMES: [&str; 5] = ["grass", "snow", "sand", "sea", "urban"];
 
 /// Albedo of the ground, if the recipe says something about it.
@@ -30,6 +30,6 @@ fn named(name: &str) -> Result<Curve> {
         let what = format!("there is no {name:?}, only {}", NAMES.join(", "));
         return Err(field("ground.surface", what).into());
     }
-    let text = include_str!("../../data/surfaces.csv");
+    let text = include_str!("../../../src/bin/welkin/surfaces.csv");
     Table::parse("surfaces.csv", text)?.curve("wavelength_nm", name)
 }

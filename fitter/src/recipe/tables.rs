@@ -51,6 +51,18 @@ fn read(
     parse(&text).map_err(|what| field(place, format!("{}: {what}", path.display())))
 }
 
+/// Refuses what other programs separate columns by.
+fn separator(names: &csv::StringRecord) -> Result<(), String> {
+    let marks = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")];
+    let used = |mark: &char| names.iter().any(|name| name.contains(*mark));
+    match marks.iter().find(|(mark, _)| used(mark)) {
+        Some((_, name)) => Err(format!(
+            "it seems to be separated by {name}: commas are expected, and points in decimals"
+        )),
+        None => Ok(()),
+    }
+}
+
 /// CSV with `#` comments and one line of names.
 fn parse(text: &str) -> Result<BTreeMap<String, Vec<f64>>, String> {
     let mut reader = csv::ReaderBuilder::new()
@@ -58,6 +70,7 @@ fn parse(text: &str) -> Result<BTreeMap<String, Vec<f64>>, String> {
         .trim(csv::Trim::All)
         .from_reader(text.as_bytes());
     let names = reader.headers().map_err(|e| e.to_string())?.clone();
+    separator(&names)?;
     let mut columns: Vec<Vec<f64>> = vec![vec![]; names.len()];
     for record in reader.records() {
         let record = record.map_err(|e| e.to_string())?;

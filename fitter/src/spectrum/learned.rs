@@ -8,7 +8,7 @@ use crate::air::Air;
 use crate::assess::Quantiles;
 use crate::atmosphere::Monochromatic;
 use crate::dataset::{Coverage, Sample, Store};
-use crate::progress::bar;
+use crate::progress::stage;
 use crate::successive_orders::NW;
 use anyhow::Result;
 use rayon::prelude::*;
@@ -73,7 +73,7 @@ impl Training {
         let name = nodes_name(coverage);
         let lights = lights(&cells);
         let sets = lights.len().div_ceil(TOGETHER);
-        let progress = bar(self.visibilities.len() * (sets + 1), "tracing spectra");
+        let progress = stage(self.visibilities.len() * (sets + 1), "tracing spectra");
         let (mut samples, mut nodes) = (vec![], vec![]);
         let mut radiance = vec![vec![]; lights.len()];
         for &visibility in &self.visibilities {

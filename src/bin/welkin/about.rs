@@ -2,7 +2,11 @@
 
 use std::fmt;
 
-use welkin::Conditions;
+use welkin::output::printable;
+use welkin::{Conditions, Model};
+
+use crate::failure::Result;
+use crate::parameter;
 
 /// Of RGB in cd m⁻².
 pub const LUMINANCE: &str = "cd.m^-2";
@@ -30,7 +34,7 @@ pub struct About {
 
 impl About {
     /// Sun, air, ground and observer.
-    pub fn scene(conditions: &Conditions, view_azimuth: f64) -> Self {
+    pub fn scene(model: &Model, conditions: &Conditions, view_azimuth: f64) -> Result<Self> {
         let mut about = Self {
             altitude: Some(conditions.altitude),
             ..Self::default()
@@ -41,10 +45,17 @@ impl About {
         about.number("sunAzimuthDeg", azimuth.to_degrees());
         let direction = Value::Vector([r * x, r * y, z]);
         about.entries.push(("sunDirection", direction));
-        about.number("visibilityKm", conditions.visibility / 1e3);
+        match parameter::value(model, conditions.visibility)? {
+            Some((axis, value)) => {
+                about.text("parameter", printable(axis.name()));
+                about.number("parameterValue", value);
+                about.text("parameterUnit", printable(axis.unit()));
+            }
+            None => about.number("visibilityKm", conditions.visibility / 1e3),
+        }
         about.number("groundAlbedo", conditions.albedo);
         about.number("viewAzimuthDeg", view_azimuth.to_degrees());
-        about
+        Ok(about)
     }
 
     pub fn number(&mut self, name: &'static str, value: f64) {

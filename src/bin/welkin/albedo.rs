@@ -1,4 +1,4 @@
-//! `--albedo`: a number, a list or a table.
+//! `--albedo`: a number, a name, a list or a table.
 
 use std::path::Path;
 
@@ -8,6 +8,8 @@ use welkin::{Albedo, Model};
 use crate::cells;
 use crate::failure::describe;
 
+/// Grounds that have a name, with where their spectra are from. Recipes of the fitter have the same.
+const SURFACES: &str = include_str!("surfaces.csv");
 /// Columns of a table.
 const COLUMNS: [&str; 2] = ["wavelength_nm", "albedo"];
 
@@ -20,10 +22,13 @@ pub enum Ground {
 }
 
 impl Ground {
-    /// A number; a list such as 400:0.05,690:0.06,740:0.5; or the name of a table. For clap.
+    /// A number; the name of a surface; a list such as 400:0.05,690:0.06,740:0.5; or the name of a table. For clap.
     pub fn parse(text: &str) -> Result<Self, String> {
         if let Ok(share) = text.parse() {
             return Ok(Self::Grey(share));
+        }
+        if let Some(ground) = surface(text)? {
+            return Ok(ground);
         }
         let path = Path::new(text);
         let albedo = match text.contains(':') && !path.is_file() {
@@ -85,16 +90,50 @@ fn list(text: &str) -> Result<Albedo, String> {
 }
 
 fn file(path: &Path) -> Result<Albedo, String> {
-    let text = std::fs::read(path).map_err(|error| format!("no number, and no file: {error}"))?;
+    let absent = |error| {
+        let names = surfaces().map_or(String::new(), |names| names.join(", "));
+        format!("no number, none of {names}, and no file: {error}")
+    };
+    let text = std::fs::read(path).map_err(absent)?;
     table(&text)
+}
+
+/// The names in [`SURFACES`].
+fn surfaces() -> Result<Vec<String>, String> {
+    let mut reader = reader(SURFACES.as_bytes());
+    let header = reader.headers().map_err(|e| e.to_string())?;
+    Ok(header.iter().skip(1).map(str::to_owned).collect())
+}
+
+/// The ground of that name; one without colour is a number.
+fn surface(name: &str) -> Result<Option<Ground>, String> {
+    let Some(column) = surfaces()?.iter().position(|known| known == name) else {
+        return Ok(None);
+    };
+    let (mut wavelengths, mut shares) = (Vec::new(), Vec::new());
+    for record in reader(SURFACES.as_bytes()).byte_records() {
+        let record = record.map_err(|e| e.to_string())?;
+        wavelengths.push(cells::number(COLUMNS[0], &record[0])?);
+        shares.push(cells::number(name, &record[1 + column])?);
+    }
+    let is_grey = shares.iter().all(|share| *share == shares[0]);
+    if is_grey {
+        return Ok(shares.first().copied().map(Ground::Grey));
+    }
+    let albedo = Albedo::table(&wavelengths, &shares).map_err(|error| describe(&error))?;
+    Ok(Some(Ground::ByWavelength(albedo)))
+}
+
+fn reader(text: &[u8]) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text)
 }
 
 /// A table with one row per wavelength.
 fn table(text: &[u8]) -> Result<Albedo, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text);
+    let mut reader = reader(text);
     let header = reader.byte_headers().map_err(|e| e.to_string())?.clone();
     let names: Vec<&[u8]> = header.iter().map(cells::name).collect();
     if names != COLUMNS.map(str::as_bytes) {
@@ -135,6 +174,23 @@ mod tests {
         let text = "\u{feff}wavelength_nm, albedo\r\n# grass\r\n400,0.05\r\n690,0.06\n740,0.5\n";
         assert_eq!(table(text.as_bytes()).unwrap(), expected);
         assert!(matches!(Ground::parse("0.25"), Ok(Ground::Grey(share)) if share == 0.25));
+    }
+
+    #[test]
+    fn surfaces_have_names() {
+        let names = surfaces().unwrap();
+        assert_eq!(names, ["grass", "snow", "sand", "sea", "urban"]);
+        let at = |name: &str, nm: f64| Ground::parse(name).unwrap().at(nm);
+        // Vegetation is bright beyond 700 nm, snow everywhere seen, sand reddish.
+        assert!(at("grass", 800.0) > 4.0 * at("grass", 670.0));
+        assert!(at("snow", 550.0) > 0.9);
+        assert!(at("sand", 650.0) > 1.3 * at("sand", 450.0));
+        for (name, share) in [("sea", 0.06), ("urban", 0.18)] {
+            let ground = Ground::parse(name).unwrap();
+            assert!(matches!(ground, Ground::Grey(s) if s == share), "{name}");
+        }
+        let refused = Ground::parse("sandd").unwrap_err();
+        assert!(refused.contains("none of grass, snow, sand"), "{refused}");
     }
 
     #[test]

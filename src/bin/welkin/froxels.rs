@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use welkin::output;
-use welkin::{AerialPerspective, ColourAerialPerspective, ColourSpace, Conditions};
+use welkin::{AerialPerspective, ColourAerialPerspective, ColourSpace, Conditions, Model};
 
 use crate::Source;
 use crate::about::{About, LUMINANCE, RADIANCE};
@@ -16,6 +16,7 @@ use crate::failure::{Failure, Result};
 use crate::image::{Planes, exr};
 use crate::naming::{self, Named};
 use crate::parallel::bar;
+use crate::parameter;
 use crate::scene::Scene;
 
 /// First bytes of a raw volume.
@@ -94,6 +95,7 @@ pub fn run(options: &Options) -> Result<()> {
     };
     target.check()?;
     let model = options.scene.over_ground(options.source.open()?);
+    parameter::required(&model, options.scene.has_visibility())?;
     let conditions = options.scene.conditions(&model)?;
     let aerial = match options.spectral {
         true => Aerial::Spectral(model.aerial_perspective(&conditions)?),
@@ -109,7 +111,7 @@ pub fn run(options: &Options) -> Result<()> {
     let volume = fill(options, &aerial, &camera)?;
     let time = start.elapsed();
     let bytes = match format {
-        Format::Exr => layers(options, &aerial, &volume)?,
+        Format::Exr => layers(options, &model, &aerial, &volume)?,
         Format::Raw => raw(options, &volume),
     };
     output::write(&[(&target, &bytes)])?;
@@ -237,9 +239,9 @@ fn fill(options: &Options, aerial: &Aerial, camera: &Camera) -> Result<Volume> {
 }
 
 /// One picture with the channels `slice000.R` … `slice000.TB` and so on.
-fn layers(options: &Options, aerial: &Aerial, volume: &Volume) -> Result<Vec<u8>> {
+fn layers(options: &Options, model: &Model, aerial: &Aerial, volume: &Volume) -> Result<Vec<u8>> {
     let azimuth = options.heading.azimuth(0.0)?;
-    let mut about = About::scene(aerial.conditions(), azimuth);
+    let mut about = About::scene(model, aerial.conditions(), azimuth)?;
     options.lens.describe(&mut about);
     about.number("nearM", options.near);
     about.number("farM", options.far);

@@ -8,6 +8,7 @@ use welkin::Model;
 use crate::Source;
 use crate::failure::Result;
 use crate::irradiance::{Light, Spectrum};
+use crate::parameter;
 use crate::scene::Scene;
 
 #[derive(clap::Args)]
@@ -23,11 +24,12 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<()> {
     let model = options.scene.over_ground(options.source.open()?);
+    parameter::required(&model, options.scene.has_visibility())?;
     let conditions = options.scene.conditions(&model)?;
     let light = Light::new(&model, &conditions)?;
     let mut out = io::stdout().lock();
     match options.json {
-        true => writeln!(out, "{:#}", describe(&model, &light))?,
+        true => writeln!(out, "{:#}", describe(&model, &light)?)?,
         false => table(&mut out, options, &model, &light)?,
     }
     Ok(())
@@ -63,10 +65,9 @@ fn table(out: &mut impl Write, options: &Options, model: &Model, light: &Light) 
     )?;
     writeln!(
         out,
-        "conditions          visibility {} km, albedo {}, altitude {} m",
-        // To the metre: what turbidity asks for has no end.
-        conditions.visibility.round() / 1e3,
-        conditions.albedo,
+        "conditions          {}, albedo {}, altitude {} m",
+        parameter::air(model, conditions.visibility)?,
+        parameter::rounded(conditions.albedo),
         conditions.altitude,
     )?;
     for (name, spectrum, [unit, _]) in rows(light) {
@@ -84,7 +85,7 @@ fn table(out: &mut impl Write, options: &Options, model: &Model, light: &Light) 
     Ok(())
 }
 
-fn describe(model: &Model, light: &Light) -> Value {
+fn describe(model: &Model, light: &Light) -> Result<Value> {
     let conditions = &light.conditions;
     let mut out = json!({
         "conditions": {
@@ -110,5 +111,12 @@ fn describe(model: &Model, light: &Light) -> Value {
             "spectral_unit": spectral_unit,
         });
     }
-    out
+    if let Some((axis, value)) = parameter::value(model, conditions.visibility)? {
+        out["conditions"]["parameter"] = json!({
+            "name": axis.name(),
+            "value": value,
+            "unit": axis.unit(),
+        });
+    }
+    Ok(out)
 }

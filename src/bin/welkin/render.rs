@@ -15,6 +15,7 @@ use crate::ground::Ground;
 use crate::landscape::{self, Landscape};
 use crate::moonlight::{self, Lit};
 use crate::outputs::{self, Outputs};
+use crate::parameter;
 use crate::picture::{Picture, Wanted};
 use crate::polarised::{Axes, Colouring, Quantity};
 use crate::projection::Projection;
@@ -94,6 +95,7 @@ pub struct Shot {
 impl Options {
     /// As many conditions as there are steps in the course of the sun.
     pub fn course(&self, model: &Model, steps: usize) -> Result<Vec<Conditions>> {
+        parameter::required(model, self.scene.has_visibility())?;
         let has_moon = self.moon.moon().is_some();
         let mut course = self.scene.course_beyond(model, steps, has_moon)?;
         for conditions in &course {
@@ -139,7 +141,7 @@ impl Options {
         };
         let prepared = start.elapsed();
         let azimuth = self.heading.azimuth(self.landscape.azimuth())?;
-        let mut about = About::scene(conditions_of_sun, azimuth).with(marks);
+        let mut about = About::scene(model, conditions_of_sun, azimuth)?.with(marks);
         self.moon.describe(&mut about);
         about.text("model", self.source.name());
         if self.sun {
@@ -208,7 +210,7 @@ impl Options {
         let prepared = start.elapsed();
         let pixels = space.rgb(&view)?;
         let film = self.exposure.of_landscape(&pixels);
-        let mut about = About::scene(conditions, azimuth).with(marks);
+        let mut about = About::scene(model, conditions, azimuth)?.with(marks);
         about.text("model", self.source.name());
         about.text("projection", self.projection.name());
         if self.ground {
@@ -378,9 +380,9 @@ fn report(options: &Options, model: &Model, shot: &Shot, out: &mut dyn Write) ->
     }
     writeln!(
         out,
-        "conditions      visibility {} km, albedo {}, altitude {} m",
-        plain(conditions.visibility.round() / 1e3),
-        plain(conditions.albedo),
+        "conditions      {}, albedo {}, altitude {} m",
+        parameter::air(model, conditions.visibility)?,
+        plain(parameter::rounded(conditions.albedo)),
         plain(conditions.altitude),
     )?;
     writeln!(

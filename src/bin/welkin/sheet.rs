@@ -14,6 +14,7 @@ use crate::failure::{Failure, Result, plain};
 use crate::image::png_of_display;
 use crate::naming::{self, Named};
 use crate::parallel::bar;
+use crate::parameter;
 use crate::position::Position;
 use crate::projection::Projection;
 use crate::scene::{Scene, move_into};
@@ -193,7 +194,7 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let png = png_of_display(canvas.size, &canvas.pixels, &About::default())?;
     output::write(&[(&target, &png)])?;
-    sheet.describe(&mut target.report())?;
+    sheet.describe(&model, &mut target.report())?;
     writeln!(target.report(), "wrote {target}")?;
     Ok(())
 }
@@ -237,7 +238,7 @@ impl Sheet {
         })
     }
 
-    fn describe(&self, out: &mut dyn Write) -> Result<()> {
+    fn describe(&self, model: &Model, out: &mut dyn Write) -> Result<()> {
         let mut rows = Vec::new();
         let (grid, between) = self.tiles.split_at(self.grid);
         let degrees = |tiles: &[Tile]| {
@@ -251,25 +252,20 @@ impl Sheet {
             "columns: sun at {} degrees; rows:",
             degrees(&grid[..self.columns])
         ));
-        let place = |tile: &Tile| {
-            let Conditions {
-                visibility,
-                altitude,
-                ..
-            } = tile.conditions;
-            let km = (visibility * 1e-3 * 1e6).round() / 1e6;
-            format!(
-                "visibility {} km, altitude {} m",
-                plain(km),
-                plain(altitude)
-            )
+        let place = |tile: &Tile| -> Result<String> {
+            let air = parameter::air(model, tile.conditions.visibility)?;
+            Ok(format!(
+                "{air}, altitude {} m",
+                plain(tile.conditions.altitude)
+            ))
         };
-        let firsts = grid.iter().step_by(self.columns);
-        rows.extend(firsts.map(|tile| format!("{}, towards the sun", place(tile))));
+        for tile in grid.iter().step_by(self.columns) {
+            rows.push(format!("{}, towards the sun", place(tile)?));
+        }
         if let Some(tile) = between.first() {
             rows.push(format!(
                 "last row: {}, upwards, sun at {} degrees",
-                place(tile),
+                place(tile)?,
                 degrees(between)
             ));
         }

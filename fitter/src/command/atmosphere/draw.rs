@@ -4,6 +4,7 @@ use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
+use welkin::output::printable;
 
 const SIZE: (u32, u32) = (1500, 560);
 /// Colours that stay apart for colour-blind readers (Okabe and Ito).
@@ -27,7 +28,7 @@ pub struct Series {
 impl Series {
     pub fn new(name: &str, points: Vec<(f64, f64)>) -> Self {
         Self {
-            name: name.replace('_', " "),
+            name: printable(&name.replace('_', " ")),
             points,
         }
     }
@@ -55,7 +56,7 @@ pub fn svg(title: &str, panels: &[Panel]) -> Result<String> {
         let failed = |e: &dyn std::fmt::Display| anyhow!("cannot draw the plot: {e}");
         root.fill(&WHITE).map_err(|e| failed(&e))?;
         let root = root
-            .titled(title, ("sans-serif", 24))
+            .titled(&printable(title), ("sans-serif", 24))
             .map_err(|e| failed(&e))?;
         for (area, panel) in root.split_evenly((1, panels.len())).iter().zip(panels) {
             draw(area, panel).map_err(|e| failed(&e))?;

@@ -119,8 +119,8 @@ fn of_recipe(args: &Args, name: &str) -> Result<()> {
         write(&[(&Target::new(plot), svg.as_bytes())])?;
     }
     match &args.out {
-        Some(out) => write_case(&case_of(args, &recipe)?, out),
-        None => say(&summary::of(&recipe)?),
+        Some(out) => write_case(&case_of(args, &recipe).context(name.to_owned())?, out),
+        None => say(&summary::of(&recipe).context(name.to_owned())?),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use std::fmt::Write;
+use welkin::output::printable;
 use welkin_fitter::atmosphere::Monochromatic;
 use welkin_fitter::recipe::{OPAC, OPAC_HUMIDITY, Published, Recipe};
 
@@ -11,9 +12,9 @@ const GREEN: usize = 1;
 /// Text about one.
 pub fn of(recipe: &Recipe) -> Result<String> {
     let mut out = String::new();
-    writeln!(out, "{}", recipe.name())?;
+    writeln!(out, "{}", printable(recipe.name()))?;
     if !recipe.description().is_empty() {
-        writeln!(out, "{}", recipe.description())?;
+        writeln!(out, "{}", printable(recipe.description()))?;
     }
     writeln!(
         out,
@@ -34,7 +35,7 @@ pub fn of(recipe: &Recipe) -> Result<String> {
     }
     depths(recipe, &mut out)?;
     for caution in recipe.cautions()? {
-        writeln!(out, "\nmind: {caution}")?;
+        writeln!(out, "\nmind: {}", printable(&caution))?;
     }
     Ok(out)
 }
@@ -66,7 +67,7 @@ fn depths(recipe: &Recipe, out: &mut String) -> Result<()> {
     let layers = recipe.layers(&WAVELENGTHS)?;
     let mut all = vec![0.0; WAVELENGTHS.len()];
     for layer in &layers {
-        line(&layer.name, &layer.optical_depth)?;
+        line(&printable(&layer.name), &layer.optical_depth)?;
         all.iter_mut()
             .zip(&layer.optical_depth)
             .for_each(|(sum, depth)| *sum += depth);

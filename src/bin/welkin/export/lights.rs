@@ -8,6 +8,7 @@ use welkin::{ColourSpace, Conditions, Model, SOLAR_ANGULAR_RADIUS};
 use crate::exposure;
 use crate::failure::{Result, plain};
 use crate::irradiance::Light;
+use crate::parameter;
 
 use super::axes::Up;
 
@@ -108,17 +109,17 @@ impl Sun {
 }
 
 /// What a sky is of, for people.
-pub fn about(conditions: &Conditions, model: &str) -> Vec<String> {
+pub fn about(model: &Model, conditions: &Conditions, name: &str) -> Result<Vec<String>> {
     let line = format!(
-        "welkin {}: sun at elevation {}, azimuth {} degrees; visibility {} km, albedo {}, altitude {} m",
+        "welkin {}: sun at elevation {}, azimuth {} degrees; {}, albedo {}, altitude {} m",
         env!("CARGO_PKG_VERSION"),
         rounded(conditions.solar_elevation.to_degrees()),
         rounded(conditions.solar_azimuth.to_degrees()),
-        rounded(conditions.visibility / 1e3),
-        plain(conditions.albedo),
+        parameter::air(model, conditions.visibility)?,
+        plain(parameter::rounded(conditions.albedo)),
         plain(conditions.altitude),
     );
-    vec![line, format!("model: {model}")]
+    Ok(vec![line, format!("model: {name}")])
 }
 
 /// Without the digits that the conversion of units makes up.

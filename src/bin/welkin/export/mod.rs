@@ -23,6 +23,7 @@ use crate::exposure;
 use crate::failure::{Failure, Result};
 use crate::ground::Ground;
 use crate::image::{Planes, exr};
+use crate::parameter;
 use crate::projection::Projection;
 use crate::scene::Scene;
 use crate::view::View;
@@ -142,6 +143,7 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let files = Files::new(&options.out, renderer.extension())?;
     let model = options.scene.over_ground(options.source.open()?);
+    parameter::required(&model, options.scene.has_visibility())?;
     let conditions = options.scene.conditions(&model)?;
     let lights = options.lights(&model, &conditions, files.name.clone())?;
     let scene = renderer.scene(&lights, &model)?;
@@ -165,7 +167,7 @@ impl Options {
             space_id: self.encoding.interop_id(),
             sun,
             exposure: self.exposure,
-            about: lights::about(conditions, &self.source.name()),
+            about: lights::about(model, conditions, &self.source.name())?,
         })
     }
 
@@ -193,7 +195,7 @@ impl Options {
             planes: names
                 .map(|(c, name)| (name.to_owned(), channel(c)))
                 .collect(),
-            about: self.about(conditions, azimuth, projection),
+            about: self.about(model, conditions, azimuth, projection)?,
             units: LUMINANCE,
             space: ColourSpace::Srgb,
             comment: self.encoding.comment(),
@@ -201,8 +203,14 @@ impl Options {
         exr(planes, &self.encoding)
     }
 
-    fn about(&self, conditions: &Conditions, azimuth: f64, projection: Projection) -> About {
-        let mut about = About::scene(conditions, azimuth);
+    fn about(
+        &self,
+        model: &Model,
+        conditions: &Conditions,
+        azimuth: f64,
+        projection: Projection,
+    ) -> Result<About> {
+        let mut about = About::scene(model, conditions, azimuth)?;
         about.text("model", self.source.name());
         about.text("projection", projection.name());
         if self.ground {
@@ -211,7 +219,7 @@ impl Options {
         if self.sun {
             about.text("sun", "disc");
         }
-        about
+        Ok(about)
     }
 
     /// pbrt makes spectra of colours, and none of negative ones.

@@ -38,9 +38,9 @@ pub struct Options {
     /// Fail (exit code 2) if a row got an error.
     #[arg(long)]
     strict: bool,
-    /// Albedo of the ground in all rows, in place of the column albedo: a number; by wavelength (nm) a list such as
-    /// 400:0.05,690:0.06,740:0.5, or a CSV table with the columns wavelength_nm and albedo. Each row has that of its
-    /// wavelength, so --bands and --wavelengths take a number only.
+    /// Albedo of the ground in all rows, in place of the column albedo: a number; grass, snow, sand, sea or urban; by
+    /// wavelength (nm) a list such as 400:0.05,690:0.06,740:0.5, or a CSV table with the columns wavelength_nm and albedo.
+    /// Each row has that of its wavelength, so --bands and --wavelengths take a number only.
     #[arg(long, value_name = "SHARE|NM:SHARE,…|FILE", value_parser = Ground::parse)]
     albedo: Option<Ground>,
     /// Value in all rows, in place of the column visibility_km, of the quantity that the model's file has in place of the

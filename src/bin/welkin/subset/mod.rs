@@ -171,7 +171,13 @@ fn within(
     if model[0] <= low && high <= model[1] {
         return Ok([low, high]);
     }
+    let is_reversed = low > high;
     let [low, high, first, last] = [low, high, model[0], model[1]].map(|v| plain(v * factor));
+    if is_reversed {
+        return Err(Failure::message(format!(
+            "{what} {low}..{high} are in the wrong order: the lower end comes first, {high}..{low}"
+        )));
+    }
     Err(Failure::message(format!(
         "{what} must be in {first}..{last} {unit}, got {low}..{high}"
     )))
