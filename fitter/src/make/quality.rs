@@ -42,7 +42,7 @@ impl Quality {
         (plan, fitting)
     }
 
-    /// Core-seconds that a model takes, measured with the default one.
+    /// Core-seconds that a model takes, measured with the desert's.
     pub fn core_seconds(self, plan: &Plan, fitting: Fitting) -> f64 {
         let Grid {
             altitudes,
@@ -52,23 +52,23 @@ impl Quality {
         let chunks = (altitudes.len() * visibilities.len()) as f64;
         let suns = plan.grid.elevation_sites().len() as f64 / 54.0;
         let [light, tensor, learned] = match self {
-            Self::Draft => [15.0, 4.0, 0.0],
-            Self::Good => [150.0, 4.0, 0.0],
-            Self::Best => [150.0, 4.0, 800.0],
+            Self::Draft => [35.0, 4.0, 0.0],
+            Self::Good => [380.0, 6.0, 0.0],
+            Self::Best => [380.0, 6.0, 800.0],
         };
         let rank = fitting.options.rank as f64 / 128.0;
         let fit =
             0.3 * suns * rank.powi(2) * (fitting.refinements + fitting.options.sweeps / 5) as f64;
         visibilities.len() as f64 * (light + learned)
             + chunks * (tensor * suns + fit)
-            + 0.5 * self.judged().lines as f64
+            + 6e-4 * (self.judged().lines * self.judged().walks) as f64
     }
 
     /// What the model is judged by.
     pub fn judged(self) -> Extent {
         let [lines, walks] = match self {
             Self::Draft => [24, 1_000],
-            Self::Good => [120, 2_500],
+            Self::Good => [48, 2_500],
             Self::Best => [300, 8_000],
         };
         Extent { lines, walks }
