@@ -49,10 +49,11 @@ def _pair(commands, model, view, dobson, sun, walks):
 
 def check(facts):
     at = lambda sun, dobson, how: facts[f"zenith, sun {sun:g}, {dobson:g} DU, {how}"]  # noqa: E731
-    for sun, most in zip(SUNS, (0.03, 0.1)):
+    for sun in SUNS:
         for dobson in OZONE:
             traced, model = (at(sun, dobson, how)["luminance"] for how in ("traced", "model"))
-            assert abs(model / traced - 1) < most, f"sun {sun:g}, {dobson:g} DU: {model} is not {traced}"
+            # Drafts of both: 3 % apart.
+            assert abs(model / traced - 1) < 0.05, f"sun {sun:g}, {dobson:g} DU: {model} is not {traced}"
     for how in ("traced", "model"):
         ratios = [at(-3, dobson, how)["blue over red"] for dobson in OZONE]
         assert ratios[0] < ratios[1] < ratios[2], f"{how}: more ozone does not make twilight bluer: {ratios}"

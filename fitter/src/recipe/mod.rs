@@ -161,10 +161,10 @@ impl Recipe {
     /// Refuses wavelengths (nm) that a table of the recipe's own optics does not have.
     pub fn reaches(&self, wavelengths: &[f64]) -> Result<()> {
         let parts = self.parts()?;
-        let layers = parts.particles.iter();
-        Ok(layers
-            .map(|layer| layer.reaches(wavelengths))
-            .collect::<Result<(), RecipeError>>()?)
+        for layer in &parts.particles {
+            layer.reaches(wavelengths)?;
+        }
+        Ok(())
     }
 
     /// Radius of the planet, m.

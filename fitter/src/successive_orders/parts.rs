@@ -89,8 +89,9 @@ pub(super) fn parts(atmosphere: &Atmosphere) -> Result<(Vec<Part>, Spectrum)> {
                             sum[w] += scattering[w] * moment[w];
                         }
                     }
-                    for w in 0..NW {
-                        part.keeping[w] += scattering[w] * table.keeping()[w];
+                    let kept = scattering.iter().zip(table.keeping());
+                    for (sum, (scattering, share)) in part.keeping.iter_mut().zip(kept) {
+                        *sum += scattering * share;
                     }
                     part.aerosols.push(Aerosol {
                         scattering,
