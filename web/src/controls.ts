@@ -160,8 +160,10 @@ class NumberControl {
     return Math.min(Math.max(even, low), high);
   }
 
+  /** Of the slider, whose places run from 0 to 1: what a key moves is seen. */
   #step(step: number): number {
-    return Math.min(0.005, step / (this.slider.high - this.slider.low));
+    const { low, high, power = 1 } = this.slider;
+    return power === 1 ? step / (high - low) : 0.005;
   }
 }
 

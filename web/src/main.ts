@@ -65,11 +65,20 @@ class Page {
     const [limits, renderer] = await Promise.all([this.#skies.open(FILES), this.#renderer ?? this.#device()]);
     this.#limits = limits;
     this.#renderer = renderer;
+    this.#clampVisibility(limits);
     root.dataset["gpu"] = renderer.device;
     const change = (change: Partial<View>, isMoving: boolean) => this.change(change, isMoving);
     this.#controls ??= new Controls(limits, change);
     this.#divider ??= new Divider(change);
     this.change({}, false);
+  }
+
+  /** A link may ask for air that the model does not have. */
+  #clampVisibility({ visibilities }: Limits): void {
+    const [low, high] = [visibilities[0]! / 1e3, visibilities.at(-1)! / 1e3];
+    const wished = this.#view.visibility;
+    this.#view.visibility = Math.min(Math.max(wished, low), high);
+    if (this.#view.visibility !== wished) note(`The model's visibilities are ${low} to ${high} km, not ${wished} km.`);
   }
 
   #device(): Promise<Renderer> {
@@ -139,7 +148,12 @@ class Page {
   async #fetch(limits: Limits, renderer: Renderer): Promise<void> {
     const now = this.#wanted(limits);
     const before = this.#shown;
-    if (isSame(now, before)) return;
+    if (isSame(now, before)) {
+      hideFailure();
+      // The camera may have turned.
+      if (!this.#isMoving) this.#read();
+      return;
+    }
     const other = now.other === before?.other ? this.#other : await this.#beside.of({ ...this.#view }, this.#skies);
     const changed = SOURCES.filter((source) => before === null || !isSameScene(now[source], before[source]));
     const tables: (SkyTables | null)[] = [];
@@ -249,8 +263,13 @@ class Page {
   async link(): Promise<void> {
     const link = new URL(`#${toHash(this.#view)}`, location.href).href;
     history.replaceState(null, "", link);
-    await navigator.clipboard.writeText(link);
-    note("The link to this view is on the clipboard.");
+    try {
+      await navigator.clipboard.writeText(link);
+      note("The link to this view is on the clipboard.");
+    } catch {
+      // Only pages that came over https, or from this machine, may write there.
+      note(`The browser gives no clipboard here. The link is in the address bar: ${link}`);
+    }
   }
 
   /** Where they stand at a date, a time and a place. */
@@ -258,23 +277,24 @@ class Page {
     const [instant, latitude, longitude] = ["instant", "latitude", "longitude"].map((id) => byId(id, HTMLInputElement));
     const date = new Date(`${instant!.value}Z`);
     const place = { latitude: latitude!.valueAsNumber, longitude: longitude!.valueAsNumber };
-    if (Number.isNaN(date.getTime()) || !latitude!.checkValidity() || !longitude!.checkValidity()) {
+    if (Number.isNaN(date.getTime()) || Number.isNaN(place.latitude) || Number.isNaN(place.longitude)) {
       return note("The sun needs a date, a time, a latitude and a longitude.");
     }
-    if (Number.isNaN(place.latitude) || Number.isNaN(place.longitude)) {
-      return note("The sun needs a latitude and a longitude.");
+    if (!latitude!.checkValidity() || !longitude!.checkValidity()) {
+      return note("Latitudes are within ±90°, longitudes within ±180°.");
     }
     const { elevation, azimuth } = sunAt(date, place);
     const lowest = ((this.#limits?.elevations[0] ?? 0) * 180) / Math.PI;
-    const signed = (azimuth: number) => (azimuth > 180 ? azimuth - 360 : azimuth);
+    const short = (angle: number) => Number(angle.toFixed(4));
+    const signed = (azimuth: number) => short(azimuth > 180 ? azimuth - 360 : azimuth);
     const moon = hasMoon ? moonAt(date, place) : null;
     const depth = elevation < lowest ? ": too deep for its light" : "";
     note(`The sun is at ${elevation.toFixed(2)}°, azimuth ${azimuth.toFixed(2)}°${depth}${moon ? `, the moon at ${moon.elevation.toFixed(1)}°` : ""}.`);
     this.change(
       {
-        sunElevation: elevation,
+        sunElevation: short(elevation),
         sunAzimuth: signed(azimuth),
-        ...(moon && { moonElevation: moon.elevation, moonAzimuth: signed(moon.azimuth), moonPhase: moon.phase }),
+        ...(moon && { moonElevation: short(moon.elevation), moonAzimuth: signed(moon.azimuth), moonPhase: short(moon.phase) }),
       },
       false,
     );
@@ -287,7 +307,7 @@ function sentence(view: View, exposure: number, shown: Wanted | null, other: Oth
   const isDark = shown !== null && !isBeyond && shown.sun === null;
   const parts = [
     `sun at ${view.sunElevation.toFixed(1)}°${isDark ? ", too deep for its light" : ""}`,
-    ...(moonElevation === null || isBeyond ? [] : [`moon at ${moonElevation.toFixed(1)}°, phase angle ${moonPhase}°`]),
+    ...(moonElevation === null || isBeyond ? [] : [`moon at ${moonElevation.toFixed(1)}°, phase angle ${Number(moonPhase.toFixed(2))}°`]),
     `visibility ${view.visibility} km`,
     `altitude ${view.altitude} m`,
     `albedo ${view.albedo}`,

@@ -116,7 +116,7 @@ export function fromHash(hash: string): { view: View; wrong: string[] } {
   const view: Record<string, unknown> = { ...START };
   const wrong: string[] = [];
   for (const [key, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
-    const value = key in WORDS ? word(key as keyof typeof WORDS, text) : number(key, text);
+    const value = Object.hasOwn(WORDS, key) ? word(key as keyof typeof WORDS, text) : number(key, text);
     if (value === undefined) wrong.push(`${key}=${text}`);
     else view[key] = value;
   }
