@@ -26,5 +26,8 @@ fn translated(source: &str) -> Result<String, Box<dyn Error>> {
         .validate(&module)
         .map_err(|error| error.emit_to_string(source))?;
     let shader = write_string(&module, &info, WriterFlags::empty())?;
-    Ok(shader.lines().map(|line| format!("{}\n", line.trim())).collect())
+    Ok(shader
+        .lines()
+        .map(|line| format!("{}\n", line.trim()))
+        .collect())
 }
