@@ -110,8 +110,7 @@ fn the_unbiased_tracer_confirms_the_radiance() {
     assert!(bias.abs() < 0.01, "{bias}");
 }
 
-/// Light that particles polarise, and light that stays polarised when they scatter it again: without the latter the
-/// median is 0.03.
+/// Light that particles polarise, and light that stays polarised when they scatter it again.
 #[test]
 fn the_unbiased_tracer_confirms_the_polarisation() {
     let (mut errors, mut strongest) = (vec![], 0.0f64);

@@ -1,16 +1,14 @@
 // The form: what can be set, as numbers, sliders and lists.
 
 import type { Limits } from "./protocol";
-import { BALANCES, DISCS, GROUNDS, OTHERS, PROJECTIONS, QUANTITIES, START, TERRAINS, TONES, type View } from "./view";
+import { type NumberKey, START, type View, WORDS } from "./view";
 
 export type Change = (change: Partial<View>, isMoving: boolean) => void;
 
-/** The keys of numbers and of words. */
-type Numbers = { [K in keyof View]: View[K] extends number | null ? K : never }[keyof View];
-type Words = Exclude<keyof View, Numbers>;
+type Words = keyof typeof WORDS;
 
 interface Slider {
-  key: Numbers;
+  key: NumberKey;
   group: string;
   label: string;
   low: number;
@@ -43,16 +41,6 @@ const CHOICES: Choice[] = [
   { key: "ground", label: "Ground", names: { lit: "In sun and skylight", black: "Black" } },
   { key: "balance", label: "White balance", names: { daylight: "Daylight film", d65: "As measured" } },
 ];
-const KNOWN: Record<Words, readonly string[]> = {
-  projection: PROJECTIONS,
-  quantity: QUANTITIES,
-  tone: TONES,
-  balance: BALANCES,
-  ground: GROUNDS,
-  compare: OTHERS,
-  disc: DISCS,
-  terrain: TERRAINS,
-};
 
 /** m; of the slider, about where satellites stand still. */
 const HIGHEST = 4e7;
@@ -174,7 +162,7 @@ export class Controls {
   constructor(limits: Limits, change: Change) {
     this.#choices = CHOICES.map(({ key, label, names }) => {
       const list = element("select", { id: key });
-      for (const name of KNOWN[key]) list.append(new Option(names[name] ?? name, name));
+      for (const name of WORDS[key]) list.append(new Option(names[name] ?? name, name));
       list.addEventListener("change", () => change({ [key]: list.value }, false));
       const frame = element("label", { className: "wide" });
       frame.append(element("span", { textContent: label }), list);

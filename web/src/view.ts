@@ -73,7 +73,8 @@ export const START: View = {
   size: null,
 };
 
-type NumberKey = { [K in keyof View]: View[K] extends number | null ? K : never }[keyof View];
+/** The keys of numbers. */
+export type NumberKey = { [K in keyof View]: View[K] extends number | null ? K : never }[keyof View];
 
 /** What is allowed whatever the model: the model's own ranges are narrower for some. */
 export const BOUNDS: Record<NumberKey, readonly [low: number, high: number]> = {
@@ -94,7 +95,8 @@ export const BOUNDS: Record<NumberKey, readonly [low: number, high: number]> = {
   size: [16, 2048],
 };
 
-const WORDS = {
+/** The keys of words, and which there are. */
+export const WORDS = {
   projection: PROJECTIONS,
   quantity: QUANTITIES,
   tone: TONES,
